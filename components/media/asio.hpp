@@ -1,4 +1,4 @@
-// The types of Boost.Asio that are used here, all with the concrete executor of the media thread's io_context.
+// Boost.Asio types bound to the executor of the media thread's io_context.
 #pragma once
 
 #include <boost/asio/awaitable.hpp>
@@ -24,12 +24,12 @@ using Acceptor = asio::basic_socket_acceptor<asio::ip::tcp, Executor>;
 using Datagrams = asio::basic_datagram_socket<asio::ip::udp, Executor>;
 using Timer = asio::basic_waitable_timer<Clock, asio::wait_traits<Clock>, Executor>;
 
-// A coroutine of the media thread. g++ 12 miscompiles a co_await inside the condition of a loop or an if (it drops what follows):
-// give its result a name first.
+// A coroutine of the media thread. Do not write co_await inside the condition of a loop or an if: g++ 12 drops the code that
+// follows. Give its result a name first.
 template <class T = void>
 using Task = asio::awaitable<T, Executor>;
 
-// Completion token: await it, and find the error in `error`.
+// Completion token: the awaited operation stores its error in `error`.
 inline auto into(boost::system::error_code& error) { return asio::redirect_error(asio::use_awaitable_t<Executor>{}, error); }
 
 }  // namespace rois::media

@@ -11,16 +11,16 @@ std::vector<Reception> Channel::receptions() {
     if (!std::exchange(changed_, false)) return {};
     auto const named = [](bool received) { return received ? Reception::begun : Reception::ended; };
     bool const received = receivers_ > 0;
-    if (std::exchange(told_, received) != received) return {named(received)};
+    if (std::exchange(reported_receiving_, received) != received) return {named(received)};
     return {named(!received), named(received)};
 }
 
-void Channel::come() {
+void Channel::receiver_joined() {
     std::lock_guard const lock{mutex_};
     if (receivers_++ == 0) changed_ = true;
 }
 
-void Channel::go() {
+void Channel::receiver_left() {
     std::lock_guard const lock{mutex_};
     if (--receivers_ == 0) changed_ = true;
 }

@@ -1,4 +1,4 @@
-// Something that is served, as the thread that offers it and the media thread see it.
+// One served medium, shared by the thread that offers it and the media thread.
 #pragma once
 
 #include <atomic>
@@ -27,17 +27,17 @@ public:
     void end() { ended_ = true; }
     bool ended() const { return ended_; }
 
-    // What happened since this was last asked: none, one, or two when it is now as it was then.
+    // Returns the changes since the last call: none, one, or two if reception changed and changed back.
     std::vector<Reception> receptions();
 
     // --- The media thread ---
-    void come();
-    void go();
+    void receiver_joined();
+    void receiver_left();
 
-    // The film's picture, as JPEG: the last one while it is fresh. Null as long as there is nothing to be seen.
+    // Returns the film's current picture as JPEG; null before the first one. Reuses the last picture for half a frame.
     std::shared_ptr<std::string const> picture(Clock::time_point now);
 
-    Clock::time_point interest_until;  // of those who ask for single pictures
+    Clock::time_point interest_until;  // until then, a request for a single picture counts as a receiver
     bool interest_watched = false;
 
 private:
@@ -46,17 +46,17 @@ private:
     std::atomic<bool> ended_ = false;
     std::mutex mutex_;
     std::size_t receivers_ = 0;
-    bool told_ = false;     // that there are receivers
-    bool changed_ = false;  // since then
+    bool reported_receiving_ = false;  // the last state that receptions() returned
+    bool changed_ = false;             // since then
     std::shared_ptr<std::string const> picture_;
     Clock::time_point drawn_;
 };
 
-// Counts as one who receives, as long as it lives.
+// Counts as one receiver of the channel while it lives.
 class Receiver {
 public:
-    explicit Receiver(Channel& channel) : channel_{channel} { channel_.come(); }
-    ~Receiver() { channel_.go(); }
+    explicit Receiver(Channel& channel) : channel_{channel} { channel_.receiver_joined(); }
+    ~Receiver() { channel_.receiver_left(); }
     Receiver(Receiver const&) = delete;
     Receiver& operator=(Receiver const&) = delete;
 
@@ -64,12 +64,12 @@ private:
     Channel& channel_;
 };
 
-// The channels that HTTP serves, by the last part of their path. Any thread.
+// The channels served over HTTP, keyed by the last part of their path. Thread-safe.
 class Directory {
 public:
     void add(std::string id, std::shared_ptr<Channel>);
     void remove(std::string const& id);
-    std::shared_ptr<Channel> find(std::string_view id) const;  // null when there is none
+    std::shared_ptr<Channel> find(std::string_view id) const;  // null if unknown
 
 private:
     mutable std::mutex mutex_;

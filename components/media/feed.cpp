@@ -37,7 +37,7 @@ private:
     bool begun_ = false;
 };
 
-// Each picture is a part of its own, which takes the place of the one before.
+// Each picture is one part, which replaces the part before.
 class FilmFeed final : public Feed {
 public:
     explicit FilmFeed(Channel& channel) : channel_{channel} {}

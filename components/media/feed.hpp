@@ -1,4 +1,4 @@
-// What a receiver of an endless answer is sent, piece by piece.
+// The body of an endless HTTP response, produced piece by piece.
 #pragma once
 
 #include <memory>
@@ -9,19 +9,19 @@
 
 namespace rois::media {
 
-// For one receiver. Time stands still in it while it is not asked.
+// Feeds one receiver. A feed advances only when next() is called.
 class Feed {
 public:
     virtual ~Feed() = default;
 
     virtual std::string content_type() const = 0;
-    virtual Clock::duration interval() const = 0;  // from piece to piece
+    virtual Clock::duration interval() const = 0;  // between two pieces
 
-    // The next piece; empty when there is none yet.
+    // Returns the next piece; empty if there is none yet.
     virtual std::string next(Clock::time_point now) = 0;
 };
 
-// The channel outlives it.
+// The channel must outlive the feed.
 std::unique_ptr<Feed> feed_of(Channel&);
 
 }  // namespace rois::media

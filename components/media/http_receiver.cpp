@@ -28,9 +28,9 @@ namespace http = beast::http;
 using Stream = beast::basic_stream<asio::ip::tcp, Executor>;
 using Error = boost::system::error_code;
 
-constexpr auto between_looks = Clock::duration{std::chrono::milliseconds{100}};  // whether a channel has ended
+constexpr auto between_looks = Clock::duration{std::chrono::milliseconds{100}};  // interval of the checks for an ended channel
 constexpr auto longest_parting = std::chrono::seconds{1};
-constexpr auto most_behind = Clock::duration{std::chrono::seconds{1}};  // what a slow receiver misses for good
+constexpr auto most_behind = Clock::duration{std::chrono::seconds{1}};  // a slow receiver loses the data beyond this delay
 
 std::string head_of(std::string_view status, std::string_view content_type, std::string_view more = {}) {
     std::string head{"HTTP/1.1 "};
@@ -51,7 +51,7 @@ std::string refusal(std::string_view status, std::string_view reason, bool with_
     return whole(status, "text/plain", std::string{reason} + "\n", with_content, std::move(more));
 }
 
-// One connection; shared by the coroutine that answers and the one that watches whether the receiver is still there.
+// One connection, shared by the coroutine that answers and the one that watches for a disconnect.
 struct Connection : std::enable_shared_from_this<Connection> {
     Connection(Socket socket, Directory const& known, Settings const& how)
         : stream{std::move(socket)}, directory{known}, settings{how} {}
@@ -83,7 +83,7 @@ void begin_to_watch(Connection& connection) {
     asio::co_spawn(connection.executor(), watch(connection.shared_from_this()), asio::detached);
 }
 
-// False when the receiver did not take it in time.
+// Returns false if the receiver did not take the text in time.
 Task<bool> write(Connection& connection, std::string_view text) {
     Error error;
     connection.stream.expires_after(connection.settings.write_timeout);
@@ -124,8 +124,8 @@ Task<> watch_interest(std::shared_ptr<Channel> channel, Executor executor) {
     channel->interest_watched = false;
 }
 
-// Who asks for a picture counts as receiving for a while.
-void take_interest(std::shared_ptr<Channel> const& channel, Connection& connection) {
+// Counts the sender of a picture request as a receiver for a while.
+void note_interest(std::shared_ptr<Channel> const& channel, Connection& connection) {
     channel->interest_until = Clock::now() + connection.settings.picture_interest;
     if (std::exchange(channel->interest_watched, true)) return;
     asio::co_spawn(connection.executor(), watch_interest(channel, connection.executor()), asio::detached);
@@ -144,8 +144,8 @@ std::string single_picture(Channel& channel, bool with_content) {
     return whole("200 OK", "image/jpeg", *picture, with_content);
 }
 
-// Keeps out web pages of other sites: why the request is refused, or nothing.
-std::optional<std::string> refusal_of_foreign(http::request<http::empty_body> const& request, Settings const& settings) {
+// Rejects requests from web pages of other sites. Returns the rejecting response, or nothing.
+std::optional<std::string> foreign_refusal(http::request<http::empty_body> const& request, Settings const& settings) {
     auto const view = [](beast::string_view text) { return std::string_view{text.data(), text.size()}; };
     bool const with_content = request.method() != http::verb::head;
     if (request.count(http::field::host) > 1)
@@ -166,15 +166,15 @@ std::optional<std::string> refusal_of_foreign(http::request<http::empty_body> co
     return {};
 }
 
-// What is answered at once; nothing when there is more to come.
+// Returns the response if it is complete at once; nothing if a feed follows.
 std::optional<std::string> short_answer(http::request<http::empty_body> const& request, std::shared_ptr<Channel> const& channel,
                                         Connection& connection) {
     bool const with_content = request.method() == http::verb::get;
     if (!with_content && request.method() != http::verb::head)
-        return refusal("405 Method Not Allowed", "only GET and HEAD", true, "Allow: GET, HEAD\r\n");
-    if (!channel) return refusal("404 Not Found", "there is no such stream", with_content);
+        return refusal("405 Method Not Allowed", "method not allowed: use GET or HEAD", true, "Allow: GET, HEAD\r\n");
+    if (!channel) return refusal("404 Not Found", "unknown stream: use the address that connect_stream returned", with_content);
     if (is_single_picture(channel->content())) {
-        take_interest(channel, connection);
+        note_interest(channel, connection);
         return single_picture(*channel, with_content);
     }
     if (!with_content) return head_of("200 OK", feed_of(*channel)->content_type());
@@ -188,7 +188,7 @@ std::shared_ptr<Channel> channel_of(http::request<http::empty_body> const& reque
 }
 
 Task<> answer(SharedConnection connection, http::request<http::empty_body> request) {
-    if (auto const text = refusal_of_foreign(request, connection->settings)) {
+    if (auto const text = foreign_refusal(request, connection->settings)) {
         co_await write(*connection, *text);
         co_return;
     }
@@ -205,16 +205,16 @@ Task<> answer(SharedConnection connection, http::request<http::empty_body> reque
     co_await flow(*connection, *channel, *feed);
 }
 
-// About what was no request; empty when there is nobody to tell it.
-std::string complaint(Error const& error) {
+// Returns the response to an invalid request; empty if the connection is unusable.
+std::string parse_refusal(Error const& error) {
     if (error == http::error::header_limit) return refusal("431 Request Header Fields Too Large", "the header is too large");
     bool const of_http = error.category() == http::make_error_code(http::error::bad_method).category();
     if (!of_http || error == http::error::end_of_stream || error == http::error::partial_message) return {};
-    return refusal("400 Bad Request", "this is no HTTP request: " + error.message());
+    return refusal("400 Bad Request", "invalid HTTP request: " + error.message());
 }
 
-// What was sent arrives whole: the receiver has time to read it before the connection is gone.
-Task<> part(Connection& connection) {
+// Gives the receiver time to read the whole response before the connection closes.
+Task<> linger(Connection& connection) {
     Error error;
     connection.stream.socket().shutdown(asio::socket_base::shutdown_send, error);
     begin_to_watch(connection);
@@ -238,10 +238,10 @@ Task<> serve_receiver(Socket socket, Directory const& directory, Settings const&
     co_await http::async_read_header(connection->stream, connection->received, parser, into(error));
     if (!error) {
         co_await answer(connection, parser.release());
-    } else if (auto const text = complaint(error); !text.empty()) {
+    } else if (auto const text = parse_refusal(error); !text.empty()) {
         co_await write(*connection, text);
     }
-    co_await part(*connection);
+    co_await linger(*connection);
     connection->stream.close();
 }
 

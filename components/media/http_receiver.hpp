@@ -1,4 +1,4 @@
-// One who receives over HTTP: a connection, on which one request is answered.
+// One HTTP connection of a receiver. It answers a single request.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,8 @@
 
 namespace rois::media {
 
-// Until the receiver, the channel or the answer has come to its end. What is given lives as long.
+// Completes when the receiver leaves, the channel ends or the response is complete. The directory and the settings must live
+// that long.
 Task<> serve_receiver(Socket, Directory const&, Settings const&);
 
 }  // namespace rois::media

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int quality = 80;
 
-// The library leaves by a jump when it has an error; nothing that has a destructor may live in the function that it jumps to.
+// libjpeg reports errors by longjmp: objects in encode() must not have destructors.
 struct Errors {
     jpeg_error_mgr manager;
     std::jmp_buf way_out;
@@ -58,7 +58,7 @@ void encode(Picture const& picture, Encoded& encoded) {
 
 std::string jpeg_of(Picture const& picture) {
     if (picture.width == 0 || picture.height == 0 || picture.rgb.size() != std::size_t{picture.width} * picture.height * 3)
-        throw std::invalid_argument{"a picture has not as many bytes as its size says"};
+        throw std::invalid_argument{"the number of bytes does not fit the picture's size"};
     Encoded encoded;
     encode(picture, encoded);
     std::string text;

@@ -1,4 +1,4 @@
-// Pictures as JPEG.
+// Encodes pictures as JPEG.
 #pragma once
 
 #include <string>
@@ -7,8 +7,7 @@
 
 namespace rois::media {
 
-// Throws std::runtime_error when there is no memory for it, std::invalid_argument when the picture has not as many bytes as its
-// size says.
+// Throws std::invalid_argument if the number of bytes does not fit the picture's size, std::runtime_error if encoding fails.
 std::string jpeg_of(Picture const&);
 
 }  // namespace rois::media

@@ -1,5 +1,4 @@
-// Media that pass beside RoIS messages (RoIS 2.0, audio and video streaming): somewhere to serve sound and pictures from. Knows
-// no RoIS and no robot.
+// Serves sound and pictures outside of RoIS messages (RoIS 2.0, audio and video streaming). Independent of RoIS and robots.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +12,13 @@
 
 namespace rois::media {
 
-// A sine at half of full scale, 16 bit.
+// A sine tone at half of full scale, 16 bit.
 struct Tone {
     double frequency = 440;  // Hz
     std::uint32_t rate = 16'000;
     std::uint16_t channels = 1;
-    // The frequency of a tone that changes; empty: `frequency`. Called on a thread of its own, once for each piece of sound.
+    // Returns the current frequency in Hz; if empty, `frequency` applies. Called on the media thread, once for each piece of
+    // sound.
     std::function<double()> current_frequency{};
 };
 
@@ -29,7 +29,7 @@ struct Sound {
     Form form = Form::wav;
 };
 
-// Red, green, blue, a byte each; row by row from the top left.
+// One byte each for red, green and blue; row by row from the top left.
 struct Picture {
     std::uint16_t width = 0;
     std::uint16_t height = 0;
@@ -38,11 +38,11 @@ struct Picture {
 
 struct Film {
     enum class Form : std::uint8_t {
-        motion_jpeg,  // one JPEG after another in one answer, multipart/x-mixed-replace
-        jpeg          // a JPEG for each request
+        motion_jpeg,  // a sequence of JPEGs in one response, multipart/x-mixed-replace
+        jpeg          // one JPEG for each request
     };
 
-    // What is to be seen now; nothing as long as nobody has said. Called on a thread of its own, one call at a time.
+    // Returns the current picture; nothing if there is none yet. Called on the media thread.
     std::function<std::optional<Picture>()> draw;
     std::uint32_t frames_per_second = 10;
     Form form = Form::motion_jpeg;
@@ -50,26 +50,26 @@ struct Film {
 
 using Content = std::variant<Sound, Film>;
 
-// What became of receiving: the first receiver has come, or the last one has gone.
+// A change of reception: the first receiver has connected, or the last one has disconnected.
 enum class Reception : std::uint8_t { begun, ended };
 
-// Whether anything flows at first.
+// Whether data flows from the start.
 enum class Flow : std::uint8_t { on, held };
 
-// Something that is served; it ends with its outlet. Used by one thread.
+// Owns one served medium: destroying the outlet ends it. Used by one thread.
 class Outlet {
 public:
     virtual ~Outlet() = default;
 
-    // Where receivers find it, or where it is sent: "http://127.0.0.1:8081/media/...",
+    // The address that receivers connect to, or that data is sent to: "http://127.0.0.1:8081/media/...",
     // "rtp://127.0.0.1:5004;payload_type=96;ssrc=7".
     virtual std::string const& address() const = 0;
 
-    // Nothing flows until it goes on; receivers stay.
+    // Stops and restarts the flow. Receivers stay connected.
     virtual void hold() = 0;
     virtual void go_on() = 0;
 
-    // What happened since this was last asked; begun and ended take turns.
+    // Returns the changes since the last call; begun and ended alternate.
     virtual std::vector<Reception> receptions() = 0;
 };
 
@@ -78,13 +78,13 @@ class Media {
 public:
     virtual ~Media() = default;
 
-    // At an address of its own that nobody can guess.
+    // Serves the content over HTTP at a unique address that cannot be guessed.
     virtual std::unique_ptr<Outlet> serve(Content, Flow) = 0;
 
-    // Why nothing is sent to this target, or nothing. A target is "rtp://HOST:PORT" with a numeric address or localhost.
+    // Returns why this RTP target is rejected, or nothing. A target is "rtp://HOST:PORT" with a numeric address or localhost.
     virtual std::optional<std::string> rtp_refusal(std::string_view target) const = 0;
 
-    // By RTP (RFC 3550, 3551) as L16, a packet each 20 ms. Throws std::runtime_error when it cannot be sent there.
+    // Sends the tone by RTP (RFC 3550, 3551) as L16. Throws std::runtime_error if the target is rejected.
     virtual std::unique_ptr<Outlet> send(Tone const&, std::string_view rtp_target, Flow) = 0;
 };
 

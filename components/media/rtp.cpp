@@ -7,10 +7,10 @@ namespace rois::media {
 
 namespace {
 
-constexpr std::uint8_t version = 0x80;  // 2; no padding, no extension, no contributing sources
+constexpr std::uint8_t version = 0x80;  // 2, without padding, extension and contributing sources
 constexpr std::uint8_t marker = 0x80;
 constexpr std::uint32_t packets_a_second = 50;
-constexpr std::uint32_t most_bytes = 1'400;  // of sound; more would not go through every network in one piece
+constexpr std::uint32_t most_bytes = 1'400;  // of sound, so that every network passes a packet unfragmented
 
 void append(std::string& bytes, std::uint32_t value, int count) {
     for (int i = count - 1; i >= 0; --i) bytes.push_back(static_cast<char>(value >> (8 * i) & 0xFF));

@@ -12,16 +12,16 @@
 
 namespace rois::media {
 
-// Of "rtp://127.0.0.1:5004", "rtp://[::1]:5004", "rtp://localhost:5004"; nothing when the text is no such target.
+// Parses "rtp://127.0.0.1:5004", "rtp://[::1]:5004" or "rtp://localhost:5004". Returns nothing if the text is invalid.
 std::optional<asio::ip::udp::endpoint> rtp_target(std::string_view text);
 
-// 10 and 11 are those of 44.1 kHz with two channels and with one; all others agree on a number beyond RTP.
+// Returns 10 for 44.1 kHz stereo, 11 for 44.1 kHz mono (RFC 3551), else the dynamic type 96.
 std::uint8_t payload_type(Tone const&);
 
 // The packets of one source.
 class RtpPackets {
 public:
-    struct Beginning {  // drawn by lot, as RFC 3550 wants it
+    struct Beginning {  // random values (RFC 3550, 5.1)
         std::uint32_t ssrc;
         std::uint32_t timestamp;
         std::uint16_t sequence;
@@ -29,14 +29,14 @@ public:
 
     RtpPackets(Tone const&, Beginning);
 
-    // How much a packet holds: 20 ms, or what fits into 1,400 bytes.
+    // Samples of a packet: 20 ms, but at most 1,400 bytes.
     std::uint32_t samples() const { return samples_; }
     std::chrono::nanoseconds interval() const { return std::chrono::nanoseconds{std::chrono::seconds{samples_}} / tone_.rate; }
 
-    // A packet; the first one after silence is marked.
+    // Returns the next packet. The first packet after silence has the marker bit.
     std::string next();
 
-    // As much silence instead of a packet: the clock goes on, the tone does not.
+    // Skips one packet: advances the timestamp, but not the tone.
     void pass();
 
 private:

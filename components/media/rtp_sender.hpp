@@ -1,4 +1,4 @@
-// Sends by RTP.
+// Sends a channel by RTP.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace rois::media {
 
-// Until the channel has ended. Whether anybody is there to receive it cannot be known: it counts as received all the time.
+// Completes when the channel ends. RTP does not report receivers, so the channel always counts as received.
 Task<> send_by_rtp(std::shared_ptr<Channel>, Datagrams, asio::ip::udp::endpoint, RtpPackets);
 
 }  // namespace rois::media

@@ -26,7 +26,7 @@ std::string text_of(std::string const& host, std::uint16_t port) {
     return (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
 }
 
-// Who listens on every address is reached here by the loopback.
+// A server that listens on every address is reached by the loopback address.
 std::string reachable(std::string const& host) {
     if (host == "0.0.0.0") return "127.0.0.1";
     return host == "::" ? "::1" : host;
@@ -135,7 +135,7 @@ private:
         }
     }
 
-    // Those beyond the limit wait until somebody has gone.
+    // Connections beyond the limit wait until another one closes.
     Task<> accept() {
         struct End {
             Running& of;
@@ -184,9 +184,9 @@ std::unique_ptr<Outlet> Server::serve(Content content, Flow flow) { return runni
 
 std::optional<std::string> Server::rtp_refusal(std::string_view target) const {
     auto const endpoint = rtp_target(target);
-    if (!endpoint) return "an RTP target is rtp://HOST:PORT, with a numeric address or localhost";
+    if (!endpoint) return "invalid RTP target: expected rtp://HOST:PORT with a numeric address or localhost";
     if (running_->settings().rtp_targets == RtpTargets::loopback && !endpoint->address().is_loopback())
-        return "by RTP nothing is sent further than the loopback";
+        return "RTP is sent to loopback addresses only; the key media_rtp with the value any allows all addresses";
     return {};
 }
 

@@ -1,4 +1,4 @@
-// Serves media: over HTTP on a port of its own, by RTP to whoever is named.
+// The media server: HTTP on its own port, and RTP to targets that applications name.
 #pragma once
 
 #include <functional>
@@ -12,14 +12,14 @@ namespace rois::media {
 
 class Server final : public Media {
 public:
-    // Serves from now on, on a thread of its own. `fresh_id`: a text of letters, digits, '-' and '_' that nobody can guess and
-    // that was never given before; called within `serve`. Throws std::runtime_error with one clear line when it cannot listen.
+    // Starts the server on its own thread. `fresh_id` returns a unique, unguessable text of letters, digits, '-' and '_'; serve()
+    // calls it. Throws std::runtime_error if the server cannot listen.
     Server(Settings, std::function<std::string()> fresh_id);
-    ~Server() override;  // outlets may live on; nobody receives from them any more
+    ~Server() override;  // outlets may outlive the server, but have no receivers then
     Server(Server const&) = delete;
     Server& operator=(Server const&) = delete;
 
-    // How the addresses of what HTTP serves begin: "http://127.0.0.1:8081".
+    // The start of all HTTP addresses: "http://127.0.0.1:8081".
     std::string const& url() const;
 
     std::unique_ptr<Outlet> serve(Content, Flow) override;

@@ -1,4 +1,4 @@
-// How media are served.
+// Settings of the media server.
 #pragma once
 
 #include <chrono>
@@ -10,22 +10,22 @@
 
 namespace rois::media {
 
-// Where RTP may be sent: an application names the target, and so could make this machine send datagrams to anybody.
+// Allowed RTP targets. Applications name the target, so `any` lets them make this machine send datagrams to any address.
 enum class RtpTargets : std::uint8_t { loopback, any };
 
 struct Settings {
     std::string host = "127.0.0.1";
-    std::uint16_t port = 0;  // 0: any free one
-    std::string url;         // under which others reach it, "https://robots.example/m"; empty: http://HOST:PORT
-    // Which requests are answered: by their Host, and by their Origin beside it. Null: all. Called on the server's own thread.
+    std::uint16_t port = 0;  // 0: any free port
+    std::string url;         // public URL, "https://robots.example/m"; empty: http://HOST:PORT
+    // Accept a request by its Host and Origin headers. Null: accept all. Called on the server's own thread.
     std::function<bool(std::string_view host)> is_own_host;
     std::function<bool(std::string_view origin, std::string_view host)> is_allowed_origin;
     RtpTargets rtp_targets = RtpTargets::loopback;
     std::size_t max_connections = 64;
     std::size_t max_header = 8 * 1024;  // bytes
     std::chrono::milliseconds request_timeout = std::chrono::seconds{10};
-    std::chrono::milliseconds write_timeout = std::chrono::seconds{10};  // for a receiver to take what is its turn
-    // After the last request for a single picture, until nobody counts as receiving it.
+    std::chrono::milliseconds write_timeout = std::chrono::seconds{10};  // of one piece to a receiver
+    // How long a request for a single picture counts as a receiver.
     std::chrono::milliseconds picture_interest = std::chrono::seconds{5};
 };
 

@@ -1,4 +1,4 @@
-// A sine tone as bytes.
+// Sine tones as bytes.
 #pragma once
 
 #include <cstddef>
@@ -10,23 +10,23 @@
 
 namespace rois::media {
 
-// Goes on where it was when it was last asked: what is put together of its pieces has no click.
+// Each piece continues the phase of the piece before, so that joined pieces have no click.
 class ToneGenerator {
 public:
     enum class Order : std::uint8_t { little_endian, big_endian };
 
     ToneGenerator(Tone tone, Order order) : tone_{std::move(tone)}, order_{order} {}
 
-    // The next samples; all channels have the same.
+    // Returns the next samples, the same for all channels.
     std::string next(std::size_t samples);
 
 private:
     Tone tone_;
     Order order_;
-    double phase_ = 0;  // in turns, 0 to 1
+    double phase_ = 0;  // of a period, 0 to 1
 };
 
-// Of a WAV file that has no end.
+// Returns the header of a WAV file of unlimited length.
 std::string wav_header(Tone const&);
 
 }  // namespace rois::media

@@ -18,26 +18,25 @@ namespace {
 
 constexpr std::string_view adapter_urn = "urn:x-rois:def:adapter:simulation::";
 
-// Makes the component of one robot; the profile has the messages of its sub components.
-using Make = std::function<std::unique_ptr<Component>(Fitting, ComponentProfile const&)>;
+// Makes the component of one robot. The profile includes the messages of its sub components.
+using Make = std::function<std::unique_ptr<Component>(Context, ComponentProfile const&)>;
 
-// By name.
 std::map<std::string, Make, std::less<>> adapters(std::shared_ptr<xml::Schemas const> const& schemas, Streams streams) {
     std::map<std::string, Make, std::less<>> all;
     for (auto const& basic : basic_components(streams))
-        all.emplace(basic.ref, [make = basic.make](Fitting fitting, auto const&) { return make(std::move(fitting)); });
+        all.emplace(basic.ref, [make = basic.make](Context context, auto const&) { return make(std::move(context)); });
     all.emplace("srgs_speech_recognition",
-                [schemas](Fitting fitting, auto const&) { return srgs_speech_recognition(std::move(fitting), schemas); });
+                [schemas](Context context, auto const&) { return srgs_speech_recognition(std::move(context), schemas); });
     all.emplace("person_gender_identification",
-                [](Fitting fitting, auto const&) { return person_gender_identification(std::move(fitting)); });
+                [](Context context, auto const&) { return person_gender_identification(std::move(context)); });
     all.emplace("person_age_recognition",
-                [](Fitting fitting, auto const&) { return person_age_recognition(std::move(fitting)); });
-    all.emplace("wheelchair_robot", [](Fitting fitting, auto const&) { return wheelchair_robot(std::move(fitting)); });
-    all.emplace("stand_in", [](Fitting fitting, ComponentProfile const& whole) { return stand_in(std::move(fitting), whole); });
+                [](Context context, auto const&) { return person_age_recognition(std::move(context)); });
+    all.emplace("wheelchair_robot", [](Context context, auto const&) { return wheelchair_robot(std::move(context)); });
+    all.emplace("stand_in", [](Context context, ComponentProfile const& whole) { return stand_in(std::move(context), whole); });
     return all;
 }
 
-// The adapter of the first basic component among the profile and those that it includes; empty when there is none.
+// Returns the adapter of the first basic component that the profile is or includes; empty if there is none.
 std::string_view included(ComponentProfile const& profile, std::vector<ComponentProfile> const& known, Streams streams) {
     for (auto const& basic : basic_components(streams))
         if (equal_ignoring_case(profile.object.identifier, urn_of(basic))) return basic.ref;
@@ -56,7 +55,7 @@ std::string adapter_of(ComponentProfile const& profile, std::vector<ComponentPro
     auto name = lower_case(said.substr(adapter_urn.size()));
     auto const all = adapters({}, streams);
     if (!all.contains(name))
-        throw std::runtime_error("there is no adapter " + quoted(name) + "; there are " + listed(all | std::views::keys));
+        throw std::runtime_error("unknown adapter " + quoted(name) + "; expected one of " + listed(all | std::views::keys));
     return name;
 }
 
@@ -70,7 +69,7 @@ std::vector<std::unique_ptr<Component>> Adapters::components(ComponentProfile co
     std::vector<std::unique_ptr<Component>> made;
     for (Robot const& robot : simulation_->hall().robots())
         made.push_back(
-            with_faults(make(fitting(simulation_, media_, robot, component_name(profile), shared), whole), simulation_));
+            with_faults(make(make_context(simulation_, media_, robot, component_name(profile), shared), whole), simulation_));
     return made;
 }
 

@@ -1,4 +1,4 @@
-// Adapters: what of the simulation fulfils the components that users bring a profile of (docs/profiles.md).
+// Adapters make the simulation's components for user-defined profiles (docs/profiles.md).
 #pragma once
 
 #include <memory>
@@ -13,9 +13,9 @@
 
 namespace rois::simulation {
 
-// The adapter that fulfils a profile: the one that its metaDataProperty refers to, urn:x-rois:def:adapter:simulation::<name>,
-// else that of the first basic component whose profile it includes. Empty when it asks for none. `known` are the profiles among
-// which sub components are looked up. Throws std::runtime_error for an adapter that there is not.
+// Returns the name of the profile's adapter: the one that its metaDataProperty names, urn:x-rois:def:adapter:simulation::<name>,
+// else the one of the first basic component whose profile it includes. Empty if it has none. Sub components are looked up in
+// `known`. Throws std::runtime_error for an unknown adapter.
 std::string adapter_of(ComponentProfile const&, std::vector<ComponentProfile> const& known, Streams);
 
 class Adapters {
@@ -24,8 +24,7 @@ public:
              std::shared_ptr<xml::Schemas const> schemas)
         : simulation_{std::move(simulation)}, media_{std::move(media)}, schemas_{std::move(schemas)} {}
 
-    // The components that a profile makes, one for each robot, fulfilled by its adapter. None when it asks for none. Throws
-    // std::runtime_error for an adapter that there is not.
+    // Makes a component of this profile for each robot. Returns none if the profile has no adapter. Throws like adapter_of().
     std::vector<std::unique_ptr<Component>> components(ComponentProfile const&, std::vector<ComponentProfile> const& known) const;
 
     Streams streams() const { return simulation::streams(media_); }

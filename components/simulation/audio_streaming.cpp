@@ -1,5 +1,5 @@
-// Audio streaming (RoIS 2.0): a tone, which stands for what the robot's microphone hears. It has 440 Hz while the robot is
-// silent, and the pitch of the robot's voice while the robot speaks.
+// Audio streaming (RoIS 2.0): a tone instead of the robot's microphone. It has 440 Hz while the robot is silent, and the pitch of
+// the robot's voice while it speaks.
 #include <atomic>
 #include <memory>
 
@@ -36,7 +36,7 @@ private:
             media::Sound const sound{tone, wav ? media::Sound::Form::wav : media::Sound::Form::l16};
             return Opening{written, [&media, sound](media::Flow flow) { return media.serve(sound, flow); }};
         }
-        if (wav) return "audio/wav is not sent by RTP; audio/L16 is";
+        if (wav) return "audio/wav cannot be sent by RTP: use audio/L16";
         return Opening{written,
                        [&media, tone, target = transport.name](media::Flow flow) { return media.send(tone, target, flow); }};
     }
@@ -46,12 +46,12 @@ private:
         *pitch_ = speech ? voice_character(speech->character).pitch : media::Tone{}.frequency;
     }
 
-    // Written on the engine's thread and read on the media thread.
+    // Written by the engine's thread, read by the media thread.
     std::shared_ptr<std::atomic<double>> pitch_ = std::make_shared<std::atomic<double>>(media::Tone{}.frequency);
 };
 
 }  // namespace
 
-std::unique_ptr<Component> audio_streaming(Fitting fitting) { return std::make_unique<AudioStreaming>(std::move(fitting)); }
+std::unique_ptr<Component> audio_streaming(Context context) { return std::make_unique<AudioStreaming>(std::move(context)); }
 
 }  // namespace rois::simulation

@@ -1,4 +1,4 @@
-// What happened in the hall lately, for all who listen: several sensors read the same happenings, each at its own pace.
+// The log of recent events in the hall. Several sensors read it, each at its own pace.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ struct Happening {
         entered,          // a person came in
         left,             // a person went out
         speech_started,   // `text`, `language`
-        speech_finished,  // the same, after its last word
-        speech_broken,    // the same, ended before its last word
+        speech_finished,  // after the last word of `text`
+        speech_broken,    // ended before its last word
         gesture_made,     // `text` is the gesture's id; it begins now
         reaction_shown    // `text` is the code of the robot's reaction; it begins now
     };
@@ -25,25 +25,26 @@ struct Happening {
     WorldTime at{};
     Kind kind{};
     Entity who;
-    Point place = Point::Zero();  // where they were
+    Point place = Point::Zero();  // of `who` at that time
     std::string text;
     std::string language;
-    Seconds lasts = 0;        // speech_started of a robot: how long it takes when nothing holds it up
-    std::string prosody;      // speech_started of a robot: how its voice sounds, as a passage has it
-    std::string character{};  // speech_started of a robot: with which voice (voice_characters.hpp)
+    // Only for speech_started of a robot:
+    Seconds lasts = 0;        // duration without interruptions
+    std::string prosody;      // as in Passage
+    std::string character{};  // the voice (voice_characters.hpp)
 };
 
-// Append only; keeps the last `capacity` happenings.
+// Append only; keeps the last `capacity` entries.
 class Chronicle {
 public:
     static constexpr std::size_t capacity = 4'096;
 
-    void add(Happening);  // the sequence is given here
+    void add(Happening);  // assigns the sequence
 
-    // The sequence of the last one; 0 when nothing happened yet.
+    // The sequence of the last entry; 0 if there is none.
     std::uint64_t last() const { return last_; }
 
-    // Those with a greater sequence, oldest first. Valid until the world steps or somebody speaks.
+    // Returns the entries with a greater sequence, oldest first. Valid until the next add().
     auto since(std::uint64_t sequence) const {
         std::uint64_t first = last_ - happenings_.size();
         std::uint64_t skipped = sequence <= first ? 0 : std::min<std::uint64_t>(sequence - first, happenings_.size());

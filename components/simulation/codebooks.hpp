@@ -1,11 +1,11 @@
-// From which lists the codes of identifiers are (decision 25): `codebook_ref` of their data types.
+// The codebooks of the simulation's identifiers (decision 25), the `codebook_ref` of their data types.
 #pragma once
 
 #include <string_view>
 
 namespace rois::simulation::codebook {
 
-// Temporary names of those who are sensed: "person-3", "face-3", "sound-3" are the same person during one visit.
+// Temporary names of sensed people: "person-3", "face-3" and "sound-3" are the same person during one visit.
 inline constexpr std::string_view track = "urn:x-rois:def:codebook:simulation::track";
 
 // Permanent ids of known visitors.
@@ -14,7 +14,7 @@ inline constexpr std::string_view visitor = "urn:x-rois:def:codebook:simulation:
 // Names of robots.
 inline constexpr std::string_view robot = "urn:x-rois:def:codebook:simulation::robot";
 
-// Everybody who can be found in the hall: the codes of the three codebooks above together.
+// The codes of the three codebooks above together.
 inline constexpr std::string_view entity = "urn:x-rois:def:codebook:simulation::entity";
 
 // Gestures of visitors and robots: gestures().

@@ -15,7 +15,7 @@ struct Range {
     char32_t first;
     char32_t last;
 };
-// With which names of XML begin, beyond ASCII, and what they have further on (XML 1.0, NameStartChar and NameChar).
+// Non-ASCII characters of XML names (XML 1.0): NameStartChar, and the additional ones of NameChar.
 constexpr std::array<Range, 11> letters{{{0xC0, 0xD6},
                                          {0xD8, 0xF6},
                                          {0xF8, 0x2FF},

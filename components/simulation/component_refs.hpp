@@ -1,4 +1,4 @@
-// How the simulation's components are named (decision 25).
+// Names of the simulation's components (decision 25).
 #pragma once
 
 #include <string>
@@ -10,22 +10,21 @@
 
 namespace rois::simulation {
 
-// Those of the first robot have the names of table 31, "navigation"; those of a further robot carry its name, which is that of
-// its sub engine: "robot2.navigation". `engine` is empty for the first.
+// Returns the ref of a component: "navigation" for the first robot (`engine` is empty), "robot2.navigation" for further robots,
+// whose sub engine has the robot's name.
 std::string component_ref(std::string_view component, std::string_view engine);
 
-// Whether it is a name of XML without dots and colons.
+// Whether the text is an XML name without dots and colons.
 bool is_name(std::string_view);
 
-// Of every component of every robot, also of those that are there with media only, and of those that have one of these
-// names.
+// Returns the refs of all basic components of all robots, with the streaming ones, and of the components with these names.
 std::vector<std::string> component_refs(FloorPlan const&, std::vector<std::string> const& names = {});
 
-// Whether a basic component is named so, also one that is there with media only.
+// Whether this is the name of a basic component, the streaming ones included.
 bool is_basic(std::string_view name);
 
-// How a component with this profile is named: as the profile (gml:name) when that is a name without dots, else after its URN, in
-// small letters with underscores ("PersonMonitor": "person_monitor").
+// Returns the name of a component with this profile: the profile's gml:name if is_name() accepts it, else the last part of its
+// URN in snake case ("PersonMonitor": "person_monitor").
 std::string component_name(ComponentProfile const&);
 
 }  // namespace rois::simulation

@@ -6,7 +6,7 @@
 namespace rois::simulation {
 namespace {
 
-// How near to its end a motion is done: both must hold. The wheels can stop at any point, so these only keep the last steps few.
+// A motion is complete within both tolerances. They only save the last small steps.
 constexpr Metres at_place = 0.0002;
 constexpr Radians at_heading = from_degrees(0.1);
 
@@ -19,13 +19,13 @@ double towards(double from, double wanted, double most) { return from + std::cla
 
 double sign(double value) { return value < 0 ? -1 : 1; }
 
-// The shortest time for a way from standstill to standstill.
+// The shortest duration from standstill to standstill.
 Seconds shortest(double way, double speed, double acceleration) {
     if (way >= speed * speed / acceleration) return way / speed + speed / acceleration;
     return 2 * std::sqrt(way / acceleration);
 }
 
-// The speed at which a way from standstill to standstill takes that time.
+// The speed at which a way from standstill to standstill takes this time.
 double pace(double way, double acceleration, Seconds time) {
     double const reach = acceleration * time;
     return (reach - std::sqrt(std::max(0.0, reach * reach - 4 * acceleration * way))) / 2;
@@ -35,10 +35,10 @@ MetresPerSecond paced(MetresPerSecond speed, std::optional<MetresPerSecond> cons
     return fastest ? std::min(speed, *fastest) : speed;
 }
 
-// Whether the robot drives at less than half the wanted speed. A slow motion, which stand() takes for standing, is not held up.
+// Whether the robot drives at less than half the wanted speed. stand() would mistake a slow motion for a stalled one.
 bool is_slower_than(MetresPerSecond wanted, Wheels const& wheels) { return std::abs(wheels.twist.linear) < wanted / 2; }
 
-// Sums up how far a robot has turned, also beyond a half turn.
+// Sums up the turns of a robot, also beyond a half turn.
 class Turned {
 public:
     Radians by(Radians heading) {
@@ -52,7 +52,7 @@ private:
     std::optional<Radians> last_;
 };
 
-// The turn on the spot that begins a Line, and that a Curve without radius is.
+// A turn on the spot: the start of a Line, or a Curve with radius 0.
 class TurnOnTheSpot {
 public:
     explicit TurnOnTheSpot(Radians turn) : turn_(turn) {}
@@ -62,7 +62,7 @@ public:
     }
     void take(Seconds time, RobotPlan const& plan) { fastest_ = pace(std::abs(turn_), plan.max_turn_acceleration, time); }
 
-    // Nothing when it is done.
+    // Returns nothing when the turn is complete.
     std::optional<Twist> steer(Wheels const& wheels) {
         Radians const left = turn_ - turned_.by(wheels.pose.heading);
         if (std::abs(left) < at_heading && wheels.stand()) return std::nullopt;
@@ -106,7 +106,7 @@ private:
                !wall_is_too_near(wheels.around.plan(), end, heading, wheels.plan.radius);
     }
 
-    // Both parts are slowed down alike.
+    // Slows down both parts of the motion equally.
     void take(Seconds time, RobotPlan const& plan) {
         Metres const way = std::abs(line_.distance);
         Seconds const straight = shortest(way, plan.max_speed, plan.max_acceleration), turning = turn_.shortest_time(plan);
@@ -121,15 +121,14 @@ private:
         Metres const left = line_.distance - gone.x();
         bool const there = std::abs(left) < at_place || left * line_.distance <= 0;
         MetresPerSecond const speed = there ? 0 : paced(wheels.speed_to_stop_in(std::abs(left)), fastest_);
-        patience_.look(wheels, is_slower_than(speed, wheels));
-        progress.state = patience_.obstructed() ? MotionState::obstructed : MotionState::moving;
+        stall_.update(wheels, is_slower_than(speed, wheels));
+        progress.state = stall_.is_stalled() ? MotionState::obstructed : MotionState::moving;
         if (there && wheels.stand()) progress.state = MotionState::arrived;
         if (there) return {};
         return {sign(left) * speed, back_on_track(wheels, gone.y())};
     }
 
-    // The turn leaves the heading up to at_heading off: turns what is left of it while the robot drives, and steers back to the
-    // line.
+    // The turn may leave an error of at_heading: corrects the heading while driving, and steers back to the line.
     RadiansPerSecond back_on_track(Wheels const& wheels, Metres aside) const {
         Radians const off = wrapped(wheels.pose.heading - track_->heading);
         Radians const aim = -std::clamp(aside, -0.1, 0.1) * sign(line_.distance);
@@ -139,9 +138,9 @@ private:
     Line line_;
     TurnOnTheSpot turn_;
     std::optional<MetresPerSecond> fastest_;
-    std::optional<Pose> track_;  // where the line begins, and its direction
+    std::optional<Pose> track_;  // start and direction of the line
     bool turned_ = false;
-    Patience patience_;
+    StallDetector stall_;
 };
 
 class CurveCourse : public Course {
@@ -174,7 +173,7 @@ private:
         constexpr Metres apart = 0.03;
         Radians const angle = std::min(std::abs(curve_.turn), 2 * std::numbers::pi);
         Radians const side = wheels.pose.heading + sign(curve_.turn) * std::numbers::pi / 2;
-        // The centre lies on the side of the turn going forward, on the other going backward.
+        // Forwards, the centre is on the side of the turn; backwards, on the other side.
         Point const centre = wheels.pose.position + curve_.radius * unit(side);
         Metres const length = std::abs(curve_.radius) * angle;
         for (Metres gone = 0; gone <= length + apart; gone += apart) {
@@ -205,8 +204,8 @@ private:
         MetresPerSecond const fastest_to_stop =
             std::min(wheels.speed_to_stop_in(left * radius), std::abs(wheels.rate_to_stop_in(left)) * radius);
         MetresPerSecond const speed = there ? 0 : paced(fastest_to_stop, fastest_);
-        patience_.look(wheels, is_slower_than(speed, wheels));
-        progress.state = patience_.obstructed() ? MotionState::obstructed : MotionState::moving;
+        stall_.update(wheels, is_slower_than(speed, wheels));
+        progress.state = stall_.is_stalled() ? MotionState::obstructed : MotionState::moving;
         if (there && wheels.stand()) progress.state = MotionState::arrived;
         return {sign(curve_.radius) * speed, 0};
     }
@@ -216,7 +215,7 @@ private:
     std::optional<MetresPerSecond> fastest_;
     Turned turned_;
     bool started_ = false;
-    Patience patience_;
+    StallDetector stall_;
 };
 
 class StayCourse : public Course {
@@ -258,7 +257,7 @@ Pose moved(Pose const& from, Twist const& twist, Seconds time) {
     return {from.position + chord * unit(from.heading + turned / 2), wrapped(from.heading + turned)};
 }
 
-void Patience::look(Wheels const& wheels, bool wants_to_move) {
+void StallDetector::update(Wheels const& wheels, bool wants_to_move) {
     waited_ = wants_to_move && wheels.stand() ? waited_ + wheels.dt : 0;
 }
 

@@ -1,4 +1,4 @@
-// How each kind of motion steers: from where the robot is to the twist that it wants next.
+// Courses steer a motion: from the robot's state they compute the twist that it wants next.
 #pragma once
 
 #include <memory>
@@ -8,17 +8,17 @@
 
 namespace rois::simulation {
 
-// How fast the wheels may change their speed and their turning.
+// The limits for changes of speed and of turn rate.
 struct Accelerations {
     double linear = 0;   // m/s^2
     double angular = 0;  // rad/s^2
 };
 
-// The limits on the way; and while the robot is stopped, held or braked: at least so much that it stands within time_to_stop.
+// The limits while driving. The limits while the robot is stopped, held or braked let it stand within RobotPlan::time_to_stop.
 Accelerations driving(RobotPlan const&);
 Accelerations stopping(RobotPlan const&);
 
-// The robot as a course sees it in a step, `dt` long.
+// The robot's state in one step of `dt`, as input of a course.
 struct Wheels {
     RobotId robot;
     RobotPlan const& plan;
@@ -29,17 +29,17 @@ struct Wheels {
     Seconds dt;
 
     bool stand() const;
-    MetresPerSecond speed_to_stop_in(Metres) const;   // the fastest from which they can stop in that distance
-    RadiansPerSecond rate_to_stop_in(Radians) const;  // towards that angle, the fastest from which they can stop at it
+    MetresPerSecond speed_to_stop_in(Metres) const;   // the highest speed that allows a stop within this distance
+    RadiansPerSecond rate_to_stop_in(Radians) const;  // the highest turn rate that allows a stop at this angle
 
-    // What comes of a wanted twist within these limits in this step; on a circle of that signed radius, if any.
+    // Returns the twist after this step: the wanted one within these limits, on the circle of this signed radius if given.
     Twist next(Twist const& wanted, Accelerations const&, std::optional<Metres> circle = std::nullopt) const;
 };
 
-// The exact motion of a unicycle with constant twist.
+// Returns the pose after a motion with constant twist.
 Pose moved(Pose const& from, Twist const&, Seconds);
 
-// Whether a drive does not go on along `heading` because a wall or desk ahead is too near.
+// Whether a wall or desk ahead is too near to drive on along `heading`.
 bool wall_is_too_near(FloorPlan const&, Point const& at, Radians heading, Metres radius);
 
 // The course of one motion.
@@ -47,10 +47,10 @@ class Course {
 public:
     virtual ~Course() = default;
 
-    // The twist wanted, before the limits of acceleration and the bodies in the way. Keeps `progress` up to date.
+    // Returns the wanted twist, without regard to acceleration limits and obstacles. Updates `progress`.
     virtual Twist steer(Wheels const&, Progress& progress) = 0;
 
-    // Signed radius of the circle on which the robot stays, also while it brakes; nothing when it may turn as it likes.
+    // The signed radius of the circle that the robot must keep, also while it brakes; nothing if it may turn freely.
     virtual std::optional<Metres> circle() const { return std::nullopt; }
 };
 
@@ -60,13 +60,13 @@ std::unique_ptr<Course> course_of(Line);
 std::unique_ptr<Course> course_of(Curve);
 std::unique_ptr<Course> course_of(Stay);
 
-// Notices that the wheels stand although they are wanted to move.
-class Patience {
+// Detects wheels that stand although the course wants to move.
+class StallDetector {
 public:
-    void look(Wheels const&, bool wants_to_move);
-    bool obstructed() const { return waited_ > 0.6; }
+    void update(Wheels const&, bool wants_to_move);
+    bool is_stalled() const { return waited_ > 0.6; }
     Seconds waited() const { return waited_; }
-    void forget() { waited_ = 0; }
+    void reset() { waited_ = 0; }
 
 private:
     Seconds waited_ = 0;

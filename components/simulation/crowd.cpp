@@ -5,7 +5,7 @@
 namespace rois::simulation {
 namespace {
 
-// What strangers say, in the languages that they speak.
+// Phrases of strangers by language.
 struct Phrases {
     std::string_view language;
     std::array<std::string_view, 3> greetings;
@@ -54,7 +54,7 @@ std::optional<Role> Crowd::next(WorldTime now, std::size_t inside, std::function
     return stranger();
 }
 
-// Comes to the desk or to a robot, says what they want, waits for an answer, looks around and leaves.
+// A visitor who goes to the desk or a robot, says a request, waits for an answer, looks around and leaves.
 Role Crowd::stranger() {
     Phrases const& spoken = one_of(phrases, random_);
     std::string const language{spoken.language};

@@ -1,4 +1,4 @@
-// Who comes into the hall when: the roles of the scenario, round after round, and visitors drawn from the seed.
+// Decides who enters the hall and when: the roles of the scenario, round after round, and random visitors.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ class Crowd {
 public:
     Crowd(Scenario, FloorPlan const&, std::uint64_t seed);
 
-    // The one who comes in now, if any. `inside` counts the people in the hall and `is_inside` knows their roles: nobody plays a
-    // role twice at a time. Asked only while the entrance is free.
+    // Returns the role that enters now, if any. `inside` is the number of people in the hall. A role for which `is_inside`
+    // returns true does not enter. Call it only while the entrance is free.
     std::optional<Role> next(WorldTime now, std::size_t inside, std::function<bool(std::string_view)> const& is_inside);
 
 private:
@@ -27,7 +27,7 @@ private:
     Scenario scenario_;
     std::vector<std::string> robots_;
     Random random_;
-    std::vector<std::optional<Seconds>> next_entry_;  // of each role; nothing when it does not come again
+    std::vector<std::optional<Seconds>> next_entry_;  // of each role; nothing if it does not enter again
     Seconds next_arrival_ = 0;
     std::uint64_t strangers_ = 0;
 };

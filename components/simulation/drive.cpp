@@ -6,13 +6,14 @@
 namespace rois::simulation {
 namespace {
 
-constexpr Metres wall_gap = 0.015;   // left to walls and desks; less where the robot is nearer already and passes by
-constexpr Metres body_gap = 0.10;    // and to people and other robots, likewise
-constexpr Metres squeezing = 0.008;  // within which the robot can stop while it passes somebody by so near
-constexpr Metres look_ahead = 2.0;   // bodies farther away are of no account; more than any stopping distance within the limits
+// The minimum gaps do not apply where the robot is nearer already and moves past.
+constexpr Metres wall_gap = 0.015;   // to walls and desks
+constexpr Metres body_gap = 0.10;    // to people and other robots
+constexpr Metres squeezing = 0.008;  // stopping distance while passing an obstacle that near
+constexpr Metres look_ahead = 2.0;   // obstacles farther away are ignored; longer than any stopping distance
 constexpr std::size_t remembered = 16;
 
-// How far the robot can go along `heading`, up to `most`, before a wall or desk is too near.
+// How far the robot can drive along `heading`, at most `most`, before a wall or desk is too near.
 Metres free_of_walls(FloorPlan const& plan, Point const& from, Radians heading, Metres radius, Metres most = look_ahead) {
     Point const ahead = unit(heading);
     bool const passes_by = plan.clearance(from) - plan.clearance(from + 0.01 * ahead) < 0.005;
@@ -145,23 +146,24 @@ Twist Drive::steer(Surroundings const& around, Seconds dt) {
     return wanted;
 }
 
-// Slow enough to stop before what is in the way.
+// Limits the speed so that the robot can stop before an obstacle.
 MetresPerSecond Drive::safe(MetresPerSecond wanted, Wheels const& at) const {
     MetresPerSecond const going = wanted != 0 ? wanted : twist_.linear;
     if (going == 0) return 0;
     Radians const heading = going > 0 ? pose_.heading : wrapped(pose_.heading + std::numbers::pi);
-    Metres const free = std::min(free_of_walls(at.around.plan(), pose_.position, heading, plan_.radius),
-                                 free_of_bodies(at.around.others(robot_), pose_.position, heading, plan_.radius));
+    Metres const free =
+        std::min(free_of_walls(at.around.plan(), pose_.position, heading, plan_.radius),
+                 free_of_bodies(at.around.obstacles_with_stopping_room(robot_), pose_.position, heading, plan_.radius));
     MetresPerSecond const most = at.speed_to_stop_in(free);
     return std::clamp(wanted, -most, most);
 }
 
-// The bumper: whoever steps into the way within the stopping distance is not touched either.
+// The bumper: prevents contact with obstacles that enter the stopping distance.
 bool Drive::would_touch(Pose const& there, Surroundings const& around) const {
     FloorPlan const& floor = around.plan();
     Metres const clearance = floor.clearance(there.position);
     if (clearance < plan_.radius && clearance < floor.clearance(pose_.position)) return true;
-    return std::ranges::any_of(around.bodies(robot_), [&](Disc const& other) {
+    return std::ranges::any_of(around.obstacles(robot_), [&](Disc const& other) {
         Metres const apart = distance(there.position, other.centre);
         return apart < plan_.radius + other.radius && apart < distance(pose_.position, other.centre);
     });

@@ -1,4 +1,4 @@
-// The wheels of one robot, and the one motion that they carry out at a time.
+// The drive of one robot. It carries out one motion at a time.
 #pragma once
 
 #include <cstdint>
@@ -13,45 +13,44 @@
 
 namespace rois::simulation {
 
-// A drive belongs to its Hall, which steps it. Speeds stay within the plan's limits at all times, accelerations unless the
-// robot is to stand: then it brakes harder, so that it stands within RobotPlan::time_to_stop.
+// Owned and stepped by the Hall. Speed and acceleration stay within the plan's limits, except that stop(), hold() and brake()
+// brake harder: the robot stands within RobotPlan::time_to_stop.
 class Drive {
 public:
     Drive(RobotId, RobotPlan const&, FloorPlan const&);
     ~Drive();
     Drive(Drive&&) noexcept;
 
-    // Begins a motion for `owner` ("navigation", "follow", "move"). It takes the place of an earlier one of the same owner, which
-    // is `ended`; nothing, when the wheels are another owner's: busy.
+    // Begins a motion for `owner` ("navigation", "follow", "move"). An earlier motion of the same owner becomes `ended`. Returns
+    // nothing if the drive is busy with the motion of another owner.
     std::optional<MotionId> begin(std::string_view owner, Motion);
 
-    // Who has a motion that is not over; empty when nobody has.
+    // The owner of the current motion; empty if there is none.
     std::string_view owner() const;
 
-    // How far a motion is. That of the last 16 motions is remembered; older ones are `ended`.
+    // Returns the progress of a motion. Motions older than the last 16 are reported as `ended`.
     Progress progress(MotionId) const;
 
-    // How the last motion that is over ended; nothing before the first one.
+    // The final state of the last finished motion; nothing before the first one.
     std::optional<MotionState> last_outcome() const { return last_outcome_; }
 
-    // Makes last_outcome() `unreachable`, for a target that was rejected without a motion.
+    // Sets last_outcome() to `unreachable`: a target was rejected before a motion began.
     void reject_target() { last_outcome_ = MotionState::unreachable; }
 
-    // How far the motion under way is; nothing when there is none.
+    // The progress of the current motion; nothing if there is none.
     std::optional<Progress> current() const;
 
-    // End the motion, hold it, go on with it. The robot brakes to a stand when its motion is stopped or held; a motion that
-    // begins meanwhile waits for that. Nothing happens to a motion that is over or is another.
+    // End, suspend and resume the current motion; ignored for any other motion. The robot brakes to a stand after stop() and
+    // hold(). A motion that begins meanwhile waits until the robot stands.
     void stop(MotionId);
     void hold(MotionId);
     void go_on(MotionId);
 
-    // Puts the brakes on or off. While they are on, the robot brakes to a stand and stays there. A motion, whoever owns it, waits
-    // for them to be put off.
+    // Applies or releases the brakes. While they are on, the robot brakes to a stand and motions of all owners wait.
     void brake(bool on) { brakes_ = on; }
     bool brakes_are_on() const { return brakes_; }
 
-    // Keeps all motions below this speed; nothing: up to that of the robot's plan, which is never exceeded.
+    // Limits the speed of all motions, at most to max_speed of the robot's plan. Nothing: to that max_speed.
     void limit_speed(std::optional<MetresPerSecond>);
 
     // Whether the robot neither drives nor turns.
@@ -63,9 +62,9 @@ public:
     RobotId robot() const { return robot_; }
     Pose const& pose() const { return pose_; }
     Twist const& twist() const { return twist_; }
-    RobotPlan const& plan() const { return plan_; }  // max_speed is the one that counts now
+    RobotPlan const& plan() const { return plan_; }  // max_speed is the current limit
 
-    // The floor that the robot takes up until it could stand still.
+    // The floor that the robot needs to stop.
     Disc stopping_disc() const;
 
     // One step of the world, `dt` long.
@@ -91,7 +90,7 @@ private:
 
     RobotId robot_;
     RobotPlan plan_;
-    MetresPerSecond fastest_;  // of the robot's plan
+    MetresPerSecond fastest_;  // max_speed of the robot's plan
     Accelerations stopping_limits_;
     bool stopping_ = false;
     bool brakes_ = false;

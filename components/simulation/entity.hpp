@@ -1,4 +1,4 @@
-// Names of those who move in the hall.
+// Ids of people and robots in the hall.
 #pragma once
 
 #include <compare>
@@ -7,10 +7,10 @@
 
 namespace rois::simulation {
 
-// One visit of one person: the serial number of their coming in. A known visitor who comes again gets a new one.
+// One visit of one person: a serial number. A visitor who comes again gets a new one.
 enum class PersonId : std::uint32_t {};
 
-// A robot by its position in the floor plan.
+// The index of a robot in the floor plan.
 enum class RobotId : std::uint32_t {};
 
 using Entity = std::variant<PersonId, RobotId>;

@@ -10,8 +10,8 @@ namespace rois::simulation {
 
 namespace {
 
-// Stands between the engine and a component, and lets nothing new begin while a fault is on. What a silent component did before
-// goes on; a failed one ends it.
+// A proxy between the engine and a component. Blocks new work while a fault is active. Running work of a silent component
+// continues; a failed component ends it.
 class FaultyComponent final : public Component, private ComponentPort, private Observer {
 public:
     FaultyComponent(std::unique_ptr<Component> component, std::shared_ptr<Simulation> simulation, std::vector<Fault> faults)
@@ -88,7 +88,8 @@ public:
     std::vector<Results> query(std::string_view query_type, Instant now) override {
         fail_when_failed();
         if (!is(Fault::Kind::silent)) return with_status(query_type, component_->query(query_type, now));
-        port_->error(ErrorType::component_not_responding, "it answers no query", Report::once);
+        port_->error(ErrorType::component_not_responding, "the component does not answer queries: a fault of the scenario",
+                     Report::once);
         return {};
     }
 
@@ -96,9 +97,9 @@ private:
     void started(CommandHandle command) override { port_->started(command); }
 
     void completed(CommandHandle command, CompletedStatus status, Results results, Afterwards afterwards,
-                   std::string why) override {
+                   std::string text) override {
         if (running_ == command) running_.reset();
-        port_->completed(command, status, std::move(results), afterwards, std::move(why));
+        port_->completed(command, status, std::move(results), afterwards, std::move(text));
     }
 
     void halted() override {
@@ -109,7 +110,7 @@ private:
 
     void observe(Instant when) override {
         if (!std::exchange(had_complained_, is(Fault::Kind::complaining)) && had_complained_)
-            port_->error(ErrorType::user_defined_error, "it complains, as the scenario says");
+            port_->error(ErrorType::user_defined_error, "the component complains: a fault of the scenario");
         if (std::exchange(had_failed_, is(Fault::Kind::failed)) || !had_failed_) return;
         component_->halt(when);
         if (auto const command = std::exchange(running_, {}))
@@ -124,7 +125,7 @@ private:
         });
     }
 
-    // The status of the engine is that of its system information, with its faults.
+    // The engine's status is the status of system_information, faults included.
     std::vector<Results> with_status(std::string_view query_type, std::vector<Results> rows) const {
         if (query_type != "engine_status") return rows;
         for (auto& row : rows)
@@ -137,7 +138,7 @@ private:
         if (is(Fault::Kind::failed)) throw std::runtime_error{reason};
     }
 
-    static constexpr auto reason = "it has failed, as the scenario says";
+    static constexpr auto reason = "the component has failed: a fault of the scenario";
 
     std::shared_ptr<Simulation> simulation_;
     std::vector<Fault> faults_;

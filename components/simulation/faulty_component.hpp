@@ -1,4 +1,4 @@
-// Components that fail for a while, as a scenario says: so that an application can be tried against a robot that is not well.
+// Components with the faults of a scenario, to test applications against a defective robot.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace rois::simulation {
 
-// The component itself when no fault of the simulation is about it; else the component as the faults let it be.
+// Wraps the component if the scenario has faults for it; else returns it unchanged.
 std::unique_ptr<Component> with_faults(std::unique_ptr<Component>, std::shared_ptr<Simulation> const&);
 
 }  // namespace rois::simulation

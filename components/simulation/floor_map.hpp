@@ -1,4 +1,4 @@
-// The floor plan as others draw it.
+// The floor plan as a document for applications that draw it.
 #pragma once
 
 #include "simulation/floor_plan.hpp"
@@ -6,7 +6,7 @@
 
 namespace rois::simulation {
 
-// All of the plan that can be seen; where the robots are is told by their components.
+// Contains everything visible of the plan except robot positions, which the robots' components report.
 FloorMap floor_map(FloorPlan const&);
 
 }  // namespace rois::simulation

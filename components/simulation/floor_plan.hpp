@@ -1,5 +1,4 @@
-// The hall as it is built: what never moves, and the robots that live in it. Plain values; read from a file by
-// floor_plan_file.hpp.
+// The fixed parts of the hall and its robots. Plain values; floor_plan_file.hpp reads them from a file.
 #pragma once
 
 #include <optional>
@@ -12,7 +11,7 @@
 
 namespace rois::simulation {
 
-// A position with a name, and how one stands there; around it, the area that conditions mean by the name.
+// A named pose, and the area around it that conditions refer to by that name.
 struct Place {
     std::string name;
     Pose pose;
@@ -20,8 +19,8 @@ struct Place {
     Metres depth = 2.0;  // along y
 };
 
-// What a robot's sensors can do. Ranges in metres; a field of view is the whole angle, centred on the heading; sigmas are
-// standard deviations of gaussian noise, independent for each axis. A heading noise is in radians.
+// The abilities of a robot's sensors. A field of view is the whole angle, centred on the heading. Sigmas are standard deviations
+// of gaussian noise, independent for each axis.
 struct Sensors {
     struct People {
         Metres range = 10.0;
@@ -32,7 +31,7 @@ struct Sensors {
     struct Faces {
         Metres range = 5.0;
         Radians field_of_view = from_degrees(100);
-        Radians turned_within = from_degrees(50);  // a face counts when it looks at the robot within this angle to either side
+        Radians turned_within = from_degrees(50);  // a face counts if it looks at the robot within this angle to either side
         Metres sigma = 0.03;
         Radians heading_sigma = from_degrees(5);
     } faces;
@@ -42,7 +41,7 @@ struct Sensors {
         Radians turned_within = from_degrees(50);
     } identification;
     struct Sound {
-        Metres range = 8.0;  // a wall between halves it
+        Metres range = 8.0;  // a wall in between halves it
         Metres sigma = 0.25;
     } sound;
     struct Gestures {
@@ -54,25 +53,25 @@ struct Sensors {
 // The frame of a robot's own map.
 struct RobotFrame {
     std::string crs;
-    Pose origin;  // in the hall, as the robot has it: in truth
-    // How certain those who change between the frames are of that: standard deviations.
+    Pose origin;  // the true one, in the hall
+    // Standard deviations of the origin, for conversions between the frames.
     Metres sigma = 0;
     Radians heading_sigma = 0;
 };
 
-// A robot with differential drive, round.
+// A round robot with differential drive.
 struct RobotPlan {
     std::string name;
     Pose start;
     Metres radius = 0.28;
     MetresPerSecond max_speed = 0.9;
-    double max_acceleration = 0.8;  // m/s^2, also when it slows down on its way
+    double max_acceleration = 0.8;  // m/s^2, also when braking on the way
     RadiansPerSecond max_turn_rate = 1.6;
     double max_turn_acceleration = 3.0;  // rad/s^2
     Sensors sensors;
-    std::optional<RobotFrame> frame;  // in which its components tell and take positions; absent: the hall's
+    std::optional<RobotFrame> frame;  // of its components' positions; absent: the hall's
 
-    // Within this time of the world's, brakes bring the robot to a stand, however fast it was.
+    // Braking takes at most this world time from any speed.
     static constexpr Seconds time_to_stop = 0.3;
 
     Agility agility() const { return {max_speed, max_acceleration, max_turn_rate, max_turn_acceleration}; }
@@ -82,28 +81,28 @@ struct FloorPlan {
     std::string name;
     std::string crs = "urn:x-rois:def:crs:simulation::hall";
     Box bounds{Point{0, 0}, Point{20, 12}};  // its edges are walls
-    std::vector<Segment> walls;              // inner ones; nothing is seen or heard clearly through them
-    std::vector<Box> desks;                  // nobody walks through, everybody sees over
-    std::vector<Place> places;               // "entrance" and "exit" are where people come in and go out
+    std::vector<Segment> walls;              // inner walls; they block sight and halve hearing
+    std::vector<Box> desks;                  // they block ways, but not sight
+    std::vector<Place> places;               // people come in at "entrance" and leave at "exit"
     std::vector<RobotPlan> robots;
 
-    // Null when there is none of that name.
+    // Returns null if the name is unknown.
     Place const* place(std::string_view name_of_place) const;
 
-    // Where people go out: "exit", or the entrance.
+    // The place "exit", else the entrance.
     Place const& exit() const;
 
-    // Distance to the nearest wall, desk or edge; negative outside of the hall and 0 within a desk.
+    // Distance to the nearest wall, desk or edge; negative outside of the hall, 0 within a desk.
     Metres clearance(Point const&) const;
 
-    // No wall between the two.
+    // Whether no wall is between the two points.
     bool in_sight(Point const& from, Point const& to) const;
 
-    // A disc of this radius can go straight from one to the other without touching a wall, desk or edge.
+    // Whether a disc of this radius can move straight between the points without touching a wall, desk or edge.
     bool can_go_straight(Point const& from, Point const& to, Metres radius) const;
 };
 
-// What makes a plan unusable (no entrance, a place within a wall, two of one name, ...); nothing when it is fine.
+// The first error of a plan (no entrance, a place within a wall, a duplicate name, ...); nothing if the plan is valid.
 struct PlanFlaw {
     enum class Of : std::uint8_t { plan, place, robot } of = Of::plan;
     std::size_t index = 0;  // of the place or robot

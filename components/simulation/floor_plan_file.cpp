@@ -21,7 +21,7 @@ Box box(xml::Element const& element) {
     return {.low = low, .high = low + point(element, "width", "depth")};
 }
 
-// Takes the attributes that are there over what is usual.
+// Replaces the default by the attribute if it is present.
 void read_length(xml::Element const& element, std::string_view name, Metres& value) {
     value = metres(element.number(name, value * 1000.0));
 }
@@ -92,7 +92,7 @@ RobotPlan robot(xml::Element const& element) {
     return plan;
 }
 
-// The element that a flaw is about.
+// The element that has the flaw.
 xml::Element culprit(xml::Element const& root, PlanFlaw const& flaw) {
     switch (flaw.of) {
         case PlanFlaw::Of::place:
@@ -110,7 +110,7 @@ xml::Element culprit(xml::Element const& root, PlanFlaw const& flaw) {
 FloorPlan read_floor_plan(std::shared_ptr<xml::Schemas const> schemas, std::string name, std::string text) {
     auto const document = xml::Document::parse(std::move(schemas), std::move(name), std::move(text));
     auto const root = document.root();
-    if (root.name() != "floor_plan") throw root.complain("this is no floor plan: expected the element floor_plan");
+    if (root.name() != "floor_plan") throw root.complain("not a floor plan: the root element must be floor_plan");
     FloorPlan plan;
     plan.name = root.attribute("name", "");
     plan.crs = root.attribute("crs", plan.crs);

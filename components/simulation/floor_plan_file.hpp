@@ -9,7 +9,7 @@
 
 namespace rois::simulation {
 
-// Throws xml::BadDocument, "name:line:column: reason", when it is not well-formed, not valid, or makes no sense (flaw()).
+// Throws xml::BadDocument, "name:line:column: reason", if the document is not well-formed, not valid or has a flaw().
 FloorPlan read_floor_plan(std::shared_ptr<xml::Schemas const>, std::string name, std::string text);
 
 }  // namespace rois::simulation

@@ -1,29 +1,29 @@
-// Follow (7.6.14): stays with somebody until it is stopped.
+// Follow (7.6.14): keeps a distance to a person or robot until it is stopped.
 #include "simulation/basic_components.hpp"
 #include "simulation/codebooks.hpp"
+#include "simulation/drive_action.hpp"
 #include "simulation/parameter_reading.hpp"
-#include "simulation/wheels.hpp"
 #include "types/texts.hpp"
 
 namespace rois::simulation {
 namespace {
 
-// How long Follow waits for a target that is not there, in the world's time.
+// How long Follow waits for a missing target, in world time.
 constexpr WorldTime patience{30'000};
-// How long Follow waits for an unknown target, in real time. `patience` applies too and ends first if the world runs fast.
+// How long Follow waits for an unknown target, in real time. `patience` applies too, and ends first if the simulation runs fast.
 constexpr std::chrono::milliseconds time_to_be_known{5'000};
 
-class Follow final : public WheelAction {
+class Follow final : public DriveAction {
 public:
-    explicit Follow(Fitting fitting)
-        : WheelAction{taking_identifiers(std::move(fitting), "target_object_ref",
-                                         {codebook::entity, codebook::track, codebook::visitor, codebook::robot}),
+    explicit Follow(Context context)
+        : DriveAction{with_identifier_parameter(std::move(context), "target_object_ref",
+                                                {codebook::entity, codebook::track, codebook::visitor, codebook::robot}),
                       "follow"} {}
 
     CompletedStatus status_when_stopped() const override { return CompletedStatus::ok; }
 
 private:
-    std::optional<std::string> unfit(ParameterList const& parameters) const override {
+    std::optional<std::string> parameter_problem(ParameterList const& parameters) const override {
         if (auto problem = negative(parameters, "distance")) return problem;
         if (auto problem = negative(parameters, "time_limit")) return problem;
         auto const ref = text_of(parameters, "target_object_ref");
@@ -32,7 +32,7 @@ private:
         return "parameter 'target_object_ref': the robot cannot follow itself";
     }
 
-    std::optional<std::string> missing(ParameterList const& parameters) const override {
+    std::optional<std::string> start_problem(ParameterList const& parameters) const override {
         if (text_of(parameters, "target_object_ref").empty()) return "parameter 'target_object_ref' is mandatory";
         if (!integer_of(parameters, "distance")) return "parameter 'distance' is mandatory";
         return {};
@@ -46,7 +46,7 @@ private:
         whom_.reset();
         waits_ = false;
         waited_ = {};
-        if (wheels_are_anothers()) return end(CompletedStatus::out_of_resources, busy_wheels());
+        if (wheels_are_busy()) return end(CompletedStatus::out_of_resources, wheels_busy_reason());
         look();
     }
 
@@ -61,7 +61,7 @@ private:
             give_up(CompletedStatus::error, target_is_not_there() + " for " + std::to_string(patience.count()) + " ms");
     }
 
-    // An unknown target may never come, at any speed of the world's time.
+    // Real time: an unknown target may never appear, at any simulation speed.
     void time_passed(Instant now) override {
         if (!waits_ || held_ || hall().knows(ref_)) return unknown_since_.reset();
         if (!unknown_since_) unknown_since_ = now.steady;
@@ -71,17 +71,17 @@ private:
 
     std::string target_is_unknown() const {
         return "parameter 'target_object_ref': " + quoted(ref_) +
-               " is unknown: no robot has this name, and no person has been seen by it";
+               " is unknown: no robot has this name, and no robot has seen a person of this name";
     }
 
     std::string target_is_not_there() const { return quoted(ref_) + " has not been seen"; }
 
     void give_up(CompletedStatus status, std::string reason) {
-        cease();
+        stop();
         end(status, std::move(reason));
     }
 
-    // Keeps the distance to the target, or stands and waits until it is found.
+    // Keeps the distance to the target, or stands and waits for it.
     void look() {
         auto found = hall().find(ref_, codebook_);
         if (found && !hall().pose_of(*found)) found.reset();
@@ -92,37 +92,37 @@ private:
         drive(Stay{});
     }
 
-    ComponentStatus condition() const override { return waits_ ? ComponentStatus::warning : WheelAction::condition(); }
+    ComponentStatus running_status() const override { return waits_ ? ComponentStatus::warning : DriveAction::running_status(); }
 
-    void cease() override {
+    void stop() override {
         waits_ = held_ = false;
         unknown_since_.reset();
-        WheelAction::cease();
+        DriveAction::stop();
     }
 
     void hold() override {
         held_ = true;
-        WheelAction::hold();
+        DriveAction::hold();
     }
 
     void go_on() override {
         held_ = false;
-        WheelAction::go_on();
+        DriveAction::go_on();
     }
 
     std::string ref_;
-    std::string codebook_;  // from which ref_ is; empty: from any
+    std::string codebook_;  // of ref_; empty: any
     Metres distance_ = 0;
     WorldTime limit_{};  // 0: none
     std::optional<Entity> whom_;
-    bool waits_ = false;  // for the target to be found
+    bool waits_ = false;  // for the target
     bool held_ = false;
-    WorldTime waited_{};                   // for so long, without a break
+    WorldTime waited_{};                   // without interruption
     std::optional<Steady> unknown_since_;  // waits for an unknown target
 };
 
 }  // namespace
 
-std::unique_ptr<Component> follow(Fitting fitting) { return std::make_unique<Follow>(std::move(fitting)); }
+std::unique_ptr<Component> follow(Context context) { return std::make_unique<Follow>(std::move(context)); }
 
 }  // namespace rois::simulation

@@ -8,7 +8,7 @@ namespace {
 
 double cross_product(Point const& a, Point const& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-// On which side of the line through the segment a point lies; 0 on the line.
+// Returns the side of the line on which the point lies, as a sign; 0 on the line.
 double side(Segment const& s, Point const& p) { return cross_product(s.to - s.from, p - s.from); }
 
 bool within_extent(Segment const& s, Point const& p) {
@@ -41,7 +41,7 @@ Metres free_way(Disc const& from, Radians heading, Disc const& other, Metres far
     Point const to_other = other.centre - from.centre;
     Metres const touch = from.radius + other.radius;
     double const ahead = to_other.dot(unit(heading));
-    if (ahead <= 0) return far;  // going away from it, even when they touch
+    if (ahead <= 0) return far;  // moves away, even if the discs touch
     double const aside = to_other.squaredNorm() - ahead * ahead;
     if (aside >= touch * touch) return far;
     return std::clamp(ahead - std::sqrt(touch * touch - aside), 0.0, far);

@@ -11,7 +11,7 @@ struct Segment {
     Point to;
 };
 
-// Axis-parallel; `low` has the smaller coordinates.
+// An axis-parallel box. `low` has the smaller coordinates.
 struct Box {
     Point low;
     Point high;
@@ -27,9 +27,9 @@ struct Disc {
 
 Metres distance(Segment const&, Point const&);
 Metres distance(Box const&, Point const&);   // 0 inside
-bool cross(Segment const&, Segment const&);  // also when they only touch
+bool cross(Segment const&, Segment const&);  // true also if they only touch
 
-// How far a disc of `radius` at `from` can go along `heading` until it touches the other; `far` when it never does within `far`.
+// Returns how far the disc `from` can move along `heading` until it touches `other`, at most `far`.
 Metres free_way(Disc const& from, Radians heading, Disc const& other, Metres far);
 
 }  // namespace rois::simulation

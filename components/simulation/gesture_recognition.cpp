@@ -1,4 +1,4 @@
-// Gesture recognition (7.6.10): which gestures people and other robots make before the robot.
+// Gesture recognition (7.6.10): reports gestures of people and other robots in view.
 #include <utility>
 
 #include "simulation/basic_components.hpp"
@@ -33,7 +33,7 @@ private:
         }
     }
 
-    // Which gesture it is; empty when it is none, or the robot's own.
+    // Returns the gesture; empty if it is not a gesture or the robot's own.
     std::string gesture_in(Happening const& happening) const {
         if (happening.who == Entity{robot()}) return {};
         if (happening.kind == Happening::Kind::gesture_made) return happening.text;
@@ -46,8 +46,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> gesture_recognition(Fitting fitting) {
-    return std::make_unique<GestureRecognition>(std::move(fitting));
+std::unique_ptr<Component> gesture_recognition(Context context) {
+    return std::make_unique<GestureRecognition>(std::move(context));
 }
 
 }  // namespace rois::simulation

@@ -12,7 +12,7 @@ constexpr std::string_view default_name = "default";
 
 bool is_default(std::string_view text) { return text.empty() || text == default_name; }
 
-// The parts of a text between separators, trimmed.
+// Returns the trimmed parts between separators.
 std::vector<std::string_view> split(std::string_view text, std::string_view separators) {
     std::vector<std::string_view> parts;
     while (true) {

@@ -1,4 +1,4 @@
-// What speech recognition listens for: the parameters `grammar` and `rule` of 7.6.9.
+// Grammars of speech recognition: the parameters `grammar` and `rule` of 7.6.9.
 #pragma once
 
 #include <optional>
@@ -9,33 +9,32 @@
 
 namespace rois::simulation {
 
-// A grammar is the word `default`, which anything matches, or rules in a form of our own:
+// A grammar is the word `default`, which matches all speech, or a list of rules:
 //
 //     yes | no | help                                  one rule, named `default`
 //     answer = yes | no; drink = green tea | coffee    two rules, separated by semicolons or line ends
 //
-// A rule is a list of phrases. Speech matches a phrase when both have the same words: case (of ASCII letters), punctuation and
-// the amount of white space do not count. The active rule `default` stands for all rules.
+// A rule is a list of phrases. Speech matches a phrase if both have the same spoken_words(). The active rule `default` stands for
+// all rules.
 class Grammar {
 public:
-    // Listens for anything.
+    // Matches all speech.
     Grammar() = default;
 
-    // Why it cannot be read, or that it has no such rule, in words.
+    // Why the grammar or the rule is invalid.
     struct Flaw {
         std::string reason;
     };
-    // Empty texts are `default`.
+    // An empty text means `default`.
     static std::variant<Grammar, Flaw> read(std::string_view grammar, std::string_view rule);
 
-    // What was recognized: the phrase as the grammar writes it, or under `default` the speech itself. Nothing when no phrase
-    // matches.
+    // Returns the matching phrase as the grammar writes it, with `default` the speech itself. Nothing if no phrase matches.
     std::optional<std::string> match(std::string_view speech) const;
 
 private:
     struct Phrase {
         std::string text;
-        std::string words;  // in the form that is compared
+        std::string words;  // spoken_words() of the text
     };
     bool anything_ = true;
     std::vector<Phrase> phrases_;

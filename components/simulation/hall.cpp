@@ -108,14 +108,14 @@ void Hall::show(RobotId id, std::string reaction, Seconds duration) {
 
 void Hall::stop_showing(RobotId id) { world_->robot(id).showing.reset(); }
 
-SharedDeed Hall::let_in(Role role) { return world_->let_in(std::move(role)); }
+SharedOrderStatus Hall::let_in(Role role) { return world_->let_in(std::move(role)); }
 
-SharedDeed Hall::steer(std::string_view visitor, Order order) {
+SharedOrderStatus Hall::steer(std::string_view visitor, Order order) {
     if (auto* const steered = world_->steered(visitor)) return steered->obey(std::move(order));
-    auto deed = std::make_shared<Deed>();
-    deed->fail(world_->is_inside(visitor) ? std::string{visitor} + " comes with the scenario, and cannot be steered"
-                                          : "there is no visitor " + std::string{visitor} + " in the hall");
-    return deed;
+    auto status = std::make_shared<OrderStatus>();
+    status->fail(world_->is_inside(visitor) ? std::string{visitor} + " belongs to the scenario and cannot be steered"
+                                            : "visitor " + std::string{visitor} + " is not in the hall");
+    return status;
 }
 
 void Hall::stop_steering() { world_->stop_steering(); }

@@ -1,4 +1,4 @@
-// Person identification (7.6.4): who a known visitor is, told once for each time that they are tracked.
+// Person identification (7.6.4): reports the id of a known visitor, once while they are tracked.
 #include <algorithm>
 #include <set>
 
@@ -14,13 +14,13 @@ public:
     using ContinuousFunction::ContinuousFunction;
 
 private:
-    void begin() override { told_.clear(); }
+    void begin() override { reported_.clear(); }
 
     void sense(Instant when) override {
-        std::erase_if(told_, [&](PersonId person) { return !hall().track(person); });
+        std::erase_if(reported_, [&](PersonId person) { return !hall().track(person); });
         std::vector<RecognizedPerson> news;
         for (auto& person : people_recognized(hall(), robot()))
-            if (person.known && told_.insert(person.person).second) news.push_back(std::move(person));
+            if (person.known && reported_.insert(person.person).second) news.push_back(std::move(person));
         if (!news.empty()) port().event("person_identified", results(news, when));
     }
 
@@ -32,18 +32,18 @@ private:
             ids.push_back(person.ref);
             auto const sighting = std::ranges::find(seen, person.person, &SeenPerson::person);
             if (sighting == seen.end()) continue;
-            results.located.push_back(told_located("person_ref", person.ref, sighting->pose, 0, sighting->covariance));
+            results.located.push_back(located_entity("person_ref", person.ref, sighting->pose, 0, sighting->covariance));
         }
         results.parameters = {date_time("timestamp", when.utc),
                               references("person_ref", std::move(ids), std::string{codebook::visitor})};
         return results;
     }
 
-    std::set<PersonId> told_;
+    std::set<PersonId> reported_;
 };
 
 }  // namespace
 
-std::unique_ptr<Component> person_identification(Fitting fitting) { return std::make_unique<Identification>(std::move(fitting)); }
+std::unique_ptr<Component> person_identification(Context context) { return std::make_unique<Identification>(std::move(context)); }
 
 }  // namespace rois::simulation

@@ -1,4 +1,4 @@
-// The languages that are understood and spoken in the hall (ISO 639-1).
+// The supported languages (ISO 639-1).
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ inline constexpr std::array<std::string_view, 8> languages{"de", "en", "es", "fr
 
 inline bool is_language(std::string_view code) { return std::ranges::find(languages, code) != languages.end(); }
 
-// "de, en, ..." for people.
+// Returns "de, en, ..." for messages.
 inline std::string names_of_languages() {
     std::string names;
     for (auto language : languages) names += (names.empty() ? "" : ", ") + std::string{language};

@@ -9,7 +9,7 @@
 namespace rois::simulation {
 namespace {
 
-// A* over legs, not over points: what a corner costs depends on the legs before and after it.
+// A* over legs, not points: the cost of a corner depends on the legs before and after it.
 class Search {
 public:
     Search(Crossing const& crossing, CanGo const& can_go, RoutingPolicy policy, Agility const& agility, double bound)
@@ -44,14 +44,14 @@ private:
     struct Leg {
         std::uint32_t from;
         std::uint32_t to;
-        std::uint32_t before;   // the leg before it
-        double cost;            // of all before it, and of the turn into it
-        MetresPerSecond speed;  // at its begin
+        std::uint32_t before;   // the previous leg
+        double cost;            // of all previous legs and of the turn into this one
+        MetresPerSecond speed;  // at its start
     };
     struct Entry {
         double estimate;
         std::uint32_t leg;
-        bool operator<(Entry const& other) const {  // for a queue whose top is the least
+        bool operator<(Entry const& other) const {  // makes the smallest the top of the queue
             return estimate != other.estimate ? estimate > other.estimate : leg > other.leg;
         }
     };
@@ -88,7 +88,7 @@ private:
         }
     }
 
-    // Takes a leg into account, unless it is known that it leads to nothing better.
+    // Adds a leg to the search, unless it cannot improve the result.
     void offer(Leg const& leg) {
         Metres const way = distance(points_[leg.from], points_[leg.to]);
         double const arrival = leg.cost + least(way);
@@ -116,9 +116,9 @@ private:
     double bound_;
     Radians heading_;
     std::vector<Point> points_;
-    double slack_;  // what standing at a point costs more than passing it, at most
+    double slack_;  // maximum extra cost of stopping at a point
     std::vector<double> best_of_leg_;
-    std::vector<double> best_of_point_;  // to stand there
+    std::vector<double> best_of_point_;  // with a stop there
     std::vector<Passable> passable_;
     std::vector<Leg> legs_;
     std::priority_queue<Entry> open_;

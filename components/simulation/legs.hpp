@@ -1,4 +1,4 @@
-// The best way of straight legs over points that are given.
+// Finds the best path of straight legs over given points.
 #pragma once
 
 #include <functional>
@@ -8,18 +8,18 @@
 
 namespace rois::simulation {
 
-// From where, with which heading, to where, and over which points a way may go.
+// The start, the target and the points that a path may use.
 struct Crossing {
     Pose from;
     Point to;
     std::vector<Point> over;
 };
 
-// Whether one can go straight between two points: 0 is `from`, then come those of `over`, and the last is `to`.
+// Whether the straight line between two points is free. Index 0 is `from`, then follow the points of `over`, the last is `to`.
 using CanGo = std::function<bool(std::size_t, std::size_t)>;
 
-// The corners of the best way (`from` not included, `to` included) that costs less than `bound`: seconds or metres, as the policy
-// counts. Empty when there is none.
+// Returns the corners of the best path (without `from`, with `to`) that costs less than `bound`, in seconds or metres as the
+// policy counts. Empty if there is none.
 std::vector<Point> best_legs(Crossing const&, CanGo const&, RoutingPolicy, Agility const&, double bound);
 
 }  // namespace rois::simulation

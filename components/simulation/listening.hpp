@@ -1,5 +1,4 @@
-// What recognizers of speech have in common: they follow what people and other robots say near the robot from its beginning to
-// its end.
+// Base of the speech recognition components: follows the speech of people and other robots near the robot.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +10,12 @@
 
 namespace rois::simulation {
 
-// Speech that was heard from beginning to end.
+// Speech that was received from beginning to end.
 struct HeardSpeech {
     std::string text;
     std::string language;
     Instant began;
-    std::optional<HeardSound> from;  // where it was heard from when it began
+    std::optional<HeardSound> from;  // the source of the sound at the beginning
 };
 
 class Listening : public ContinuousFunction {
@@ -24,12 +23,13 @@ public:
     using ContinuousFunction::ContinuousFunction;
 
 protected:
-    // Whether speech from there counts; all that the robot hears, unless a component says otherwise.
+    // Whether speech from this point counts.
     virtual bool listens_to(Point const&) const { return true; }
 
-    // Somebody has begun to speak, or has ended, perhaps too early or out of earshot.
+    // Called when speech begins, and when it ends (also if it was broken off or left the hearing range).
     virtual void began(Instant when) = 0;
     virtual void ended(Instant when) = 0;
+    // Called after ended() if the whole speech was received.
     virtual void heard(HeardSpeech const&, Instant when) = 0;
 
 private:
@@ -40,15 +40,15 @@ private:
     void begins(Happening const& speech, Instant when);
     void ends(Happening const& speech, Instant when);
 
-    // An utterance that has begun.
+    // An utterance in progress.
     struct Input {
         bool whole = true;
         Instant began;
         std::optional<HeardSound> from;
     };
-    std::map<Entity, Input> inputs_;  // whose beginning was told
+    std::map<Entity, Input> inputs_;  // after began(), by speaker
     std::uint64_t read_ = 0;
-    std::uint64_t missed_until_ = 0;  // what began by then was not heard
+    std::uint64_t missed_until_ = 0;  // ignores speech that began at or before this sequence
 };
 
 }  // namespace rois::simulation

@@ -1,4 +1,4 @@
-// Person, face and sound localization (7.6.3, 7.6.6, 7.6.8): where they are, told when somebody is new or has moved.
+// Person, face and sound localization (7.6.3, 7.6.6, 7.6.8): reports positions when somebody is new or has moved.
 #include <algorithm>
 #include <cmath>
 #include <ranges>
@@ -14,7 +14,7 @@
 namespace rois::simulation {
 namespace {
 
-// One that is localized.
+// A localized person, face or sound.
 struct Sighting {
     std::string ref;
     Pose pose;
@@ -22,8 +22,8 @@ struct Sighting {
     Covariance covariance;
 };
 
-// What a kind of localization senses, and how its message is named. `direction`: the heading of a sighting is only the direction
-// in which it is heard, and no orientation.
+// The sensor and the event of one kind of localization. `direction`: the heading of a sighting is only the direction to the
+// sound, not an orientation.
 struct Kind {
     enum class Heading : std::uint8_t { orientation, direction };
     std::string_view event_type;
@@ -34,32 +34,32 @@ struct Kind {
 };
 
 constexpr std::string_view threshold_name = "detection_threshold";
-constexpr std::int32_t usual_threshold = 200;   // mm, where the sensor's noise allows it
+constexpr std::int32_t usual_threshold = 200;   // mm, if the sensor's noise allows it
 constexpr std::int32_t default_interval = 250;  // ms
 
-// The lowest detection_threshold that the sensor of a robot can keep, in mm.
-std::int32_t lowest_threshold(Kind const& kind, Fitting const& fitting) {
-    auto const& robot = fitting.simulation->hall().plan().robots.at(static_cast<std::size_t>(fitting.robot));
+// The lowest detection_threshold that the noise of the robot's sensor allows, in mm.
+std::int32_t lowest_threshold(Kind const& kind, Context const& context) {
+    auto const& robot = context.simulation->hall().plan().robots.at(static_cast<std::size_t>(context.robot));
     return static_cast<std::int32_t>(std::ceil(millimetres(Movement::least_movement(kind.sigma(robot.sensors)))));
 }
 
-// A profile says how low the threshold may be with this robot's sensor, and what it is when it is not set.
-void tell_threshold(ParameterProfile& parameter, std::int32_t lowest) {
+// Sets minimum and default of the threshold in the profile, for this robot's sensor.
+void set_threshold_limits(ParameterProfile& parameter, std::int32_t lowest) {
     if (!equal_ignoring_case(parameter.name, threshold_name)) return;
     parameter.default_value = std::to_string(std::max(usual_threshold, lowest));
-    parameter.description += " At least " + std::to_string(lowest) + ": less is the noise of this robot's sensor.";
+    parameter.description += " At least " + std::to_string(lowest) + ", because of the noise of this robot's sensor.";
 }
 
-Fitting with_threshold(Fitting fitting, std::int32_t lowest) {
-    auto profile = std::make_shared<ComponentProfile>(*fitting.description.profile);
+Context with_threshold(Context context, std::int32_t lowest) {
+    auto profile = std::make_shared<ComponentProfile>(*context.description.profile);
     for (auto& message : profile->messages)
-        for (auto& argument : message.arguments) tell_threshold(argument, lowest);
-    for (auto& parameter : profile->parameters) tell_threshold(parameter, lowest);
-    fitting.description.profile = std::move(profile);
-    return fitting;
+        for (auto& argument : message.arguments) set_threshold_limits(argument, lowest);
+    for (auto& parameter : profile->parameters) set_threshold_limits(parameter, lowest);
+    context.description.profile = std::move(profile);
+    return context;
 }
 
-// A person is where they stand: on the floor.
+// The position of a person is on the floor: height 0.
 std::vector<Sighting> people(Hall const& hall, RobotId robot) {
     std::vector<Sighting> sightings;
     for (auto& seen : people_seen(hall, robot)) sightings.push_back({std::move(seen.ref), seen.pose, 0, seen.covariance});
@@ -80,7 +80,7 @@ std::vector<Sighting> sounds(Hall const& hall, RobotId robot) {
     return sightings;
 }
 
-// Position alone, with the part of the covariance that is about it.
+// Removes the orientation, also from the covariance.
 Located without_orientation(Located entity) {
     entity.orientation.clear();
     if (auto* covariance = std::get_if<Located::Covariance>(&entity.certainty)) {
@@ -92,16 +92,16 @@ Located without_orientation(Located entity) {
 
 class Localization final : public ContinuousFunction {
 public:
-    Localization(Fitting fitting, Kind const& kind) : Localization{lowest_threshold(kind, fitting), std::move(fitting), kind} {}
+    Localization(Context context, Kind const& kind) : Localization{lowest_threshold(kind, context), std::move(context), kind} {}
 
 private:
-    Localization(std::int32_t lowest, Fitting fitting, Kind const& kind)
-        : ContinuousFunction{with_threshold(std::move(fitting), lowest)}, kind_{kind}, lowest_{lowest} {}
+    Localization(std::int32_t lowest, Context context, Kind const& kind)
+        : ContinuousFunction{with_threshold(std::move(context), lowest)}, kind_{kind}, lowest_{lowest} {}
 
-    std::optional<std::string> unfit(ParameterList const& parameters) const override {
+    std::optional<std::string> parameter_problem(ParameterList const& parameters) const override {
         if (auto const threshold = integer_of(parameters, threshold_name); threshold && *threshold < lowest_)
-            return "parameter 'detection_threshold': " + std::to_string(*threshold) + " mm is less than the lowest that works, " +
-                   std::to_string(lowest_) + " mm: this robot's sensor does not tell a smaller movement from its noise";
+            return "parameter 'detection_threshold': " + std::to_string(*threshold) + " mm is less than the minimum of " +
+                   std::to_string(lowest_) + " mm, below which movement is lost in the noise of this robot's sensor";
         return negative(parameters, "minimum_interval");
     }
 
@@ -112,7 +112,7 @@ private:
 
     void begin() override {
         movement_.clear();
-        told_at_.reset();
+        reported_at_.reset();
     }
 
     void sense(Instant when) override {
@@ -120,11 +120,11 @@ private:
         auto const sightings = kind_.sense(hall(), robot());
         for (auto const& s : sightings) movement_.measured(s.ref, s.pose.position, s.covariance, now);
         movement_.forget_old(now);
-        if (told_at_ && now < *told_at_ + interval_) return;
-        auto const is_news = [&](Sighting const& s) { return movement_.worth_telling(s.ref, threshold_); };
+        if (reported_at_ && now < *reported_at_ + interval_) return;
+        auto const is_news = [&](Sighting const& s) { return movement_.worth_reporting(s.ref, threshold_); };
         if (std::ranges::none_of(sightings, is_news)) return;
-        told_at_ = now;
-        for (auto const& s : sightings) movement_.told(s.ref);
+        reported_at_ = now;
+        for (auto const& s : sightings) movement_.reported(s.ref);
         port().event(kind_.event_type, results(sightings, when));
     }
 
@@ -134,8 +134,8 @@ private:
         Results results;
         for (auto const& s : sightings) {
             refs.push_back(s.ref);
-            points.push_back(told(s.pose));
-            auto entity = told_located("position_data", s.ref, s.pose, s.height, s.covariance);
+            points.push_back(pose_text(s.pose));
+            auto entity = located_entity("position_data", s.ref, s.pose, s.height, s.covariance);
             bool const oriented = kind_.heading == Kind::Heading::orientation;
             results.located.push_back(oriented ? std::move(entity) : without_orientation(std::move(entity)));
         }
@@ -150,25 +150,25 @@ private:
     Metres threshold_ = 0;
     WorldTime interval_{};
     Movement movement_;
-    std::optional<WorldTime> told_at_;
+    std::optional<WorldTime> reported_at_;
 };
 
 }  // namespace
 
-std::unique_ptr<Component> person_localization(Fitting fitting) {
-    return std::make_unique<Localization>(std::move(fitting),
+std::unique_ptr<Component> person_localization(Context context) {
+    return std::make_unique<Localization>(std::move(context),
                                           Kind{"person_localized", "person_ref", Kind::Heading::orientation, people,
                                                [](Sensors const& sensors) { return sensors.people.sigma; }});
 }
 
-std::unique_ptr<Component> face_localization(Fitting fitting) {
-    return std::make_unique<Localization>(std::move(fitting),
+std::unique_ptr<Component> face_localization(Context context) {
+    return std::make_unique<Localization>(std::move(context),
                                           Kind{"face_localized", "face_ref", Kind::Heading::orientation, faces,
                                                [](Sensors const& sensors) { return sensors.faces.sigma; }});
 }
 
-std::unique_ptr<Component> sound_localization(Fitting fitting) {
-    return std::make_unique<Localization>(std::move(fitting),
+std::unique_ptr<Component> sound_localization(Context context) {
+    return std::make_unique<Localization>(std::move(context),
                                           Kind{"sound_localized", "sound_ref", Kind::Heading::direction, sounds,
                                                [](Sensors const& sensors) { return sensors.sound.sigma; }});
 }

@@ -27,16 +27,16 @@ std::vector<std::string_view> parts_of(std::string_view text, char separator) {
 std::variant<std::vector<MediaOffer>, std::string> read_media_offers(std::string_view text) {
     std::vector<MediaOffer> offers;
     if (trimmed(text).empty()) return offers;
-    if (text.size() > longest_text) return "a list has " + std::to_string(longest_text) + " bytes at most";
+    if (text.size() > longest_text) return "the list is longer than " + std::to_string(longest_text) + " bytes";
     auto const parts = parts_of(text, ',');
-    if (parts.size() > most_offers) return "a list has " + std::to_string(most_offers) + " entries at most";
+    if (parts.size() > most_offers) return "the list has more than " + std::to_string(most_offers) + " entries";
     for (auto const part : parts) {
         auto const pieces = parts_of(part, ';');
-        if (pieces.front().empty()) return "an entry of the list is empty";
+        if (pieces.front().empty()) return "the list has an empty entry";
         auto& offer = offers.emplace_back(MediaOffer{lower_case(pieces.front()), {}});
         for (auto const piece : pieces | std::views::drop(1)) {
             auto const equals = piece.find('=');
-            if (equals == piece.npos || equals == 0) return "after ';' there is name=value, not " + quoted(piece);
+            if (equals == piece.npos || equals == 0) return "expected name=value after ';', not " + quoted(piece);
             offer.fields.emplace_back(lower_case(trimmed(piece.substr(0, equals))), trimmed(piece.substr(equals + 1)));
         }
     }

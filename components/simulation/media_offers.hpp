@@ -1,4 +1,4 @@
-// What may be asked of a stream: media types and transports with fields, in the order in which they are wanted.
+// Lists of media types and transports with fields, in order of preference.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,25 @@
 
 namespace rois::simulation {
 
-// "audio/L16;rate=16000;channels=1"
+// One entry: "audio/L16;rate=16000;channels=1".
 struct MediaOffer {
-    std::string name;                                         // in small letters
-    std::vector<std::pair<std::string, std::string>> fields;  // their names in small letters
+    std::string name;                                         // in lower case
+    std::vector<std::pair<std::string, std::string>> fields;  // names in lower case
 };
 
-// Reads "audio/L16;rate=16000, audio/wav"; none of an empty text. Or why not.
+// Reads "audio/L16;rate=16000, audio/wav". Returns the offers (none for an empty text), or why the text is invalid.
 std::variant<std::vector<MediaOffer>, std::string> read_media_offers(std::string_view);
 
-// The numbers of an offer, each one of those allowed: asked for one after the other, and at the end for what is wrong.
+// Reads the fields of one offer. Read all known fields first, then call problem().
 class MediaFields {
 public:
     explicit MediaFields(MediaOffer const& offer) : offer_{offer}, known_(offer.fields.size(), false) {}
 
-    // `otherwise` when it is not there.
+    // Returns `otherwise` if the field is missing.
     std::int32_t number(std::string_view name, std::int32_t least, std::int32_t most, std::int32_t otherwise);
-    std::int32_t one_of(std::string_view name, std::vector<std::int32_t> const& allowed);  // the first when it is not there
+    std::int32_t one_of(std::string_view name, std::vector<std::int32_t> const& allowed);  // the first if missing
 
-    // The first thing that is wrong, also a field that was not asked for; nothing when all is well.
+    // Returns the first error, which may be an unknown field; nothing if the offer is valid.
     std::optional<std::string> problem() const;
 
 private:

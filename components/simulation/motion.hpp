@@ -1,4 +1,4 @@
-// What a robot's drive can be told to do, and how that goes.
+// The motions of a robot's drive and their progress.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace rois::simulation {
 
-// To these positions, one after the other, on ways that the planner finds; turns to a target's heading where it has one. A target
-// where somebody stands counts as reached at polite_distance from them, facing them.
+// Drives to these targets in order, on paths of the planner, and turns to a target's heading if it has one. If a target is
+// occupied, the robot stops at polite_distance from the occupant, facing them; the target then counts as reached.
 struct GoTo {
     std::vector<Target> targets;
     RoutingPolicy policy = RoutingPolicy::time;
@@ -21,32 +21,31 @@ struct GoTo {
 
 inline constexpr Metres polite_distance = 1.0;  // between centres
 
-// Comes up to somebody and stays `distance` away from them (centre to centre, but never so near as to touch), facing them. Never
-// backs away, and is never done by itself.
+// Approaches `whom`, and stays at `distance` (centre to centre, without touching), facing them. Never drives backwards. Never
+// ends by itself.
 struct KeepDistance {
     Entity whom;
     Metres distance = polite_distance;
 };
 
-// Turns on the spot by `turn`, relative to the heading before and to the left when positive. Then drives `distance` straight
-// along the new heading, backwards when negative.
+// Turns on the spot by `turn` (positive: to the left), then drives `distance` straight (negative: backwards).
 struct Line {
     Metres distance = 0;
     Radians turn = 0;
-    std::optional<Seconds> duration =
-        std::nullopt;  // of the whole motion: slower than usual, but never faster than the limits allow
+    std::optional<Seconds> duration = std::nullopt;  // of the whole motion, within the robot's limits
 };
 
-// Drives along a circle until the heading has changed by `turn`, to the left when positive. A negative radius drives backwards; 0
-// turns on the spot. The centre is `radius` to the left of the robot when `turn` is positive, to its right when negative; a
-// negative radius swaps the sides.
+// Drives along a circle until the heading has changed by `turn` (positive: to the left).
+//   radius > 0: forwards; the centre is to the left if `turn` is positive, to the right if negative
+//   radius < 0: backwards; the sides are swapped
+//   radius = 0: turns on the spot
 struct Curve {
     Metres radius = 0;
     Radians turn = 0;
-    std::optional<Seconds> duration = std::nullopt;  // as of a Line
+    std::optional<Seconds> duration = std::nullopt;  // as in Line
 };
 
-// Stands, and keeps the wheels. Never done by itself.
+// Stands still and occupies the drive. Never ends by itself.
 struct Stay {};
 
 using Motion = std::variant<GoTo, KeepDistance, Line, Curve, Stay>;
@@ -55,13 +54,13 @@ using Motion = std::variant<GoTo, KeepDistance, Line, Curve, Stay>;
 enum class MotionId : std::uint64_t {};
 
 enum class MotionState : std::uint8_t {
-    moving,       // under way, or keeping its distance
-    obstructed,   // waits for somebody to get out of the way; goes on by itself
+    moving,       // driving, or keeping its distance
+    obstructed,   // waits for a person or robot in the way; continues by itself
     held,         // by hold()
-    arrived,      // over: carried out; the robot stands still
-    unreachable,  // over: walls leave no way; the robot has not gone beyond the targets reached
-    lost,         // over: the one whose distance was kept has left the hall
-    ended         // over: stop() or another motion of the same owner; the robot brakes
+    arrived,      // over: completed; the robot stands still
+    unreachable,  // over: walls block all paths to the next target
+    lost,         // over: KeepDistance::whom has left the hall
+    ended         // over: by stop() or by another motion of the same owner; the robot brakes
 };
 
 constexpr bool over(MotionState s) { return s >= MotionState::arrived; }
@@ -71,15 +70,16 @@ struct Progress {
     std::size_t targets_reached = 0;  // of a GoTo
 };
 
-// What a drive needs to know of the world around it in a step.
+// The world around one robot, as its drive sees it in one step.
 class Surroundings {
 public:
     virtual ~Surroundings() = default;
     virtual FloorPlan const& plan() const = 0;
     virtual std::optional<Pose> pose_of(Entity) const = 0;
-    virtual std::vector<Disc> bodies(RobotId) const = 0;           // all but this robot's
-    virtual std::vector<Disc> others(RobotId) const = 0;           // the same, with the floor that robots need to stop on
-    virtual std::vector<Disc> others_standing(RobotId) const = 0;  // of the bodies those that do not move
+    // All people and other robots; the same, with the floor that the robots need to stop; only those that stand still.
+    virtual std::vector<Disc> obstacles(RobotId) const = 0;
+    virtual std::vector<Disc> obstacles_with_stopping_room(RobotId) const = 0;
+    virtual std::vector<Disc> standing_obstacles(RobotId) const = 0;
 };
 
 }  // namespace rois::simulation

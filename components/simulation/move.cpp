@@ -1,20 +1,20 @@
-// Move (7.6.15): a little motion from where the robot stands.
+// Move (7.6.15): a short motion relative to the robot's pose.
 #include "simulation/basic_components.hpp"
+#include "simulation/drive_action.hpp"
 #include "simulation/parameter_reading.hpp"
-#include "simulation/wheels.hpp"
 #include "types/texts.hpp"
 
 namespace rois::simulation {
 namespace {
 
-// For how long the way may be blocked.
+// How long the robot waits for a blocked way.
 constexpr WorldTime patience{10'000};
 
-class Move final : public WheelAction {
+class Move final : public DriveAction {
 public:
-    explicit Move(Fitting fitting) : WheelAction{std::move(fitting), "move"} {}
+    explicit Move(Context context) : DriveAction{std::move(context), "move"} {}
 
-    // The motion that arrived takes the place of the other one, even when it is empty.
+    // The new motion, even if empty, replaces the stored motion of the other kind.
     void reconcile(ParameterList& stored, ParameterList const& arrived) const override {
         bool const line = find(arrived, "line") != nullptr;
         bool const curve = find(arrived, "curve") != nullptr;
@@ -23,22 +23,22 @@ public:
     }
 
 private:
-    std::optional<std::string> unfit(ParameterList const& parameters) const override {
+    std::optional<std::string> parameter_problem(ParameterList const& parameters) const override {
         auto const line = integers_of(parameters, "line");
         auto const curve = integers_of(parameters, "curve");
-        if (!line.empty() && !curve.empty()) return "either 'line' or 'curve' can be driven, not both";
+        if (!line.empty() && !curve.empty()) return "'line' and 'curve' exclude each other: set only one of them";
         if (!line.empty() && line.size() != 2)
-            return "parameter 'line' must be two numbers, distance (mm) and orientation (degree), here are " +
+            return "parameter 'line' must be two numbers, distance (mm) and orientation (degree), not " +
                    std::to_string(line.size());
         if (!curve.empty() && curve.size() != 2)
-            return "parameter 'curve' must be two numbers, radius (mm) and direction (degree), here are " +
+            return "parameter 'curve' must be two numbers, radius (mm) and direction (degree), not " +
                    std::to_string(curve.size());
         return negative(parameters, "time");
     }
 
-    std::optional<std::string> missing(ParameterList const& parameters) const override {
+    std::optional<std::string> start_problem(ParameterList const& parameters) const override {
         if (!integers_of(parameters, "line").empty() || !integers_of(parameters, "curve").empty()) return {};
-        return "there is no motion: 'line' or 'curve' is mandatory";
+        return "parameter 'line' or 'curve' is mandatory";
     }
 
     void begin(ParameterList const& parameters) override {
@@ -55,16 +55,16 @@ private:
     void act() override {
         auto const state = progress().state;
         if (state == MotionState::arrived) return end(CompletedStatus::ok);
-        if (over(state)) return end(CompletedStatus::error, "a wall or something else that does not move is in the way");
+        if (over(state)) return end(CompletedStatus::error, "a wall or desk is in the way");
         if (blocked(state) < patience) return;
-        std::string const reason = what_blocks();
-        cease();
+        std::string const reason = blocking_reason();
+        stop();
         end(CompletedStatus::error, reason);
     }
 };
 
 }  // namespace
 
-std::unique_ptr<Component> move(Fitting fitting) { return std::make_unique<Move>(std::move(fitting)); }
+std::unique_ptr<Component> move(Context context) { return std::make_unique<Move>(std::move(context)); }
 
 }  // namespace rois::simulation

@@ -6,10 +6,10 @@
 namespace rois::simulation {
 namespace {
 
-// The mean of the first five measurements, then a moving one: its noise is a third of the sensor's.
+// The number of measurements for the first mean. The moving mean afterwards has a third of the sensor's noise.
 constexpr int settling = 5;
 
-// In standard deviations of the sensor: five of the difference of two smoothed positions.
+// In standard deviations of the sensor. Equals five standard deviations of the difference of two smoothed positions.
 constexpr double noise = 2.5;
 
 }  // namespace
@@ -22,19 +22,19 @@ void Movement::measured(std::string const& ref, Point const& position, Covarianc
     track.smoothed += (position - track.smoothed) / track.measurements;
     track.sigma = std::sqrt(covariance.topLeftCorner<2, 2>().trace() / 2);
     track.last = now;
-    if (track.told && track.measurements < settling) track.told = track.smoothed;
+    if (track.reported && track.measurements < settling) track.reported = track.smoothed;
 }
 
-bool Movement::worth_telling(std::string const& ref, Metres threshold) const {
+bool Movement::worth_reporting(std::string const& ref, Metres threshold) const {
     auto const found = tracks_.find(ref);
-    if (found == tracks_.end() || !found->second.told) return true;
+    if (found == tracks_.end() || !found->second.reported) return true;
     Track const& track = found->second;
-    return distance(track.smoothed, *track.told) > std::max(threshold, least_movement(track.sigma));
+    return distance(track.smoothed, *track.reported) > std::max(threshold, least_movement(track.sigma));
 }
 
-void Movement::told(std::string const& ref) {
+void Movement::reported(std::string const& ref) {
     Track& track = tracks_[ref];
-    track.told = track.smoothed;
+    track.reported = track.smoothed;
 }
 
 void Movement::forget_old(WorldTime now) {

@@ -1,4 +1,4 @@
-// Whether those who are localized have moved, seen through the noise of the sensor.
+// Detects movement of localized people and sounds despite the sensor's noise.
 #pragma once
 
 #include <map>
@@ -9,23 +9,21 @@
 
 namespace rois::simulation {
 
-// Remembers where each one was when they were told of last. Positions are smoothed over some tenths of a second first, so that a
-// sensor's noise is not taken for movement.
+// Remembers the last reported position of each ref. Positions are smoothed over some tenths of a second.
 class Movement {
 public:
-    // Who is not measured for this long is forgotten, and new when they come back.
+    // A ref without measurements for this long is forgotten.
     static constexpr WorldTime memory{5'000};
 
-    // The shortest movement that a sensor with this standard deviation tells from its noise.
+    // The shortest movement that is distinguishable from the noise of a sensor with this standard deviation.
     static Metres least_movement(Metres sigma);
 
     void measured(std::string const& ref, Point const& position, Covariance const&, WorldTime now);
 
-    // Whether one who was measured now is new, or has moved further than `threshold` since they were told of. A threshold below
-    // least_movement() counts as that.
-    bool worth_telling(std::string const& ref, Metres threshold) const;
+    // Whether a ref is new, or has moved more than `threshold` since reported(). The threshold is at least least_movement().
+    bool worth_reporting(std::string const& ref, Metres threshold) const;
 
-    void told(std::string const& ref);
+    void reported(std::string const& ref);
 
     void forget_old(WorldTime now);
     void clear() { tracks_.clear(); }
@@ -36,7 +34,7 @@ private:
         Metres sigma = 0;
         int measurements = 0;
         WorldTime last{};
-        std::optional<Point> told;
+        std::optional<Point> reported;
     };
     std::map<std::string, Track> tracks_;
 };

@@ -1,4 +1,4 @@
-// The floor plan as conditions speak of it.
+// The places and frames of the floor plan, for conditions.
 #pragma once
 
 #include "engine/places.hpp"
@@ -6,7 +6,7 @@
 
 namespace rois::simulation {
 
-// The hall under its own name, and its places, in the hall's frame; and the frames of robots that have one of their own.
+// Contains the hall and its places by name, in the hall's frame, and the frames of the robots.
 Places named_places(FloorPlan const&);
 
 }  // namespace rois::simulation

@@ -9,12 +9,12 @@
 namespace rois::simulation {
 namespace {
 
-// For how long the way or the target may be blocked.
+// How long the robot waits for a blocked way or target.
 constexpr WorldTime patience{30'000};
 
 }  // namespace
 
-std::optional<std::string> Navigation::unfit(ParameterList const& parameters) const {
+std::optional<std::string> Navigation::parameter_problem(ParameterList const& parameters) const {
     if (auto problem = negative(parameters, "time_limit")) return problem;
     auto const policy = text_of(parameters, "routing_policy");
     if (!policy.empty() && policy != "time" && policy != "distance")
@@ -24,7 +24,7 @@ std::optional<std::string> Navigation::unfit(ParameterList const& parameters) co
     return not_targets(*targets, hall().plan(), [&](auto const& text) { return target(text).has_value(); });
 }
 
-std::optional<std::string> Navigation::missing(ParameterList const& parameters) const {
+std::optional<std::string> Navigation::start_problem(ParameterList const& parameters) const {
     auto const* targets = find(parameters, "target_position");
     if (targets != nullptr && !targets->values.empty()) return {};
     return "parameter 'target_position' is mandatory";
@@ -35,7 +35,7 @@ void Navigation::begin(ParameterList const& parameters) { visit(find(parameters,
 void Navigation::visit(std::vector<std::string> targets, ParameterList const& parameters) {
     limit_ = WorldTime{integer_of(parameters, "time_limit").value_or(0)};
     names_ = std::move(targets);
-    told_ = 0;
+    reported_ = 0;
     GoTo way;
     way.policy = text_of(parameters, "routing_policy") == "distance" ? RoutingPolicy::distance : RoutingPolicy::time;
     for (auto const& name : names_) way.targets.push_back(*target(name));
@@ -51,25 +51,27 @@ void Navigation::visit(std::vector<std::string> targets, ParameterList const& pa
 
 void Navigation::act() {
     auto const [state, reached] = progress();
-    while (told_ < reached) tell_reached();
+    while (reported_ < reached) report_reached();
     if (state == MotionState::arrived) return end(CompletedStatus::ok);
-    if (over(state)) return end(CompletedStatus::error, "no way leads to " + quoted(names_[std::min(told_, names_.size() - 1)]));
+    if (over(state))
+        return end(CompletedStatus::error, "no way leads to " + quoted(names_[std::min(reported_, names_.size() - 1)]));
     if (limit_.count() > 0 && elapsed() >= limit_)
-        return give_up(CompletedStatus::timeout, "not there within time_limit, " + std::to_string(limit_.count()) + " ms");
-    if (blocked(state) >= patience) give_up(CompletedStatus::error, what_blocks());
+        return give_up(CompletedStatus::timeout,
+                       "target not reached within time_limit, " + std::to_string(limit_.count()) + " ms");
+    if (blocked(state) >= patience) give_up(CompletedStatus::error, blocking_reason());
 }
 
-void Navigation::tell_reached() {
-    auto reached = text("target", names_[told_++]);
+void Navigation::report_reached() {
+    auto reached = text("target", names_[reported_++]);
     reached.data_type_ref.codebook_ref = description().crs;
-    port().event("reached_target", {{std::move(reached), boolean("is_final_target", told_ == names_.size())}, {}});
+    port().event("reached_target", {{std::move(reached), boolean("is_final_target", reported_ == names_.size())}, {}});
 }
 
 void Navigation::give_up(CompletedStatus status, std::string reason) {
-    cease();
+    stop();
     end(status, std::move(reason));
 }
 
-std::unique_ptr<Component> navigation(Fitting fitting) { return std::make_unique<Navigation>(std::move(fitting), "navigation"); }
+std::unique_ptr<Component> navigation(Context context) { return std::make_unique<Navigation>(std::move(context), "navigation"); }
 
 }  // namespace rois::simulation

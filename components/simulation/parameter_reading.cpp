@@ -62,7 +62,7 @@ std::optional<std::string> not_targets(Parameter const& targets, FloorPlan const
     for (auto const& text : targets.values)
         if (!is_target(text))
             return "parameter '" + targets.name + "': " + quoted(text) +
-                   R"( is neither "x, y" nor "x, y, th" (mm, mm, degree) nor one of the places )" +
+                   R"( is not a valid target: expected "x, y", "x, y, th" (mm, mm, degree) or one of the places )" +
                    listed(plan.places, &Place::name);
     return {};
 }

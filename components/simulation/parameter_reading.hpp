@@ -1,4 +1,4 @@
-// Reading parameters whose values were already checked to be of their types.
+// Reads parameters whose values have been validated against their data types.
 #pragma once
 
 #include <cstdint>
@@ -13,26 +13,26 @@
 
 namespace rois::simulation {
 
-// Nothing when the parameter is not there.
+// Returns nothing if the parameter is missing.
 std::optional<std::int32_t> integer_of(ParameterList const&, std::string_view name);
 
-// Without white space at the ends; empty when the parameter is not there.
+// Returns the trimmed text; empty if the parameter is missing.
 std::string_view text_of(ParameterList const&, std::string_view name);
 
-// False when the parameter is not there.
+// Returns false if the parameter is missing.
 bool is_true(ParameterList const&, std::string_view name);
 
-// The codebook of a parameter of type RoISIdentifier; empty when the parameter or its codebook is not there.
+// Returns the codebook of a parameter of type RoISIdentifier; empty if the parameter or its codebook is missing.
 std::string_view codebook_of(ParameterList const&, std::string_view name);
 
-// Of a list of numbers; empty when the parameter is not there.
+// Returns a list of numbers; empty if the parameter is missing.
 std::vector<std::int32_t> integers_of(ParameterList const&, std::string_view name);
 
-// Why this number is none of those allowed, or nothing; an absent one is fine.
+// Return an error if the number is out of range, else nothing. A missing parameter is valid.
 std::optional<std::string> not_between(ParameterList const&, std::string_view name, std::int32_t least, std::int32_t most);
 std::optional<std::string> negative(ParameterList const&, std::string_view name);
 
-// Why one of these is no position to go to, or nothing; the plan has the places that may be named.
+// Returns an error if one of the values is not a valid target, else nothing. The error lists the places of the plan.
 std::optional<std::string> not_targets(Parameter const&, FloorPlan const&,
                                        std::function<bool(std::string const&)> const& is_target);
 

@@ -1,4 +1,4 @@
-// A person in the hall, as everybody can see them.
+// A person in the hall: the state that others can observe.
 #pragma once
 
 #include <optional>
@@ -17,10 +17,10 @@ struct Speech {
     std::string language;  // ISO 639-1
     WorldTime began{};
     WorldTime ends{};
-    std::string character{};  // of a robot's voice (voice_characters.hpp); a person has none
+    std::string character{};  // of a robot's voice (voice_characters.hpp); empty for a person
 };
 
-// A gesture being made.
+// A gesture in progress.
 struct Gesturing {
     std::string id;
     WorldTime ends{};
@@ -28,12 +28,12 @@ struct Gesturing {
 
 struct Person {
     PersonId id{};
-    std::string role;    // the permanent id, "tanaka"; for unknown ones only the scenario's or the arrivals' name of them
-    bool known = false;  // robots may learn `role` by identification
+    std::string role;    // the permanent id, "tanaka"; internal for unknown people
+    bool known = false;  // robots can learn `role` by identification
     Metres height = 1.68;
     Gender gender = Gender::not_known;
-    std::optional<int> age;          // years; what a robot makes of it is only near
-    Pose pose;                       // heading: where body and face look
+    std::optional<int> age;          // years
+    Pose pose;                       // the heading of body and face
     Point velocity = Point::Zero();  // m/s in the hall's frame
     std::optional<Speech> speaking;
     std::optional<Gesturing> gesturing;

@@ -14,9 +14,9 @@ namespace {
 using Box2 = Eigen::AlignedBox2d;
 
 constexpr Metres cell_size = 0.125;
-constexpr Metres wall_room = 0.04;    // left between a body and the walls where there is room
-constexpr Metres bend_room = 0.06;    // the same beside walls' ends and desks' corners, which are passed in a bend
-constexpr Metres start_search = 0.8;  // how far a free cell may be from a start or an end that is in a blocked one
+constexpr Metres wall_room = 0.04;    // kept to walls if there is room
+constexpr Metres bend_room = 0.06;    // the same at the ends of walls and corners of desks, which paths pass in a bend
+constexpr Metres start_search = 0.8;  // maximum distance of a free cell from a blocked start or end
 
 struct Direction {
     int column;
@@ -27,14 +27,14 @@ constexpr double diagonal = std::numbers::sqrt2;
 constexpr std::array<Direction, 8> directions{
     {{1, 0, 1}, {1, 1, diagonal}, {0, 1, 1}, {-1, 1, diagonal}, {-1, 0, 1}, {-1, -1, diagonal}, {0, -1, 1}, {1, -1, diagonal}}};
 
-constexpr int points_around = 8;  // an edge or a body
+constexpr int points_around = 8;  // of an edge or obstacle
 constexpr Radians step_around = 2 * std::numbers::pi / points_around;
-constexpr Metres wide_room = 0.35;          // beyond the nearest points around it
-constexpr std::size_t most_passages = 240;  // those that lie least out of the way
+constexpr Metres wide_room = 0.35;          // farther out than the nearest points
+constexpr std::size_t most_passages = 240;  // the ones with the shortest detours
 
 }  // namespace
 
-// One search over the cells for the shortest way.
+// One A* search over the cells for the shortest path.
 class Planner::Search {
 public:
     Search(Planner const& planner, Blocked const& blocked)
@@ -43,13 +43,13 @@ public:
           cost_(blocked.size(), std::numeric_limits<float>::infinity()),
           parent_(blocked.size(), none) {}
 
-    // Cells from the one after `from` to `to`; empty when there is no way, or they are the same.
+    // Returns the cells after `from` up to `to`; empty if there is no path or the cells are equal.
     std::vector<Cell> run(Cell from, Cell to) {
         offer(from, 0, none, to);
         while (!open_.empty()) {
             Entry const entry = open_.top();
             open_.pop();
-            if (entry.cost > cost_[entry.cell]) continue;  // a better one was expanded before
+            if (entry.cost > cost_[entry.cell]) continue;  // a better entry was expanded before
             if (entry.cell == planner_.index(to)) return back_from(entry.cell);
             expand(entry, to);
         }
@@ -62,7 +62,7 @@ private:
         float estimate;
         float cost;
         std::uint32_t cell;
-        bool operator<(Entry const& other) const {  // for a queue whose top is the least
+        bool operator<(Entry const& other) const {  // makes the smallest the top of the queue
             return estimate != other.estimate ? estimate > other.estimate : cell > other.cell;
         }
     };
@@ -160,7 +160,7 @@ std::size_t Planner::index(Cell cell) const {
     return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(cell.column);
 }
 
-// The discs that this body's centre stays out of.
+// The discs that the body's centre must not enter.
 std::vector<Disc> Planner::kept_clear(std::span<Disc const> in_the_way) const {
     std::vector<Disc> kept{in_the_way.begin(), in_the_way.end()};
     for (Disc& disc : kept) disc.radius += radius_ + elbow_room;
@@ -251,7 +251,7 @@ std::optional<std::vector<Point>> Planner::way(Pose const& from, Point const& to
     return improved(from, smoothed(from.position, corners, kept), policy, kept);
 }
 
-// The points of an octagon about a disc, just so far off that one can go from each to the next without touching it.
+// Adds an octagon around a disc, just large enough that its sides do not touch the disc.
 void Planner::add_passages(Disc const& off, std::span<Disc const> kept_clear, std::vector<Point>& passages) const {
     for (int k = 0; k < points_around; ++k) {
         Point const p = off.centre + (off.radius + 0.001) / std::cos(step_around / 2) * unit((k + 0.5) * step_around);
@@ -259,7 +259,7 @@ void Planner::add_passages(Disc const& off, std::span<Disc const> kept_clear, st
     }
 }
 
-// The same farther off: ways over them are longer, and their bends are gentler.
+// Adds a larger octagon, for longer paths with gentler bends.
 void Planner::add_wide_passages(Disc const& off, std::span<Disc const> kept_clear, std::vector<Point>& passages) const {
     for (int k = 0; k < points_around; ++k) {
         Point const p = off.centre + (off.radius + wide_room) * unit(k * step_around);
@@ -267,7 +267,7 @@ void Planner::add_wide_passages(Disc const& off, std::span<Disc const> kept_clea
     }
 }
 
-// The points over which a way may be better than one of that length.
+// The points through which a path may be better than one of length `longest`.
 std::vector<Point> Planner::passages_near(Point const& from, Point const& to, Metres longest, RoutingPolicy policy,
                                           std::span<Disc const> kept_clear) const {
     std::vector<Point> near = passages_;
@@ -283,7 +283,7 @@ std::vector<Point> Planner::passages_near(Point const& from, Point const& to, Me
     return near;
 }
 
-// The best way by the policy that is found over the corners of this one and around edges and bodies.
+// Returns the best path by the policy over the corners of `way` and over points around edges and obstacles.
 std::vector<Point> Planner::improved(Pose const& from, std::vector<Point> way, RoutingPolicy policy,
                                      std::span<Disc const> kept_clear) const {
     if (way.size() < 2) return way;
@@ -298,7 +298,7 @@ std::vector<Point> Planner::improved(Pose const& from, std::vector<Point> way, R
         return i == 0 ? from.position : i <= crossing.over.size() ? crossing.over[i - 1] : crossing.to;
     };
     auto const can_go = [&](std::size_t a, std::size_t b) {
-        bool const next = b == a + 1 ? b < known : a + 1 == known && b > crossing.over.size();  // one of the way's own legs
+        bool const next = b == a + 1 ? b < known : a + 1 == known && b > crossing.over.size();  // a leg of the original path
         if (next) return true;
         return (!leads_away || a != 0) && straight(point(a), point(b), kept_clear);
     };
@@ -306,13 +306,13 @@ std::vector<Point> Planner::improved(Pose const& from, std::vector<Point> way, R
     return better.empty() ? way : better;
 }
 
-// Leaves out every corner that can be passed by in a straight line.
+// Removes corners that a straight line can bypass.
 std::vector<Point> Planner::smoothed(Point const& from, std::vector<Point> const& corners,
                                      std::span<Disc const> kept_clear) const {
     std::vector<Point> way;
     Point at = from;
     std::size_t next = 0;
-    if (cramped(from, kept_clear)) {  // first away from the wall or body
+    if (cramped(from, kept_clear)) {  // first away from the wall or obstacle
         at = corners[next++];
         way.push_back(at);
     }

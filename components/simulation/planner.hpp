@@ -1,5 +1,5 @@
-// Ways through the hall: a way is found by A* on a grid around walls, desks and those who stand in the way; then the best one by
-// the policy is looked for over its corners and points close around edges and bodies.
+// Finds paths through the hall: A* on a grid finds a path around walls, desks and obstacles. A search over its corners and over
+// points around edges and obstacles then improves the path by the policy.
 #pragma once
 
 #include <cstdint>
@@ -12,24 +12,25 @@
 
 namespace rois::simulation {
 
-// For bodies of one radius. Immutable after construction.
+// Plans for bodies of one radius. Immutable after construction.
 class Planner {
 public:
-    // The agility says what ways cost under `time`.
+    // The agility determines costs under the policy `time`.
     Planner(FloorPlan const&, Metres radius, Agility const&);
 
-    // Corner points from `from` (not included) to `to` (included), or nothing when there is no way. `in_the_way` are the discs of
-    // others, which are kept clear of; from one that is too near already the way first leads away.
+    // Returns the corners of the path, without `from`, with `to`; nothing if there is no path. The path keeps elbow_room to the
+    // discs `in_the_way`. If one is too near to `from`, the path first leads away from it.
     std::optional<std::vector<Point>> way(Pose const& from, Point const& to, RoutingPolicy,
                                           std::span<Disc const> in_the_way = {}) const;
 
-    // Room that is left between a body and those in its way.
+    // The distance that paths keep to obstacles.
     static constexpr Metres elbow_room = 0.1;
 
-    // Whether a body can stand there, walls and desks considered, and those in the way, if any.
+    // Whether a body can stand there without touching walls, desks and the discs in the way.
     bool fits(Point const&, std::span<Disc const> in_the_way = {}) const;
 
-    // Of the points at `away` from `centre` where a body fits with nothing between it and the centre, the nearest to `from`.
+    // Returns the point nearest to `from` at distance `away` from `centre` where a body fits. No wall or desk lies between the
+    // point and the centre.
     std::optional<Point> beside(Point const& centre, Metres away, Point const& from, std::span<Disc const> in_the_way = {}) const;
 
 private:
@@ -38,7 +39,7 @@ private:
         int column;
         int row;
     };
-    using Blocked = std::vector<std::uint8_t>;  // a cell each
+    using Blocked = std::vector<std::uint8_t>;  // one entry for each cell
 
     Cell cell_at(Point const&) const;
     Point centre(Cell) const;
@@ -48,7 +49,7 @@ private:
     std::vector<Disc> kept_clear(std::span<Disc const> in_the_way) const;
     Blocked blocked_with(std::span<Disc const> kept_clear) const;
     std::optional<Cell> free_cell_near(Point const&, Blocked const&) const;
-    bool cramped(Point const&, std::span<Disc const> kept_clear) const;  // where ways have to lead away first
+    bool cramped(Point const&, std::span<Disc const> kept_clear) const;  // paths must lead away first
     bool straight(Point const& from, Point const& to, std::span<Disc const> kept_clear) const;
     std::vector<Point> smoothed(Point const& from, std::vector<Point> const& corners, std::span<Disc const> kept_clear) const;
 
@@ -65,7 +66,7 @@ private:
     int rows_;
     std::vector<Point> passages_;  // around the ends of walls and the corners of desks
     std::vector<Point> wide_passages_;
-    Blocked blocked_;  // cells whose centre is too near to a wall or desk
+    Blocked blocked_;  // whether a cell's centre is too near to a wall or desk
 };
 
 }  // namespace rois::simulation

@@ -1,6 +1,6 @@
-// Units, places and frames of the simulated world. Inside it everything is SI: metres, radians counter-clockwise, seconds; the
-// wire's millimetres and degrees are made in wire_units.hpp and nowhere else. The frame of the hall: x to the right of the floor
-// plan, y up, heading 0 along x.
+// Units, poses and frames of the simulated world. Units are SI: metres, radians (counter-clockwise) and seconds. Only
+// wire_units.hpp converts to the millimetres and degrees of messages. In the hall's frame, x points to the right of the floor
+// plan, y up, and heading 0 along x.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -15,7 +15,7 @@ using Seconds = double;
 using MetresPerSecond = double;
 using RadiansPerSecond = double;
 
-// Time since the world began, in its own seconds: never the real clock's.
+// World time since the start of the simulation. Never real time.
 using WorldTime = std::chrono::milliseconds;
 
 constexpr Seconds in_seconds(WorldTime t) { return static_cast<double>(t.count()) / 1000.0; }
@@ -25,7 +25,7 @@ constexpr double to_degrees(Radians angle) { return angle * 180.0 / std::numbers
 
 using Point = Eigen::Vector2d;
 
-// Of a measured pose, ordered x, y, heading: m^2, m rad, rad^2.
+// Covariance of a pose in the order x, y, heading; in m^2, m rad and rad^2.
 using Covariance = Eigen::Matrix3d;
 
 struct Pose {
@@ -40,11 +40,11 @@ struct Twist {
 
 Radians wrapped(Radians angle);  // into (-pi, pi]
 Metres distance(Point const& a, Point const& b);
-Radians direction(Point const& from, Point const& to);  // in the hall's frame; 0 when they are the same
+Radians direction(Point const& from, Point const& to);  // in the hall's frame; 0 if the points are equal
 Radians bearing(Pose const& from, Point const& to);     // relative to the heading of `from`, in (-pi, pi]
 Point unit(Radians heading);
 
-// From the frame of a body at that pose (x ahead, y to its left) to the hall's; `.inverse()` goes back.
+// Returns the transform from the frame of a body (x ahead, y to its left) to the hall's frame.
 Eigen::Isometry2d frame(Pose const& body);
 
 }  // namespace rois::simulation

@@ -11,7 +11,7 @@ double Random::uniform(double low, double high) { return low + (high - low) * un
 
 std::size_t Random::below(std::size_t count) { return static_cast<std::size_t>(uniform() * static_cast<double>(count)); }
 
-// Box and Muller's; the second number is not kept, so that the state is the engine's alone.
+// Box-Muller transform. Discards the second number, so that engine_ is the only state.
 double Random::gaussian() {
     double const length = std::sqrt(-2.0 * std::log(1.0 - uniform()));
     return length * std::cos(2.0 * std::numbers::pi * uniform());
@@ -19,7 +19,7 @@ double Random::gaussian() {
 
 bool Random::chance(double probability) { return uniform() < probability; }
 
-// The finalizer of splitmix64, chained.
+// Chains the finalizer of splitmix64.
 std::uint64_t mixed(std::initializer_list<std::uint64_t> parts) {
     std::uint64_t state = 0x9e3779b97f4a7c15u;
     for (std::uint64_t part : parts) {

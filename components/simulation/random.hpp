@@ -1,4 +1,4 @@
-// Random numbers that are the same on every machine: the distributions are our own, since those of the standard library differ.
+// Random numbers that are the same on every machine. Own distributions, since those of standard libraries differ.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ private:
     std::mt19937_64 engine_;
 };
 
-// One number made of many, well mixed: the same parts give the same number. For noise that does not depend on who asks how often.
+// Returns a hash of the parts, as a seed for noise that does not depend on the number and order of calls.
 std::uint64_t mixed(std::initializer_list<std::uint64_t> parts);
 
 }  // namespace rois::simulation

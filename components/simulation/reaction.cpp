@@ -1,4 +1,4 @@
-// Reaction (7.6.12): gestures of the robot, of Annex D.
+// Reaction (7.6.12): shows a reaction of Annex D.
 #include <utility>
 
 #include "simulation/basic_components.hpp"
@@ -12,8 +12,8 @@ namespace {
 
 class Reaction final : public Action {
 public:
-    explicit Reaction(Fitting fitting)
-        : Action{taking_identifiers(moving(std::move(fitting)), "reaction_ref", {codebook::reaction})} {}
+    explicit Reaction(Context context)
+        : Action{with_identifier_parameter(with_motion(std::move(context)), "reaction_ref", {codebook::reaction})} {}
 
     ParameterList readable_parameters() const override {
         std::vector<std::string> codes;
@@ -22,15 +22,15 @@ public:
     }
 
 private:
-    std::optional<std::string> unfit(ParameterList const& parameters) const override {
+    std::optional<std::string> parameter_problem(ParameterList const& parameters) const override {
         auto const wanted = text_of(parameters, "reaction_ref");
         if (wanted.empty() || !reaction_code(wanted).empty()) return {};
-        return "parameter 'reaction_ref': " + quoted(wanted) + " is unknown; known are 1 to " +
+        return "parameter 'reaction_ref': " + quoted(wanted) + " is unknown; expected 1 to " +
                std::to_string(reaction_types.size()) + " of " + std::string{codebook::reaction} +
-               " and their names, such as nod (1), bow (9) or wave (28)";
+               " or a name such as nod (1), bow (9) or wave (28)";
     }
 
-    std::optional<std::string> missing(ParameterList const& parameters) const override {
+    std::optional<std::string> start_problem(ParameterList const& parameters) const override {
         if (!text_of(parameters, "reaction_ref").empty()) return {};
         return "parameter 'reaction_ref' is mandatory";
     }
@@ -46,7 +46,7 @@ private:
         if (remaining() <= 0) end(CompletedStatus::ok);
     }
 
-    void cease() override { hall().stop_showing(robot()); }
+    void stop() override { hall().stop_showing(robot()); }
     void hold() override { hall().stop_showing(robot()); }
     void go_on() override { hall().show(robot(), code_, remaining()); }
 
@@ -55,6 +55,6 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> reaction(Fitting fitting) { return std::make_unique<Reaction>(std::move(fitting)); }
+std::unique_ptr<Component> reaction(Context context) { return std::make_unique<Reaction>(std::move(context)); }
 
 }  // namespace rois::simulation

@@ -1,4 +1,4 @@
-// What a robot can show: the example codebook Reaction_Type of Annex D.
+// The reactions of robots: the example codebook Reaction_Type of Annex D.
 #pragma once
 
 #include <array>
@@ -14,17 +14,17 @@ struct ReactionType {
     Seconds duration;
 };
 
-// In the annex's order; the code of the first one is "1".
+// In the order of the annex. The code of the first reaction is "1".
 extern std::array<ReactionType, 50> const reaction_types;
 
-// The code of a reaction that is named by its code or, in any case, by its name or that of its gesture, "bow", the first one that
-// is seen as it; empty when it is none of these.
+// Returns the code of a reaction given by its code, its name or the name of its gesture, "bow" (names ignore case). If several
+// reactions have the same gesture, returns the first. Empty if unknown.
 std::string reaction_code(std::string_view code_or_name);
 
-// As which of the gestures() others see the reaction of that code; empty when as none.
+// Returns which of the gestures() the reaction looks like; empty if none.
 std::string_view gesture_of(std::string_view code);
 
-// The reaction of that code, which must be one.
+// Returns the reaction with this code, which must be valid.
 ReactionType const& reaction_type(std::string_view code);
 
 }  // namespace rois::simulation

@@ -1,5 +1,5 @@
-// Person gender identification and person age recognition (Annex C.2, C.3): told of everybody who is near enough and turned to
-// the robot, once for each time that they are tracked.
+// Person gender identification and person age recognition (Annex C.2, C.3): report people who are near enough and turned to the
+// robot, once while they are tracked.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -12,44 +12,44 @@
 namespace rois::simulation {
 namespace {
 
-// Tells of people when they are first recognized.
+// Reports people when they are first recognized.
 class RecognitionOfPeople : public ContinuousFunction {
 public:
     using ContinuousFunction::ContinuousFunction;
 
 protected:
-    // Whether anything can be told of this person.
-    virtual bool can_tell(Person const&) const = 0;
-    virtual void tell(std::vector<Person const*> const& people, Results results) = 0;
+    virtual bool can_report(Person const&) const = 0;
+    virtual void report(std::vector<Person const*> const& people, Results results) = 0;
 
 private:
-    void begin() final { told_.clear(); }
+    void begin() final { reported_.clear(); }
 
     void sense(Instant when) final {
-        std::erase_if(told_, [&](PersonId person) { return !hall().track(person); });
+        std::erase_if(reported_, [&](PersonId person) { return !hall().track(person); });
         std::vector<Person const*> news;
         std::vector<std::string> refs;
         Results results;
         auto const seen = people_seen(hall(), robot());
         for (auto const& recognized : people_recognized(hall(), robot())) {
             auto const* person = hall().person(recognized.person);
-            if (person == nullptr || !can_tell(*person) || !told_.insert(recognized.person).second) continue;
+            if (person == nullptr || !can_report(*person) || !reported_.insert(recognized.person).second) continue;
             news.push_back(person);
             refs.push_back(recognized.track);
             auto const sighting = std::ranges::find(seen, recognized.person, &SeenPerson::person);
             if (sighting != seen.end())
-                results.located.push_back(told_located("person_ref", recognized.track, sighting->pose, 0, sighting->covariance));
+                results.located.push_back(
+                    located_entity("person_ref", recognized.track, sighting->pose, 0, sighting->covariance));
         }
         if (news.empty()) return;
         results.parameters = {date_time("timestamp", when.utc),
                               references("person_ref", std::move(refs), std::string{codebook::track})};
-        tell(news, std::move(results));
+        report(news, std::move(results));
     }
 
-    std::set<PersonId> told_;
+    std::set<PersonId> reported_;
 };
 
-// A list of numbers, as it is written.
+// Writes a list of numbers.
 template <class NumberOf>
 Parameter numbers(std::string name, std::vector<Person const*> const& people, NumberOf number_of) {
     std::string text;
@@ -64,9 +64,9 @@ public:
     using RecognitionOfPeople::RecognitionOfPeople;
 
 private:
-    bool can_tell(Person const&) const override { return true; }
+    bool can_report(Person const&) const override { return true; }
 
-    void tell(std::vector<Person const*> const& people, Results results) override {
+    void report(std::vector<Person const*> const& people, Results results) override {
         results.parameters.push_back(
             numbers("person_gender_code", people, [](Person const& person) { return static_cast<int>(person.gender); }));
         results.parameters.back().data_type_ref.codebook_ref = codebook::gender;
@@ -82,15 +82,15 @@ private:
     static constexpr double sigma = 3;  // years
     static constexpr int margin = 6;    // to either side of the estimate
 
-    bool can_tell(Person const& person) const override { return person.age.has_value(); }
+    bool can_report(Person const& person) const override { return person.age.has_value(); }
 
-    // What the robot takes somebody's age for: the same for each look at one visit.
+    // The estimated age. It is the same during one visit.
     int estimate(Person const& person) const {
         Random random{mixed({hall().seed(), 7, static_cast<std::uint64_t>(robot()), static_cast<std::uint64_t>(person.id)})};
         return static_cast<int>(std::lround(*person.age + random.gaussian() * sigma));
     }
 
-    void tell(std::vector<Person const*> const& people, Results results) override {
+    void report(std::vector<Person const*> const& people, Results results) override {
         results.parameters.push_back(
             numbers("lower_age_limit", people, [&](Person const& person) { return std::max(0, estimate(person) - margin); }));
         results.parameters.push_back(
@@ -101,12 +101,12 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> person_gender_identification(Fitting fitting) {
-    return std::make_unique<GenderIdentification>(std::move(fitting));
+std::unique_ptr<Component> person_gender_identification(Context context) {
+    return std::make_unique<GenderIdentification>(std::move(context));
 }
 
-std::unique_ptr<Component> person_age_recognition(Fitting fitting) {
-    return std::make_unique<AgeRecognition>(std::move(fitting));
+std::unique_ptr<Component> person_age_recognition(Context context) {
+    return std::make_unique<AgeRecognition>(std::move(context));
 }
 
 }  // namespace rois::simulation

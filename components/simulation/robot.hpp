@@ -1,4 +1,4 @@
-// A robot in the hall: its drive, its voice and the reactions that it shows.
+// A robot in the hall: its utterances, its reactions and its observable state.
 #pragma once
 
 #include <cstdint>
@@ -16,46 +16,46 @@ namespace rois::simulation {
 // Names one utterance of one robot.
 enum class UtteranceId : std::uint64_t {};
 
-// Some of what a robot says, in one language, with one voice and one prosody.
+// A part of an utterance in one language, with one voice and one prosody.
 struct Passage {
-    std::string text;      // plain
+    std::string text;      // without markup
     std::string language;  // ISO 639-1
-    Seconds duration = 0;  // with its pauses
-    std::string prosody;   // how the voice sounds, "pitch high, volume loud"; empty: as usual
+    Seconds duration = 0;  // with pauses
+    std::string prosody;   // "pitch high, volume loud"; empty: the default
     std::string character{default_character};
 
     bool operator==(Passage const&) const = default;
 };
 
 struct Utterance {
-    std::string text;  // plain
+    std::string text;  // without markup
     std::string language = "en";
-    double loudness = 0.5;                     // 0 to 1: visitors hear 0.5 at 5 m
+    double loudness = 0.5;                     // 0 to 1; 0.5 reaches visitors within 5 m
     std::optional<Seconds> duration;           // absent: speech_duration(text) at the pace of the character
-    std::string prosody{};                     // of `text`, as a passage has it
-    std::string character{default_character};  // of `text`: with which voice it is said
-    std::vector<Passage> further{};            // said after it, each heard as speech of its own
+    std::string prosody{};                     // of `text`, as in Passage
+    std::string character{default_character};  // the voice of `text`
+    std::vector<Passage> further{};            // spoken after `text`, each as separate speech
 };
 
 enum class SpeechState : std::uint8_t {
     speaking,
     held,
-    spoken,  // over, to its last word
-    broken   // over, before its last word
+    spoken,  // over: completed
+    broken   // over: broken off before the last word
 };
 
-// How long somebody speaks a text: by its characters, at least half a second. Scripts without spaces count more per character.
+// Estimates how long a text takes to speak, from its characters; at least 0.5 s. Characters of scripts without spaces count more.
 Seconds speech_duration(std::string_view text);
-// The same of a part of a text, which may be shorter.
+// The same for a part of a text, without the minimum.
 Seconds spoken_seconds(std::string_view text);
 
-// What a robot shows at the moment.
+// A reaction in progress.
 struct Showing {
     std::string reaction;  // its code
     WorldTime ends{};
 };
 
-// As others see it. `drive` is reached through the Hall.
+// The observable state of a robot. Hall::drive() returns its drive.
 struct Robot {
     RobotId id{};
     std::string name;

@@ -8,7 +8,7 @@
 namespace rois::simulation {
 namespace {
 
-// Null when it is the hall's.
+// Returns null if the robot uses the hall's frame.
 RobotFrame const* frame_of(FloorPlan const& plan, RobotId robot) {
     auto const& frame = plan.robots.at(static_cast<std::size_t>(robot)).frame;
     return frame ? &*frame : nullptr;
@@ -20,8 +20,8 @@ Pose moved(Pose const& pose, Eigen::Isometry2d const& by, Radians turn) {
 
 }  // namespace
 
-Fitting fitting(std::shared_ptr<Simulation> const& simulation, std::shared_ptr<media::Media> const& media, Robot const& robot,
-                std::string_view name, std::shared_ptr<ComponentProfile const> profile) {
+Context make_context(std::shared_ptr<Simulation> const& simulation, std::shared_ptr<media::Media> const& media,
+                     Robot const& robot, std::string_view name, std::shared_ptr<ComponentProfile const> profile) {
     bool const first = robot.id == simulation->hall().robots().front().id;
     Identifier const identifier{.code = component_ref(name, first ? "" : robot.name),
                                 .authority = profile->object.code_space,
@@ -39,43 +39,42 @@ Fitting fitting(std::shared_ptr<Simulation> const& simulation, std::shared_ptr<m
             .media = media};
 }
 
-Fitting taking_positions(Fitting fitting, std::string parameter) {
-    fitting.description.positions.push_back(std::move(parameter));
-    return fitting;
+Context with_position_parameter(Context context, std::string parameter) {
+    context.description.positions.push_back(std::move(parameter));
+    return context;
 }
 
-Fitting taking_identifiers(Fitting fitting, std::string parameter, std::vector<std::string_view> const& codebooks) {
-    fitting.description.codebooks.push_back({std::move(parameter), {codebooks.begin(), codebooks.end()}});
-    return fitting;
+Context with_identifier_parameter(Context context, std::string parameter, std::vector<std::string_view> const& codebooks) {
+    context.description.codebooks.push_back({std::move(parameter), {codebooks.begin(), codebooks.end()}});
+    return context;
 }
 
-Fitting moving(Fitting fitting) {
-    fitting.description.moves = true;
-    return fitting;
+Context with_motion(Context context) {
+    context.description.moves = true;
+    return context;
 }
 
-RobotComponent::RobotComponent(Fitting fitting) : fitting_{std::move(fitting)} {}
+RobotComponent::RobotComponent(Context context) : context_{std::move(context)} {}
 
-RobotComponent::~RobotComponent() { fitting_.simulation->part(*this); }
+RobotComponent::~RobotComponent() { context_.simulation->part(*this); }
 
 void RobotComponent::attach(ComponentPort& port) {
     port_ = &port;
-    fitting_.simulation->join(*this);
+    context_.simulation->join(*this);
 }
 
-ComponentStatus RobotComponent::status() const { return last_step_ ? condition() : ComponentStatus::uninitialized; }
+ComponentStatus RobotComponent::status() const { return last_step_ ? running_status() : ComponentStatus::uninitialized; }
 
-// Where the robot is.
 std::optional<Located> RobotComponent::location() const {
     Robot const& self = hall().robot(robot());
-    return told_located("location", self.name, self.pose, 0, {});
+    return located_entity("location", self.name, self.pose, 0, {});
 }
 
 std::optional<std::string> RobotComponent::refusal(std::string_view command_type, ParameterList const& parameters) const {
     bool const starts = command_type == "start";
-    if (!starts && command_type != "set_parameter") return impossible(command_type, parameters);
-    if (auto problem = unfit(parameters)) return problem;
-    return starts ? missing(parameters) : std::nullopt;
+    if (!starts && command_type != "set_parameter") return command_problem(command_type, parameters);
+    if (auto problem = parameter_problem(parameters)) return problem;
+    return starts ? start_problem(parameters) : std::nullopt;
 }
 
 RobotFrame const* RobotComponent::own_frame() const { return frame_of(hall().plan(), robot()); }
@@ -85,13 +84,13 @@ std::string const& RobotComponent::crs() const {
     return frame == nullptr ? hall().plan().crs : frame->crs;
 }
 
-std::string RobotComponent::told(Pose const& pose) const {
+std::string RobotComponent::pose_text(Pose const& pose) const {
     auto const* const own = own_frame();
     return to_wire(own == nullptr ? pose : moved(pose, frame(own->origin).inverse(), -own->origin.heading));
 }
 
-Located RobotComponent::told_located(std::string of, std::string ref, Pose const& pose, Metres height,
-                                     std::optional<Covariance> const& covariance) const {
+Located RobotComponent::located_entity(std::string of, std::string ref, Pose const& pose, Metres height,
+                                       std::optional<Covariance> const& covariance) const {
     auto const* const own = own_frame();
     if (own == nullptr) return located(std::move(of), std::move(ref), crs(), pose, height, covariance);
     auto const into = frame(own->origin).inverse();
@@ -116,7 +115,7 @@ std::optional<Target> RobotComponent::target(std::string_view text) const {
 void RobotComponent::observe(Instant when) {
     last_step_ = when;
     watch(when);
-    stepped(when);
+    on_step(when);
 }
 
 void ContinuousFunction::start(CommandHandle command, ParameterList const& parameters, Instant) {
@@ -147,7 +146,7 @@ void ContinuousFunction::parameters_changed(ParameterList const& parameters, Ins
     if (state_ != State::idle) apply(parameters);
 }
 
-void ContinuousFunction::stepped(Instant when) {
+void ContinuousFunction::on_step(Instant when) {
     if (state_ == State::active) sense(when);
 }
 
@@ -160,8 +159,8 @@ void Action::start(CommandHandle command, ParameterList const& parameters, Insta
 }
 
 Halted Action::halt(Instant) {
-    if (std::exchange(command_, {})) cease();
-    halting_ = !has_ceased();
+    if (std::exchange(command_, {})) stop();
+    halting_ = !has_stopped();
     return halting_ ? Halted::not_yet : Halted::confirmed;
 }
 
@@ -177,8 +176,8 @@ void Action::resume(Instant) {
     go_on();
 }
 
-void Action::stepped(Instant) {
-    if (halting_ && has_ceased()) {
+void Action::on_step(Instant) {
+    if (halting_ && has_stopped()) {
         halting_ = false;
         port().halted();
     }

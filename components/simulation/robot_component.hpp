@@ -1,5 +1,5 @@
-// What the components of a robot have in common, and the two kinds that nearly all of them are: functions that go on until they
-// are stopped (detection, localization, recognition) and actions that come to an end (navigation, speech).
+// Base classes of a robot's components: continuous functions run until they are stopped (detection, localization, recognition);
+// actions end by themselves (navigation, speech).
 #pragma once
 
 #include <memory>
@@ -14,82 +14,83 @@
 
 namespace rois::simulation {
 
-// Where a component belongs.
-struct Fitting {
+// The simulation, robot and description that a component belongs to.
+struct Context {
     std::shared_ptr<Simulation> simulation;
     RobotId robot{};
     ComponentDescription description;
-    std::shared_ptr<media::Media> media;  // null where nothing is streamed
+    std::shared_ptr<media::Media> media;  // null without a media server
 };
 
-// Of a component that takes positions as values of this parameter (decision 27).
-Fitting taking_positions(Fitting, std::string parameter);
+// Declares that this parameter takes positions (decision 27).
+Context with_position_parameter(Context, std::string parameter);
 
-// Of a component that takes identifiers from these codebooks as values of this parameter; the first codebook is the default.
-Fitting taking_identifiers(Fitting, std::string parameter, std::vector<std::string_view> const& codebooks);
+// Declares that this parameter takes identifiers from these codebooks. The first codebook is the default.
+Context with_identifier_parameter(Context, std::string parameter, std::vector<std::string_view> const& codebooks);
 
-// Of a component that moves the robot or a part of it (decision 33).
-Fitting moving(Fitting);
+// Declares that the component moves the robot or a part of it (decision 33).
+Context with_motion(Context);
 
-// Of a component of the robot that is named `name`, or with the robot's name before it (component_refs.hpp).
-Fitting fitting(std::shared_ptr<Simulation> const&, std::shared_ptr<media::Media> const&, Robot const&, std::string_view name,
-                std::shared_ptr<ComponentProfile const>);
+// Makes the context of the robot's component `name`. component_ref() forms its ref.
+Context make_context(std::shared_ptr<Simulation> const&, std::shared_ptr<media::Media> const&, Robot const&,
+                     std::string_view name, std::shared_ptr<ComponentProfile const>);
 
-// Looks at the hall after every step of the world. UNINITIALIZED before the first one.
+// Observes the hall after every step of the world. Its status is UNINITIALIZED before the first step.
 class RobotComponent : public Component, private Observer {
 public:
-    explicit RobotComponent(Fitting);
+    explicit RobotComponent(Context);
     ~RobotComponent() override;
     RobotComponent(RobotComponent const&) = delete;
     RobotComponent& operator=(RobotComponent const&) = delete;
 
-    ComponentDescription const& description() const final { return fitting_.description; }
+    ComponentDescription const& description() const final { return context_.description; }
     void attach(ComponentPort&) final;
     ComponentStatus status() const final;
     std::optional<Located> location() const final;
     std::optional<std::string> refusal(std::string_view command_type, ParameterList const&) const final;
 
 protected:
-    Hall& hall() { return fitting_.simulation->hall(); }
-    Hall const& hall() const { return fitting_.simulation->hall(); }
-    RobotId robot() const { return fitting_.robot; }
-    media::Media& media() const { return *fitting_.media; }
+    Hall& hall() { return context_.simulation->hall(); }
+    Hall const& hall() const { return context_.simulation->hall(); }
+    RobotId robot() const { return context_.robot; }
+    media::Media& media() const { return *context_.media; }
     ComponentPort& port() { return *port_; }
     std::optional<Instant> const& last_step() const { return last_step_; }
-    bool world_goes_on() const { return fitting_.simulation->runs_by_itself() || fitting_.simulation->goes_on(); }
+    bool world_goes_on() const { return context_.simulation->runs_by_itself() || context_.simulation->goes_on(); }
 
-    // What is in the hall, as this robot's messages have it: in the robot's own frame when it has one, named by crs(). A text as
-    // of to_wire(), and the structured form as of located().
+    // Convert poses to the frame crs() of this robot's messages: the robot's own frame if it has one, else the hall's. See
+    // to_wire() and located() (wire_units.hpp) for the formats.
     std::string const& crs() const;
-    std::string told(Pose const&) const;
-    Located told_located(std::string of, std::string ref, Pose const&, Metres height,
-                         std::optional<Covariance> const& covariance) const;
-    // The other way: a position in the robot's frame, or the name of a place; nothing when it is neither.
+    std::string pose_text(Pose const&) const;
+    Located located_entity(std::string of, std::string ref, Pose const&, Metres height,
+                           std::optional<Covariance> const& covariance) const;
+    // Reads a position in the robot's frame or the name of a place. Returns nothing if the text is neither.
     std::optional<Target> target(std::string_view text) const;
 
-    virtual void stepped(Instant when) = 0;
-    // The same for what goes on whether the component is active or not; called before stepped().
+    // Called after every step of the world: first watch(), for work of inactive components too, then on_step().
     virtual void watch(Instant) {}
+    virtual void on_step(Instant when) = 0;
     void time_passed(Instant) override {}
-    // Once the world has begun: READY or WARNING.
-    virtual ComponentStatus condition() const { return ComponentStatus::ready; }
+    // The status after the first step: READY or WARNING.
+    virtual ComponentStatus running_status() const { return ComponentStatus::ready; }
 
-    // What is wrong with a value among these, and what `start` lacks; nothing when all is well. Values are of their types.
-    virtual std::optional<std::string> unfit(ParameterList const&) const { return {}; }
-    virtual std::optional<std::string> missing(ParameterList const&) const { return {}; }
-    // Why a command of the profile cannot be carried out with these arguments.
-    virtual std::optional<std::string> impossible(std::string_view, ParameterList const&) const { return {}; }
+    // Return an error for an invalid value, or for parameters with which `start` is impossible; nothing if valid. The values have
+    // been validated against their data types.
+    virtual std::optional<std::string> parameter_problem(ParameterList const&) const { return {}; }
+    virtual std::optional<std::string> start_problem(ParameterList const&) const { return {}; }
+    // Returns an error if a command of the profile is impossible with these arguments.
+    virtual std::optional<std::string> command_problem(std::string_view, ParameterList const&) const { return {}; }
 
 private:
     void observe(Instant when) final;
-    RobotFrame const* own_frame() const;  // null: the hall's
+    RobotFrame const* own_frame() const;  // null: the hall's frame
 
-    Fitting fitting_;
+    Context context_;
     ComponentPort* port_ = nullptr;
     std::optional<Instant> last_step_;
 };
 
-// Active from `start` on, until it is stopped.
+// Active from `start` until `stop`.
 class ContinuousFunction : public RobotComponent {
 public:
     using RobotComponent::RobotComponent;
@@ -101,23 +102,22 @@ public:
     void parameters_changed(ParameterList const&, Instant now) final;
 
 protected:
-    // Everything that was told is forgotten: what is sensed from now on is new.
+    // Forgets all earlier reports: everything sensed from now on is new.
     virtual void begin() = 0;
-    // New parameters, before `begin` and whenever they change while active.
+    // Applies new parameters; called before begin(), and on changes while active.
     virtual void apply(ParameterList const&) {}
-    // Once a step, while active and not suspended.
+    // Called after each step while active and not suspended.
     virtual void sense(Instant when) = 0;
     virtual void suspended() {}
     virtual void resumed() {}
 
 private:
-    void stepped(Instant when) final;
+    void on_step(Instant when) final;
 
     enum class State : std::uint8_t { idle, active, suspended } state_ = State::idle;
 };
 
-// Runs from `start` to its end. Its time is the world's, and stands still while it is suspended. New parameters count from the
-// next start on.
+// Runs from `start` to its end. elapsed() counts world time, except while suspended. New parameters apply from the next start.
 class Action : public RobotComponent {
 public:
     using RobotComponent::RobotComponent;
@@ -130,21 +130,21 @@ public:
 protected:
     // May end the action at once.
     virtual void begin(ParameterList const&) = 0;
-    // Once a step, while it runs and is not suspended.
+    // Called after each step while running and not suspended.
     virtual void act() = 0;
-    // Whether nothing of it moves any more after cease(). `halt` is confirmed then.
-    virtual bool has_ceased() const { return true; }
-    // Stands still from now on: for good, for a while, no longer.
-    virtual void cease() = 0;
+    // Ends the motion, suspends it, resumes it.
+    virtual void stop() = 0;
     virtual void hold() = 0;
     virtual void go_on() = 0;
+    // Whether all motion has ended after stop(). Only then is `halt` confirmed.
+    virtual bool has_stopped() const { return true; }
 
-    // Completes the command; the action has ceased, or ceases by itself. `reason`: why not with OK.
+    // Completes the command. The caller has stopped the action, or it stops by itself. `reason` explains a status other than OK.
     void end(CompletedStatus, std::string reason = {});
     WorldTime elapsed() const { return elapsed_; }
 
 private:
-    void stepped(Instant when) final;
+    void on_step(Instant when) final;
 
     std::optional<CommandHandle> command_;
     bool suspended_ = false;

@@ -32,7 +32,8 @@ std::vector<std::unique_ptr<Component>> robot_components(std::shared_ptr<Simulat
     for (Robot const& robot : simulation->hall().robots()) {
         auto profile = found.begin();
         for (auto const& basic : basic_components(streams(media)))
-            components.push_back(with_faults(basic.make(fitting(simulation, media, robot, basic.ref, *profile++)), simulation));
+            components.push_back(
+                with_faults(basic.make(make_context(simulation, media, robot, basic.ref, *profile++)), simulation));
     }
     return components;
 }

@@ -6,9 +6,9 @@
 namespace rois::simulation {
 namespace {
 
-constexpr Radians straight_ahead = 0.08;  // by so much a robot that stands may be turned away and drives on nonetheless
+constexpr Radians straight_ahead = 0.08;  // a standing robot with a smaller heading error drives on without a turn
 
-// From stand to stand.
+// The duration from standstill to standstill.
 Seconds shortest(double way, double speed, double acceleration) {
     if (way >= speed * speed / acceleration) return way / speed + speed / acceleration;
     return 2 * std::sqrt(way / acceleration);
@@ -43,7 +43,7 @@ Seconds leg_duration(Metres length, MetresPerSecond at_begin, MetresPerSecond at
 }
 
 Seconds duration(Pose const& from, std::vector<Point> const& way, Agility const& agility) {
-    std::vector<MetresPerSecond> speeds(way.size(), 0.0);  // at the corners: slow enough for all that come after it
+    std::vector<MetresPerSecond> speeds(way.size(), 0.0);  // at the corners, limited by all later corners
     for (std::size_t i = way.size() - 1; i-- > 0;) {
         Point const& before = i == 0 ? from.position : way[i - 1];
         Radians const turn = wrapped(direction(way[i], way[i + 1]) - direction(before, way[i]));

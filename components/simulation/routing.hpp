@@ -1,4 +1,4 @@
-// What a way costs: in metres, or in seconds by the rules by which a robot drives along corner points.
+// The cost of paths: metres, or the seconds that a robot needs to drive along the corners.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace rois::simulation {
 
-// `time`: fewest seconds, turns and braking counted; `distance`: shortest. RoIS's routing_policy (table 46).
+// RoIS's routing_policy (table 46). `time`: fewest seconds, with turns and braking; `distance`: shortest.
 enum class RoutingPolicy : std::uint8_t { time, distance };
 
-// How fast somebody moves, at most.
+// The limits of motion of a robot or person.
 struct Agility {
     MetresPerSecond speed = 1;
     double acceleration = 1;  // m/s^2, also when braking
@@ -19,28 +19,28 @@ struct Agility {
     double turn_acceleration = 1;  // rad/s^2
 };
 
-// For a corner that is sharper, a robot stops and turns on the spot; the others are taken on the way.
+// At a sharper corner the robot stops and turns on the spot. It drives through other corners.
 inline constexpr Radians sharpest_bend = 0.6;
 
-// It begins to turn when it is as slow as that, and drives on when it is turned away by no more than that.
+// For turns on the spot: the speed at which the turn begins, and the remaining angle at which the robot drives on.
 inline constexpr MetresPerSecond slow_enough = 0.05;
 inline constexpr Radians turned_enough = 0.04;
 
-// A corner counts as reached when it is as near as that.
+// Within this distance a corner counts as reached.
 inline constexpr Metres near_corner = 0.06;
 
-// How fast a robot would be in a corner; 0 beyond the sharpest bend. And how fast it is when it has reached the corner.
+// The speed in a corner, 0 beyond sharpest_bend; and the speed when the corner counts as reached.
 MetresPerSecond corner_speed(Radians turn, Agility const&);
 MetresPerSecond passing_speed(Radians turn, Agility const&);
 
-// The turn on the spot with which a way begins, and what a corner costs beyond braking and getting up to speed again.
+// The duration of the turn on the spot at the start, and the extra time of a corner in addition to braking and accelerating.
 Seconds turn_duration(Radians turn, Agility const&);
 Seconds corner_duration(Radians turn, Agility const&);
 
-// A straight leg with these speeds at its ends.
+// The duration of a straight leg with these speeds at its ends.
 Seconds leg_duration(Metres length, MetresPerSecond at_begin, MetresPerSecond at_end, Agility const&);
 
-// A whole way along corner points, from standing at `from` to standing at the last one, and its length.
+// The duration and length of a whole path. The robot stands at `from` and at the last corner.
 Seconds duration(Pose const& from, std::vector<Point> const& way, Agility const&);
 Metres length(Point const& from, std::vector<Point> const& way);
 

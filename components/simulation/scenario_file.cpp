@@ -20,7 +20,7 @@ bool is_language(std::string_view text) {
     return text.size() == 2 && std::ranges::all_of(text, [](char c) { return c >= 'a' && c <= 'z'; });
 }
 
-// Reads the elements of one scenario against the floor plan that it plays in.
+// Reads the elements of one scenario and checks their places and robots against the floor plan.
 class ScenarioReader {
 public:
     explicit ScenarioReader(FloorPlan const& plan) : plan_{plan} {}
@@ -50,7 +50,7 @@ private:
         Answer answer;
         answer.to = element.attribute("to", "");
         answer.reaction = element.token("reaction", "");
-        if (answer.to.empty() == answer.reaction.empty()) throw element.complain("an answer has one of 'to' and 'reaction'");
+        if (answer.to.empty() == answer.reaction.empty()) throw element.complain("an answer needs either 'to' or 'reaction'");
         if (!answer.reaction.empty()) check_reaction(element, answer.reaction);
         answer.language = language(element, usual_language);
         answer.text = trimmed(element.text());
@@ -91,14 +91,15 @@ private:
                            std::ranges::any_of(plan_.robots, [&](RobotPlan const& robot) { return robot.name == to; });
         if (named) return {to};
         auto const target = target_from_wire(to);
-        if (!target) throw element.complain(quoted(to) + " is no place, no robot and no point \"x, y\" of the floor plan");
-        if (plan_.clearance(target->position) < person_radius) throw element.complain("nobody can stand at " + quoted(to));
+        if (!target) throw element.complain(quoted(to) + " is not a place, a robot or a point \"x, y\" of the floor plan");
+        if (plan_.clearance(target->position) < person_radius)
+            throw element.complain(quoted(to) + " is too near to a wall or desk: people cannot stand there");
         return {target->position};
     }
 
     static std::string language(xml::Element const& element, std::string const& otherwise) {
         auto language = element.token("language", otherwise);
-        if (!is_language(language)) throw element.complain(quoted(language) + " is no language of ISO 639-1, like en or ja");
+        if (!is_language(language)) throw element.complain(quoted(language) + " is not an ISO 639-1 language such as en or ja");
         return language;
     }
 
@@ -111,13 +112,13 @@ private:
 
     static void check_reaction(xml::Element const& element, std::string const& code) {
         if (reaction_code(code) == code) return;
-        throw element.complain("unknown reaction " + quoted(code) + "; known are the codes 1 to " +
-                               std::to_string(reaction_types.size()) + " of Annex D");
+        throw element.complain("unknown reaction " + quoted(code) + "; expected a code from 1 to " +
+                               std::to_string(reaction_types.size()) + " (Annex D)");
     }
 
     static void check_gesture(xml::Element const& element, std::string const& id) {
         if (std::ranges::find(gestures(), id) != gestures().end()) return;
-        throw element.complain("unknown gesture " + quoted(id) + "; known are " + listed(gestures()));
+        throw element.complain("unknown gesture " + quoted(id) + "; expected one of " + listed(gestures()));
     }
 
     FloorPlan const& plan_;
@@ -135,10 +136,10 @@ Fault fault(xml::Element const& element, std::vector<std::string> const& refs) {
                .from = element.number("from", 0),
                .until = {}};
     if (std::ranges::find(refs, read.component) == refs.end())
-        throw element.complain("the robots of the floor plan have no component " + quoted(read.component) +
-                               ", neither a basic one nor one of the profiles' folder");
+        throw element.complain("unknown component " + quoted(read.component) +
+                               "; expected a basic component of a robot or one of the profiles folder");
     if (element.attribute("until")) read.until = element.number("until");
-    if (read.until && *read.until <= read.from) throw element.complain("until is not after from");
+    if (read.until && *read.until <= read.from) throw element.complain("'until' must be later than 'from'");
     return read;
 }
 
@@ -146,7 +147,7 @@ Arrivals arrivals(xml::Element const& element) {
     Arrivals read{.gap_least = element.number("gap_least"),
                   .gap_most = element.number("gap_most"),
                   .at_most = static_cast<std::size_t>(element.number("at_most"))};
-    if (read.gap_most < read.gap_least) throw element.complain("gap_most is below gap_least");
+    if (read.gap_most < read.gap_least) throw element.complain("'gap_most' must not be less than 'gap_least'");
     return read;
 }
 
@@ -156,7 +157,7 @@ Scenario read_scenario(std::shared_ptr<xml::Schemas const> schemas, std::string 
                        std::vector<std::string> const& components) {
     auto const document = xml::Document::parse(std::move(schemas), std::move(name), std::move(text));
     auto const root = document.root();
-    if (root.name() != "scenario") throw root.complain("this is no scenario: expected the element scenario");
+    if (root.name() != "scenario") throw root.complain("not a scenario: the root element must be scenario");
     Scenario scenario;
     scenario.name = root.attribute("name", "");
     if (root.attribute("round")) scenario.round = root.number("round");
@@ -167,8 +168,9 @@ Scenario read_scenario(std::shared_ptr<xml::Schemas const> schemas, std::string 
     for (auto const& person : root.children("person")) {
         auto role = reader.role(person);
         if (std::ranges::find(scenario.roles, role.id, &Role::id) != scenario.roles.end())
-            throw person.complain("a second person with the id " + quoted(role.id));
-        if (scenario.round && role.enters >= *scenario.round) throw person.complain("enters after the end of the round");
+            throw person.complain("duplicate person id " + quoted(role.id));
+        if (scenario.round && role.enters >= *scenario.round)
+            throw person.complain("'enters' must be before the end of the round");
         scenario.roles.push_back(std::move(role));
     }
     return scenario;

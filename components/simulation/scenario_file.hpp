@@ -11,8 +11,8 @@
 
 namespace rois::simulation {
 
-// `plan` is asked for the places and robots that the scenario names; `components` are the names, without the robot's, of those
-// that the robots have beside the basic ones. Throws xml::BadDocument, "name:line:column: reason".
+// The places and robots that the scenario names must be in `plan`. `components` are the names, without the robot's name, of the
+// robots' user-defined components. Throws xml::BadDocument, "name:line:column: reason".
 Scenario read_scenario(std::shared_ptr<xml::Schemas const>, std::string name, std::string text, FloorPlan const& plan,
                        std::vector<std::string> const& components = {});
 

@@ -12,7 +12,7 @@ constexpr Metres robot_mouth = 1.1;
 
 enum class Sensor : std::uint64_t { people = 1, faces, sound, voice };  // voice: of another robot
 
-// The noise of one measurement: the same for whoever asks within the same step.
+// The noise of one measurement. It is the same for all calls within a step.
 template <class Who>
 Random noise(Hall const& hall, RobotId robot, Sensor sensor, Who who) {
     return Random{mixed({hall.seed(), 3, static_cast<std::uint64_t>(hall.now().count()), static_cast<std::uint64_t>(robot),
@@ -28,14 +28,14 @@ Covariance covariance(Metres sigma, Radians heading_sigma) {
     return Eigen::Vector3d{sigma * sigma, sigma * sigma, heading_sigma * heading_sigma}.asDiagonal();
 }
 
-// "face-3" for "person-3".
+// Returns "face-3" for "person-3".
 std::string renamed(std::string const& track, std::string_view kind) { return std::string{kind} + track.substr(track.find('-')); }
 
 Sensors const& sensors_of(Hall const& hall, RobotId robot) {
     return hall.plan().robots.at(static_cast<std::size_t>(robot)).sensors;
 }
 
-// The people that are tracked, nearest first.
+// Returns the tracked people, nearest first.
 std::vector<std::pair<Person const*, std::string>> tracked_people(Hall const& hall, RobotId robot) {
     std::vector<std::pair<Person const*, std::string>> tracked;
     for (Person const& person : hall.people()) {

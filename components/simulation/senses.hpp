@@ -1,6 +1,5 @@
-// What the sensors of a robot make of the hall now. Pure functions of the hall's state: the noise is drawn from the hall's seed,
-// the step, the robot, the sensor and the person, so that it is the same however often and by whom it is asked. All positions are
-// in the hall's frame. Ordered by nearness.
+// The current measurements of a robot's sensors, nearest first, in the hall's frame. Pure functions of the hall's state: the
+// noise depends only on the hall's seed, the step, the robot, the sensor and the person.
 #pragma once
 
 #include <string>
@@ -10,7 +9,7 @@
 
 namespace rois::simulation {
 
-// A person within range, field of view and sight.
+// A person in range, in the field of view and in sight.
 struct SeenPerson {
     PersonId person;
     std::string ref;  // the temporary name, "person-3"
@@ -20,17 +19,17 @@ struct SeenPerson {
 };
 std::vector<SeenPerson> people_seen(Hall const&, RobotId);
 
-// A face within range, field of view and sight that is turned to the robot.
+// A face in range, in the field of view and in sight that is turned to the robot.
 struct SeenFace {
     PersonId person;
     std::string ref;  // "face-3" for "person-3"
-    Pose pose;        // measured; heading: where it looks
+    Pose pose;        // measured; the heading of the face
     Metres height;    // of the face above the floor
     Covariance covariance;
 };
 std::vector<SeenFace> faces_seen(Hall const&, RobotId);
 
-// A person near enough and turned to the robot to be recognized, or to be told unknown.
+// A person who is near enough and turned to the robot, so that the robot can identify them.
 struct RecognizedPerson {
     PersonId person;
     std::string ref;  // the permanent id of a known person, else the temporary name
@@ -39,20 +38,20 @@ struct RecognizedPerson {
 };
 std::vector<RecognizedPerson> people_recognized(Hall const&, RobotId);
 
-// Somebody who speaks now and is heard: a person, or another robot. The robot's own voice is left out.
+// A person or another robot who speaks now within hearing range.
 struct HeardSound {
     Entity who;
     std::string ref;  // "sound-3" for "person-3", "sound-robot2" for the robot of that name
-    Pose pose;        // measured; the heading is the direction from the robot to it
+    Pose pose;        // measured; the heading is the direction from the robot to the source
     Metres height;    // of the mouth above the floor
     Covariance covariance;
 };
 std::vector<HeardSound> sounds_heard(Hall const&, RobotId);
 
-// Whether speech at `place` reaches the robot's ears: range, halved by a wall in between.
+// Whether the robot hears speech at `place`. A wall in between halves the range.
 bool hears(Hall const&, RobotId, Point const& place);
 
-// Whether the robot sees somebody at `place` gesture: range, field of view, sight.
+// Whether the robot sees a gesture at `place`: in range, in the field of view and in sight.
 bool sees_gesture(Hall const&, RobotId, Point const& place);
 
 }  // namespace rois::simulation

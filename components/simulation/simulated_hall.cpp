@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t longest_name = 64, longest_text = 16'384;  // bytes
 constexpr WorldTime most_to_pass = std::chrono::hours{1};
 
-// Of each person, as a list of truth values is written.
+// Writes a list with one truth value for each person.
 template <class Is>
 Parameter truths(std::string name, std::span<Person const> people, Is is) {
     Identifier type{.code = "bool[]", .authority = {}, .codebook_ref = {}, .version = {}};
@@ -66,7 +66,7 @@ public:
         return language.empty() && command_type != "enter" ? std::nullopt : no_language(language);
     }
 
-    // There is nothing to start: visitors can be steered anyway.
+    // Does nothing: visitors can be steered without it.
     void start(CommandHandle command, ParameterList const&, Instant) override {
         port_->completed(command, CompletedStatus::ok, {}, Afterwards::active);
     }
@@ -84,7 +84,7 @@ public:
         port_->started(command);
         if (command_type == "let_pass") {
             passing_.push_back({command, simulation_->let_pass(WorldTime{integer_of(arguments, "time").value_or(0)})});
-        } else if (Ordered ordered{command, order(command_type, arguments)}; !tell(ordered)) {
+        } else if (Ordered ordered{command, order(command_type, arguments)}; !completed_if_over(ordered)) {
             orders_.push_back(std::move(ordered));
         }
     }
@@ -106,7 +106,7 @@ public:
 private:
     struct Ordered {
         CommandHandle command;
-        SharedDeed deed;
+        SharedOrderStatus status;
     };
     struct Passing {
         CommandHandle command;
@@ -118,14 +118,13 @@ private:
 
     std::optional<std::string> no_visitor(std::string_view name) const {
         if (is_name(name) && name.size() <= longest_name && !hall().find_robot(name)) return {};
-        return "parameter 'visitor_ref': " + quoted(name) +
-               " is no name for a visitor: one without blanks, dots and colons, of " + std::to_string(longest_name) +
-               " bytes at most, that no robot has";
+        return "parameter 'visitor_ref': " + quoted(name) + " is not a valid visitor name: use at most " +
+               std::to_string(longest_name) + " bytes, no spaces, dots or colons, and not the name of a robot";
     }
 
     static std::optional<std::string> no_gesture(std::string_view gesture) {
         if (std::ranges::find(gestures(), gesture) != gestures().end()) return {};
-        return "parameter 'gesture': " + quoted(gesture) + " is none of " + listed(gestures());
+        return "parameter 'gesture': " + quoted(gesture) + " is unknown; expected one of " + listed(gestures());
     }
 
     static std::optional<std::string> no_words(std::string_view text) {
@@ -135,29 +134,29 @@ private:
 
     static std::optional<std::string> no_language(std::string_view language) {
         if (is_language(language)) return {};
-        return "parameter 'language': " + quoted(language) + " is none of " + names_of_languages();
+        return "parameter 'language': " + quoted(language) + " is not supported; expected one of " + names_of_languages();
     }
 
     std::optional<std::string> no_way(Parameter const& targets) const {
         auto const& plan = hall().plan();
-        if (targets.values.empty()) return "parameter 'target_position' must name one position or more";
+        if (targets.values.empty()) return "parameter 'target_position' must have at least one position";
         if (auto problem = not_targets(targets, plan, [&](auto const& text) { return hall().target(text).has_value(); }))
             return problem;
         for (auto const& text : targets.values)
             if (plan.clearance(hall().target(text)->position) <= 0)
-                return "parameter 'target_position': nobody can stand at " + quoted(text);
+                return "parameter 'target_position': " + quoted(text) + " is outside of the hall, in a wall or in furniture";
         return {};
     }
 
     std::optional<std::string> no_time(ParameterList const& arguments) const {
-        if (simulation_->runs_by_itself()) return "the world runs by itself: time can be let pass with --sim-speed 0 only";
+        if (simulation_->runs_by_itself()) return "let_pass needs --sim-speed 0: time passes by itself in this simulation";
         WorldTime const time{integer_of(arguments, "time").value_or(0)};
         if (time > WorldTime{0} && time <= most_to_pass && time % Hall::step_length == WorldTime{0}) return {};
-        return "parameter 'time' must be a multiple of " + std::to_string(Hall::step_length.count()) + ", 1 hour at most, not " +
-               std::to_string(time.count());
+        return "parameter 'time' must be a multiple of " + std::to_string(Hall::step_length.count()) +
+               " ms, more than 0 and at most 1 hour, not " + std::to_string(time.count());
     }
 
-    SharedDeed order(std::string_view command_type, ParameterList const& arguments) {
+    SharedOrderStatus order(std::string_view command_type, ParameterList const& arguments) {
         std::string const visitor{text_of(arguments, "visitor_ref")}, language{text_of(arguments, "language")};
         if (command_type == "enter") return enter(visitor, language, is_true(arguments, "known"));
         if (command_type == "say") return hall().steer(visitor, Say{language, std::string{text_of(arguments, "text")}});
@@ -168,7 +167,7 @@ private:
         return hall().steer(visitor, std::move(way));
     }
 
-    SharedDeed enter(std::string const& visitor, std::string const& language, bool known) {
+    SharedOrderStatus enter(std::string const& visitor, std::string const& language, bool known) {
         Role role;
         role.id = visitor;
         role.known = known;
@@ -176,18 +175,18 @@ private:
         return hall().let_in(std::move(role));
     }
 
-    // What has become of an order; false when it goes on.
-    bool tell(Ordered const& ordered) {
-        switch (ordered.deed->state) {
-            case Deed::State::goes_on:
+    // Completes the command of an order that is over. Returns false if the order is still running.
+    bool completed_if_over(Ordered const& ordered) {
+        switch (ordered.status->state) {
+            case OrderStatus::State::running:
                 return false;
-            case Deed::State::done:
+            case OrderStatus::State::done:
                 port_->completed(ordered.command, CompletedStatus::ok);
                 break;
-            case Deed::State::failed:
-                port_->completed(ordered.command, CompletedStatus::error, {}, Afterwards::as_before, ordered.deed->why);
+            case OrderStatus::State::failed:
+                port_->completed(ordered.command, CompletedStatus::error, {}, Afterwards::as_before, ordered.status->reason);
                 break;
-            case Deed::State::dropped:
+            case OrderStatus::State::dropped:
                 port_->completed(ordered.command, CompletedStatus::abort);
                 break;
         }
@@ -196,7 +195,7 @@ private:
 
     void observe(Instant) override {
         stepped_ = true;
-        std::erase_if(orders_, [&](Ordered const& ordered) { return tell(ordered); });
+        std::erase_if(orders_, [&](Ordered const& ordered) { return completed_if_over(ordered); });
         for (; !passing_.empty() && passing_.front().until <= hall().now(); passing_.pop_front())
             port_->completed(passing_.front().command, CompletedStatus::ok);
     }
@@ -205,7 +204,7 @@ private:
     ComponentDescription description_;
     ComponentPort* port_ = nullptr;
     bool stepped_ = false;
-    std::vector<Ordered> orders_;  // that go on
+    std::vector<Ordered> orders_;  // running
     std::deque<Passing> passing_;
 };
 

@@ -1,4 +1,4 @@
-// The hall itself as a component: people in it are steered, and a world that stands still is moved on.
+// The hall itself as a component: it steers visitors, and lets time pass in a simulation with speed 0.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@ namespace rois::simulation {
 
 inline constexpr std::string_view simulated_hall_ref = "simulated_hall";
 
-// Belongs to no robot, and to the main engine. The profile is that of data/simulated_hall.xml.
+// Belongs to the main engine, not to a robot. The profile is data/simulated_hall.xml.
 std::unique_ptr<Component> simulated_hall(std::shared_ptr<Simulation>, ComponentProfile profile);
 
 }  // namespace rois::simulation

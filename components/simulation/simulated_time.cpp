@@ -26,7 +26,7 @@ std::int64_t SimulatedTime::steps_due(Steady now) {
 }
 
 Instant SimulatedTime::due(std::int64_t k, std::int64_t steps, Instant now) const {
-    double const world_after = owed_ + static_cast<double>(steps - k) * step_;  // of the world, between that step and now
+    double const world_after = owed_ + static_cast<double>(steps - k) * step_;  // world time between that step and now
     return now + std::chrono::nanoseconds{-static_cast<std::int64_t>(world_after / speed_)};
 }
 

@@ -1,4 +1,4 @@
-// Makes the world's time out of real time.
+// Converts real time to steps of world time.
 #pragma once
 
 #include <chrono>
@@ -10,26 +10,27 @@
 
 namespace rois::simulation {
 
-// Counts how many steps of the world are due. No rounding is lost between calls.
+// Counts the steps that are due. Carries the remainder from call to call.
 class SimulatedTime {
 public:
-    // Of one call, so that a machine that slept does not have to catch up: in real time, and in steps for great speeds.
+    // Limits of one call, in real time and in steps, so that a machine that slept does not catch up.
     static constexpr std::chrono::seconds longest_gap{3};
     static constexpr std::int64_t most_steps = 3'000;
 
-    // `speed` > 0; `step` is one step of the world. Throws std::invalid_argument for a speed that is not above 0 or not finite.
+    // `speed`: simulated seconds per real second. Throws std::invalid_argument unless it is finite and above 0.
     SimulatedTime(double speed, WorldTime step);
 
-    // Steps that have become due since the last call; the first call starts the clock. Time going back counts as none.
+    // Returns the steps that have become due since the last call. The first call starts the clock. A time before the last call
+    // counts as 0 steps.
     std::int64_t steps_due(Steady now);
 
-    // When the `k`-th (from 1) of the steps of the last call was due, at the latest the last call's `now`.
+    // Returns when step `k` (from 1) of the `steps` of the last call was due, at the latest `now` of that call.
     Instant due(std::int64_t k, std::int64_t steps, Instant now) const;
 
 private:
     double speed_;
-    double step_;      // of the world, in nanoseconds
-    double owed_ = 0;  // of the world, in nanoseconds: less than a step
+    double step_;      // nanoseconds of world time
+    double owed_ = 0;  // nanoseconds of world time, less than a step
     std::optional<Steady> last_;
 };
 

@@ -17,7 +17,7 @@ void Simulation::advance(Instant now) {
     if (!std::exchange(begun_, true)) return step(now);
     for (std::int64_t k = 1; k <= steps; ++k) step_of_world(time_->due(k, steps, now));
     if (goes_on()) step_of_world(now);
-    tell_the_time(now);
+    notify_time_passed(now);
 }
 
 WorldTime Simulation::let_pass(WorldTime time) { return pass_until_ = std::max(pass_until_, hall_.now()) + time; }
@@ -26,7 +26,7 @@ void Simulation::stand_still() { pass_until_ = hall_.now(); }
 
 void Simulation::step(Instant when) {
     step_of_world(when);
-    tell_the_time(when);
+    notify_time_passed(when);
 }
 
 void Simulation::step_of_world(Instant when) {
@@ -34,7 +34,7 @@ void Simulation::step_of_world(Instant when) {
     for (Observer* observer : observers_) observer->observe(when);
 }
 
-void Simulation::tell_the_time(Instant now) {
+void Simulation::notify_time_passed(Instant now) {
     for (Observer* observer : observers_) observer->time_passed(now);
 }
 

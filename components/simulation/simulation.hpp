@@ -1,4 +1,4 @@
-// The hall as a device of the engine: moves the world on as real time passes.
+// The hall as a device of the engine: advances the world as real time passes.
 #pragma once
 
 #include <memory>
@@ -11,33 +11,34 @@
 
 namespace rois::simulation {
 
-// Told after every step of the world (20 ms of its time), in the order of joining. The components of the simulation are
-// observers: from here they report what their sensors see and how their actions go.
+// Receives every step of the world (20 ms of world time). The simulation's components are observers: from observe() they report
+// measurements and the progress of actions.
 class Observer {
 public:
     virtual ~Observer() = default;
-    // `when` is the real time to which the step belongs: not later than the engine's present.
+    // `when` is the real time of the step, not later than the engine's current time.
     virtual void observe(Instant when) = 0;
-    // Once each time that real time has passed, after the steps that were due, if any: for what does not belong to the world.
+    // Called by each advance(), after the steps that were due: for work that depends on real time.
     virtual void time_passed(Instant now);
 };
 
-// Components hold it by shared_ptr. Used by the engine's thread only.
+// Shared by its components. Used by the engine's thread only.
 class Simulation : public Device {
 public:
-    // `speed`: simulated seconds per real second. With 0 the world stands still, but for what let_pass() lets pass.
+    // `speed`: simulated seconds per real second. With 0, world time passes only by let_pass().
     Simulation(FloorPlan, Scenario, std::uint64_t seed, double speed);
 
-    // The first call starts the clock and makes the first step. A gap longer than SimulatedTime::longest_gap counts as that much.
-    // A world that stands still makes one step of what is to pass.
+    // Makes the steps that are due. The first call starts the clock and makes the first step. With speed 0, makes at most one
+    // step of the time requested by let_pass().
     void advance(Instant now) override;
     bool goes_on() const override { return !time_ && hall_.now() < pass_until_; }
 
-    // So much time of the world is to pass, after what is to pass already; whole steps. Says when it will have. For a speed of 0.
+    // Requests more world time, in whole steps, in addition to earlier requests. Returns the world time at its end. Only for
+    // speed 0.
     WorldTime let_pass(WorldTime);
-    void stand_still();  // what has not passed yet does not
+    void stand_still();  // cancels all let_pass()
 
-    // One step by hand, seen by the observers at `when`; for tests that hold the clock.
+    // Makes one step and notifies the observers with `when`; for tests.
     void step(Instant when);
 
     Hall& hall() { return hall_; }
@@ -45,16 +46,16 @@ public:
     bool runs_by_itself() const { return time_.has_value(); }
     std::vector<Fault> const& faults() const { return faults_; }
 
-    void join(Observer&);
-    void part(Observer&);  // in the observer's destructor, never from within observe
+    void join(Observer&);  // they are notified in the order of these calls
+    void part(Observer&);  // not from within observe()
 
 private:
     void step_of_world(Instant when);
-    void tell_the_time(Instant now);
+    void notify_time_passed(Instant now);
 
     std::vector<Fault> faults_;
     Hall hall_;
-    std::optional<SimulatedTime> time_;  // none: the world stands still
+    std::optional<SimulatedTime> time_;  // nothing: speed 0
     WorldTime pass_until_{0};
     bool begun_ = false;
     std::vector<Observer*> observers_;

@@ -1,4 +1,4 @@
-// Speech recognition (7.6.9): what people and other robots say near the robot, as text.
+// Speech recognition (7.6.9): reports the speech of people and other robots near the robot as text.
 #include <algorithm>
 #include <utility>
 
@@ -16,7 +16,7 @@ constexpr std::size_t longest_grammar = 16'384;  // bytes
 
 std::vector<std::string> all_languages() { return {languages.begin(), languages.end()}; }
 
-// The parameter, or ja and en.
+// Returns the parameter's languages, by default ja and en.
 std::vector<std::string> languages_of(ParameterList const& parameters) {
     auto const* parameter = find(parameters, "languages");
     return parameter == nullptr ? std::vector<std::string>{"ja", "en"} : parameter->values;
@@ -29,13 +29,13 @@ public:
     ParameterList readable_parameters() const override { return {texts("recognizable_languages", all_languages())}; }
 
 private:
-    std::optional<std::string> unfit(ParameterList const& parameters) const override {
+    std::optional<std::string> parameter_problem(ParameterList const& parameters) const override {
         auto const wanted = languages_of(parameters);
         if (wanted.empty() || wanted.size() > languages.size())
-            return "parameter 'languages' must name one language or more of " + names_of_languages();
+            return "parameter 'languages' must have at least one language of " + names_of_languages();
         for (auto const& language : wanted)
             if (!is_language(language))
-                return "parameter 'languages': " + quoted(language) + " cannot be recognized; those that can are " +
+                return "parameter 'languages': " + quoted(language) + " cannot be recognized; expected one of " +
                        names_of_languages();
         auto const grammar = text_of(parameters, "grammar");
         if (grammar.size() > longest_grammar)
@@ -44,7 +44,7 @@ private:
         return {};
     }
 
-    // The grammar read; the last one is kept, since each command of a sequence asks for it.
+    // Reads a grammar. Caches the last one: each command of a sequence needs it.
     std::variant<Grammar, Grammar::Flaw> const& grammar_of(std::string_view grammar, std::string_view rule) const {
         std::pair const source{std::string{grammar}, std::string{rule}};
         if (source != source_) {
@@ -77,6 +77,6 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> speech_recognition(Fitting fitting) { return std::make_unique<SpeechRecognition>(std::move(fitting)); }
+std::unique_ptr<Component> speech_recognition(Context context) { return std::make_unique<SpeechRecognition>(std::move(context)); }
 
 }  // namespace rois::simulation

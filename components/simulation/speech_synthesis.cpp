@@ -22,14 +22,14 @@ std::optional<std::string> too_long(ParameterList const& parameters, std::string
 
 std::optional<std::string> unknown_language(std::string_view language) {
     if (language.empty() || is_language(language)) return {};
-    return "parameter 'language': " + quoted(language) + " cannot be synthesized; those that can are " + names_of_languages();
+    return "parameter 'language': " + quoted(language) + " cannot be synthesized; expected one of " + names_of_languages();
 }
 
 class SpeechSynthesis final : public Action {
 public:
     using Action::Action;
 
-    // The text that arrived takes the place of the other one, even when it is empty.
+    // The new text, even if empty, replaces the stored text of the other kind.
     void reconcile(ParameterList& stored, ParameterList const& arrived) const override {
         bool const plain = find(arrived, "speech_text") != nullptr;
         bool const marked_up = find(arrived, "SSML_text") != nullptr;
@@ -44,7 +44,7 @@ public:
     }
 
 private:
-    std::optional<std::string> unfit(ParameterList const& parameters) const override {
+    std::optional<std::string> parameter_problem(ParameterList const& parameters) const override {
         if (auto problem = not_between(parameters, "volume", 0, 100)) return problem;
         if (auto problem = unknown_language(text_of(parameters, "language"))) return problem;
         auto const character = text_of(parameters, "character");
@@ -55,18 +55,19 @@ private:
         if (auto problem = too_long(parameters, "SSML_text")) return problem;
         auto const document = text_of(parameters, "SSML_text");
         if (document.empty()) return {};
-        if (!text_of(parameters, "speech_text").empty()) return "either 'speech_text' or 'SSML_text' can be said, not both";
+        if (!text_of(parameters, "speech_text").empty())
+            return "'speech_text' and 'SSML_text' exclude each other: set only one of them";
         auto const& read = marked_up(parameters);
         if (auto const* bad = std::get_if<BadSsml>(&read)) return "parameter 'SSML_text': " + bad->reason;
         return {};
     }
 
-    std::optional<std::string> missing(ParameterList const& parameters) const override {
+    std::optional<std::string> start_problem(ParameterList const& parameters) const override {
         if (!text_of(parameters, "speech_text").empty()) return {};
-        if (text_of(parameters, "SSML_text").empty()) return "there is nothing to say: 'speech_text' or 'SSML_text' is mandatory";
+        if (text_of(parameters, "SSML_text").empty()) return "parameter 'speech_text' or 'SSML_text' is mandatory";
         auto const& passages = std::get<SpokenText>(marked_up(parameters)).passages;
         auto const takes_time = [](Passage const& passage) { return passage.duration > 0; };
-        if (std::ranges::none_of(passages, takes_time)) return "there is nothing to say in 'SSML_text'";
+        if (std::ranges::none_of(passages, takes_time)) return "parameter 'SSML_text' has no text to speak";
         return {};
     }
 
@@ -103,7 +104,7 @@ private:
         }
     }
 
-    void cease() override { hall().break_off(robot(), utterance_); }
+    void stop() override { hall().break_off(robot(), utterance_); }
     void hold() override { hall().hold_speech(robot(), utterance_); }
     void go_on() override { hall().go_on_speaking(robot(), utterance_); }
 
@@ -111,7 +112,7 @@ private:
         return voice_character(text_of(parameters, "character")).name;
     }
 
-    // SSML_text, read; the last one is kept, since each command of a sequence asks for it.
+    // Reads SSML_text. Caches the last one: each command of a sequence needs it.
     std::variant<SpokenText, BadSsml> const& marked_up(ParameterList const& parameters) const {
         auto const document = text_of(parameters, "SSML_text"), character = character_of(parameters);
         if (document != document_ || character != character_) {
@@ -129,6 +130,6 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> speech_synthesis(Fitting fitting) { return std::make_unique<SpeechSynthesis>(std::move(fitting)); }
+std::unique_ptr<Component> speech_synthesis(Context context) { return std::make_unique<SpeechSynthesis>(std::move(context)); }
 
 }  // namespace rois::simulation

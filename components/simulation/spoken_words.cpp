@@ -10,21 +10,21 @@
 namespace rois::simulation {
 namespace {
 
-// Punctuation of full width is three bytes long.
+// Full-width punctuation, three bytes each in UTF-8.
 constexpr std::array<std::string_view, 8> wide_punctuation{"\u3000", "\u3001", "\u3002", "\uFF01",
                                                            "\uFF0C", "\uFF0E", "\uFF1F", "\u2026"};
 
 bool is_narrow_punctuation(char c) { return std::string_view{".,!?:;\"'()-"}.find(c) != std::string_view::npos; }
 bool is_blank(char c) { return std::string_view{" \t\r\n"}.find(c) != std::string_view::npos; }
 
-// The bytes of the character that begins here.
+// Returns the length in bytes of the first character.
 std::size_t character_length(std::string_view text) {
     auto const first = static_cast<unsigned char>(text.front());
     std::size_t const length = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
     return std::min(length, text.size());
 }
 
-// Hiragana to the last Han character of the basic plane: U+3040 to U+9FFF.
+// U+3040 (hiragana) to U+9FFF (last Han character of the basic plane).
 bool is_word_by_itself(std::string_view character) {
     return character.size() == 3 && character >= "\u3040" && character <= "\u9FFF";
 }

@@ -1,4 +1,4 @@
-// What is said, as words that can be compared: case (of ASCII letters), punctuation and the amount of white space do not count.
+// Normalizes speech for comparison: ignores the case of ASCII letters, punctuation and the amount of white space.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace rois::simulation {
 
-// "green tea" of "Green  tea!".
+// Returns "green tea" for "Green  tea!".
 std::string spoken_words(std::string_view text);
 
-// One by one. Kana and Han characters are a word each, since nothing stands between their words.
+// Splits normalized text into words. Each kana or Han character is a word, since those scripts have no spaces.
 std::vector<std::string> split_into_words(std::string_view text);
 
-// How alike two words sound: 1 for the same, towards 0 the more of their letters differ.
+// The similarity of two words: 1 if equal, lower the more letters differ.
 double likeness(std::string_view a, std::string_view b);
 
 }  // namespace rois::simulation

@@ -25,7 +25,7 @@ std::size_t number_of(std::string_view digits) {
     return number;
 }
 
-// Reads the expansions of a grammar whose rules have their ids already.
+// Reads the expansions of a grammar. The rules must already have their ids.
 class ExpansionReader {
 public:
     explicit ExpansionReader(Rules const& rules) : rules_{rules} {}
@@ -62,7 +62,7 @@ private:
         }
     }
 
-    // Text between elements: tokens are separated by white space, or stand in quotes.
+    // Adds the tokens of text between elements. Tokens are separated by white space, or quoted.
     void add_tokens(Expansion& sequence, xml::Element const& element, std::string_view text) {
         for (text = trimmed(text); !text.empty(); text = trimmed(text)) {
             bool const is_quoted = text.front() == '"' && text.find('"', 1) != text.npos;
@@ -72,12 +72,12 @@ private:
         }
     }
 
-    // Of the text of `element`.
     void add_token(Expansion& sequence, xml::Element const& element, std::string_view written) {
         auto text = trimmed(written);
         if (text.size() > 1 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
         if (text.find('"') != text.npos)
-            throw element.complain("the token " + quoted(trimmed(written)) + " has a quote that does not enclose it");
+            throw element.complain("the token " + quoted(trimmed(written)) +
+                                   " has a quote that does not enclose the whole token");
         auto words = split_into_words(text);
         if (words.empty()) return;
         auto token = make(Kind::token);
@@ -96,7 +96,7 @@ private:
         if (dash == range.npos) made.most = made.least;
         if (dash != range.npos && dash + 1 < range.size()) made.most = number_of(range.substr(dash + 1));
         if (made.most && *made.most < made.least)
-            throw element.complain("the repeat " + quoted(range) + " ends before it begins");
+            throw element.complain("the repeat " + quoted(range) + " has a maximum below its minimum");
         made.parts.push_back(sequence(element));
         return made;
     }
@@ -109,7 +109,7 @@ private:
             made.parts.back().weight = alternative.number("weight", 1);
             heaviest = std::max(heaviest, made.parts.back().weight);
         }
-        if (heaviest <= 0) throw element.complain("all its alternatives have the weight 0");
+        if (heaviest <= 0) throw element.complain("all alternatives have the weight 0");
         for (auto& part : made.parts) part.weight /= heaviest;
         return made;
     }
@@ -117,15 +117,15 @@ private:
     Expansion rule_ref(xml::Element const& element) {
         auto const uri = element.token("uri");
         auto const special = element.token("special", "");
-        if (uri.has_value() == !special.empty()) throw element.complain("a ruleref has one of 'uri' and 'special'");
+        if (uri.has_value() == !special.empty()) throw element.complain("a ruleref needs either 'uri' or 'special'");
         if (special == "GARBAGE") return make(Kind::garbage);
         if (special == "VOID") return make(Kind::never);
         if (special == "NULL") return make(Kind::sequence);
-        if (!uri) throw element.complain("the special rule " + quoted(special) + " is none of NULL, VOID and GARBAGE");
+        if (!uri) throw element.complain("unknown special rule " + quoted(special) + "; expected NULL, VOID or GARBAGE");
         if (!uri->starts_with('#'))
-            throw element.complain("the uri " + quoted(*uri) + " leads out of the grammar: expected '#' and the id of a rule");
+            throw element.complain("unsupported uri " + quoted(*uri) + ": expected '#' and the id of a rule of this grammar");
         auto const rule = std::ranges::find(rules_, uri->substr(1), &SrgsGrammar::Rule::id);
-        if (rule == rules_.end()) throw element.complain("there is no rule " + quoted(uri->substr(1)));
+        if (rule == rules_.end()) throw element.complain("unknown rule " + quoted(uri->substr(1)));
         auto made = make(Kind::rule);
         made.rule = static_cast<std::size_t>(rule - rules_.begin());
         return made;
@@ -135,7 +135,7 @@ private:
     std::size_t last_ = 0;
 };
 
-// Finds rules that refer to themselves before any word: they could be followed for ever.
+// Finds rules that refer to themselves before any word: recognition would not end.
 class LeftRecursion {
 public:
     explicit LeftRecursion(Rules const& rules) : rules_{rules}, may_be_empty_(rules.size()), state_(rules.size()) {
@@ -144,7 +144,7 @@ public:
                 if (!may_be_empty_[i] && may_be_empty(rules[i].expansion)) changed = may_be_empty_[i] = true;
     }
 
-    // A rule that does; nothing when none does.
+    // Returns the index of the first such rule; nothing if there is none.
     std::optional<std::size_t> find() {
         for (std::size_t i = 0; i < rules_.size(); ++i)
             if (circles(i)) return i;
@@ -203,23 +203,23 @@ std::variant<SrgsGrammar, SrgsGrammar::Flaw> SrgsGrammar::read(std::shared_ptr<x
                                                                std::string_view document) {
     try {
         auto const root = xml::Document::parse(schemas, "grammar", std::string{document}).root();
-        if (root.name() != "grammar") throw root.complain("this is no grammar: expected the element grammar of SRGS");
+        if (root.name() != "grammar") throw root.complain("not an SRGS grammar: the root element must be grammar");
         SrgsGrammar made;
         made.language_ = root.token("lang", "");
         if (auto const& said = made.language_; !is_language(lower_case(said.substr(0, said.find('-')))))
-            throw root.complain("the language " + quoted(said) + " cannot be recognized; those that can are " +
+            throw root.complain("the language " + quoted(said) + " cannot be recognized; expected one of " +
                                 names_of_languages());
         auto const elements = root.children("rule");
         for (auto const& element : elements) {
             made.rules_.push_back({element.token("id", ""), element.token("scope", "private") == "public", {}});
             if (std::ranges::find(special_rules, made.rules_.back().id) != special_rules.end())
-                throw element.complain("the id " + quoted(made.rules_.back().id) + " is that of a special rule");
+                throw element.complain("the id " + quoted(made.rules_.back().id) + " is reserved for a special rule");
         }
         ExpansionReader reader{made.rules_};
         for (std::size_t i = 0; i < elements.size(); ++i) made.rules_[i].expansion = reader.sequence(elements[i]);
         if (auto const id = root.token("root")) {
             auto const found = std::ranges::find(made.rules_, *id, &Rule::id);
-            if (found == made.rules_.end()) throw root.complain("there is no rule " + quoted(*id) + ", which shall be the root");
+            if (found == made.rules_.end()) throw root.complain("unknown root rule " + quoted(*id));
             made.root_ = static_cast<std::size_t>(found - made.rules_.begin());
         }
         if (auto const circle = LeftRecursion{made.rules_}.find())

@@ -1,5 +1,5 @@
-// Speech recognition grammars in the XML form of W3C's SRGS 1.0, for the example component of Annex C: read, checked, and applied
-// to what people say.
+// Speech recognition grammars in the XML form of W3C SRGS 1.0, for the example component of Annex C: reads and validates
+// grammars, and recognizes speech with them.
 #pragma once
 
 #include <cstddef>
@@ -16,19 +16,19 @@ namespace rois::simulation {
 
 class SrgsGrammar {
 public:
-    // Why it cannot be used: "grammar:line:column: reason".
+    // Why the grammar is invalid: "grammar:line:column: reason".
     struct Flaw {
         std::string reason;
     };
-    // Reads the document (schemas/srgs.xsd). A rule that refers to itself before any word is a flaw.
+    // Reads the document (schemas/srgs.xsd). Rejects rules that refer to themselves before any word.
     static std::variant<SrgsGrammar, Flaw> read(std::shared_ptr<xml::Schemas const> const&, std::string_view document);
 
-    std::string const& language() const { return language_; }  // its xml:lang: "en-US"
+    std::string const& language() const { return language_; }  // the document's xml:lang: "en-US"
 
-    // Why this cannot be the active rule ("#order" or "order"; empty: the root), or nothing.
+    // Returns why this active rule ("#order" or "order"; empty: the root) is invalid, or nothing.
     std::optional<std::string> objection_to(std::string_view active_rule) const;
 
-    // A token of the grammar that was heard, between two of the gaps that the spoken words stand between (0: before the first).
+    // A recognized token of the grammar. `from` and `to` are gaps between the spoken words (0: before the first word).
     struct Word {
         std::string text;  // as the grammar writes it
         std::size_t from = 0;
@@ -37,26 +37,26 @@ public:
     };
     struct Hypothesis {
         std::vector<Word> words;
-        std::vector<std::string> tags;  // those on the way, in order
-        double certainty = 1;           // 0 to 1: how alike the words are, times how likely the alternatives are
+        std::vector<std::string> tags;  // in the order of recognition
+        double certainty = 1;           // 0 to 1: similarity of the words times weight of the alternatives
 
-        std::string text() const;  // the words, a space between two of them
+        std::string text() const;  // the words, separated by spaces
     };
 
-    // What may have been said, the likeliest first, at most `most` with different texts; none when it is not in the language of
-    // the rule. Words that sound nearly like those of the grammar are taken for them. `active_rule` has no objection.
+    // Returns at most `most` hypotheses with different texts, the most likely first; none if the speech does not match the rule.
+    // Words similar to the grammar's count as matches. `active_rule` must be valid (objection_to()).
     std::vector<Hypothesis> recognize(std::string_view active_rule, std::string_view speech, std::size_t most) const;
 
-    // One piece of the compiled grammar; a tree for each rule.
+    // A node of the compiled grammar. Each rule is a tree of them.
     struct Expansion {
         enum class Kind : std::uint8_t { sequence, one_of, repeat, token, rule, tag, garbage, never } kind = Kind::sequence;
         std::vector<Expansion> parts;
         std::string text;                // of a token or a tag
-        std::vector<std::string> words;  // of a token, as they are compared
+        std::vector<std::string> words;  // of a token, normalized
         std::size_t least = 1;           // of a repeat
         std::optional<std::size_t> most;
-        double weight = 1;       // of an alternative, beside the likeliest one's
-        std::size_t rule = 0;    // to which it refers
+        double weight = 1;       // of an alternative, relative to the most likely one
+        std::size_t rule = 0;    // the rule that it refers to
         std::size_t number = 0;  // unique in the grammar
     };
     struct Rule {

@@ -1,4 +1,4 @@
-// A grammar applied to speech: all ways through its rules that fit, the likeliest kept.
+// Recognizes speech with a grammar: searches all matching ways through its rules and keeps the most likely.
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -14,14 +14,14 @@ namespace {
 using Expansion = SrgsGrammar::Expansion;
 using Kind = Expansion::Kind;
 
-constexpr double alike = 0.65;             // words less alike than this are not taken for one another
-constexpr double skipped = 0.9;            // what a word that GARBAGE takes leaves of the certainty
-constexpr std::size_t most_words = 100;    // of an utterance that is listened to
-constexpr std::size_t kept_at_once = 8;    // ways from one word to another
-constexpr std::size_t most_ways = 50'000;  // looked at in all: what is still not told apart by then is not recognized
-constexpr int deepest = 40;                // rules within rules
+constexpr double alike = 0.65;             // minimum similarity of matching words
+constexpr double skipped = 0.9;            // factor of the certainty for each word that GARBAGE skips
+constexpr std::size_t most_words = 100;    // of an utterance; longer ones are ignored
+constexpr std::size_t kept_at_once = 8;    // ways kept for each end position
+constexpr std::size_t most_ways = 50'000;  // limit of the search; beyond it nothing is recognized
+constexpr int deepest = 40;                // nested rules
 
-// One step of a way, with those before it.
+// One step of a way, linked to the previous one.
 struct Step {
     std::shared_ptr<Step const> before;
     Expansion const* expansion;  // a token or a tag
@@ -30,7 +30,7 @@ struct Step {
     double certainty;
 };
 
-// A way through an expansion, from where it was begun.
+// A way through an expansion.
 struct Way {
     std::size_t end;
     double certainty;
@@ -38,7 +38,7 @@ struct Way {
 };
 using Ways = std::vector<Way>;
 
-// Puts the steps of one way behind those of another.
+// Appends the steps of `then` to `first`.
 std::shared_ptr<Step const> joined(std::shared_ptr<Step const> const& first, std::shared_ptr<Step const> const& then) {
     if (!then) return first;
     std::vector<Step const*> steps;
@@ -57,7 +57,7 @@ public:
     Recognition(std::vector<SrgsGrammar::Rule> const& rules, std::vector<std::string> words)
         : rules_{rules}, words_{std::move(words)} {}
 
-    // All that reach the end of what was said, the likeliest first.
+    // Returns the ways that match the whole speech, the most likely first.
     Ways whole(std::size_t rule) {
         Ways ways = through(rules_[rule].expansion, 0, 0);
         std::erase_if(ways, [&](Way const& way) { return way.end != words_.size(); });
@@ -100,7 +100,7 @@ private:
 
     enum class Words : std::uint8_t { any, one_or_more };
 
-    // Each of the ways, gone on through the expansion, with so many words more.
+    // Continues each way through the expansion, by any number of words or at least one.
     Ways onward(Ways const& ways, Expansion const& expansion, int depth, Words more = Words::any) {
         Ways further;
         for (auto const& way : ways)
@@ -126,7 +126,7 @@ private:
         return ways;
     }
 
-    // Beyond what must be, a repetition takes words.
+    // Repetitions beyond the minimum must match at least one word each.
     Ways repeat(Expansion const& expansion, std::size_t from, int depth) {
         Ways ways{{from, 1, nullptr}};
         Ways ended;
@@ -157,7 +157,7 @@ private:
         return ways;
     }
 
-    // Of the ways to each place the likeliest, these first.
+    // Keeps the most likely ways to each end position, sorted by certainty.
     static Ways best(Ways ways) {
         std::ranges::stable_sort(ways, [](Way const& a, Way const& b) { return a.certainty > b.certainty; });
         std::map<std::size_t, std::size_t> count;
@@ -167,7 +167,7 @@ private:
 
     std::vector<SrgsGrammar::Rule> const& rules_;
     std::vector<std::string> words_;
-    std::map<std::pair<std::size_t, std::size_t>, Ways> known_;  // by expansion and place
+    std::map<std::pair<std::size_t, std::size_t>, Ways> known_;  // by expansion and start position
     std::size_t ways_ = 0;
 };
 

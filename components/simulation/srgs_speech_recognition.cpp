@@ -1,5 +1,4 @@
-// Speech recognition with W3C SRGS (Annex C.1): what people say near the robot, as far as a grammar allows it, with all that it
-// may have been.
+// Speech recognition with W3C SRGS (Annex C.1): reports speech near the robot that matches a grammar, with alternatives.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -18,15 +17,15 @@ namespace {
 
 constexpr std::size_t longest_grammar = 16'384;  // bytes
 constexpr std::size_t most_hypotheses = 5;
-constexpr Metres near = 1.5;  // to the position that is listened to
+constexpr Metres near = 1.5;  // maximum distance from position_of_sound
 
-// A certainty with three digits: "0.875".
+// Returns the certainty with three digits: "0.875".
 std::string certainty_text(double certainty) {
     auto const thousandths = std::to_string(1000 + std::lround(std::clamp(certainty, 0.0, 1.0) * 1000));
     return std::string{thousandths[0] == '2' ? "1." : "0."} + thousandths.substr(1);
 }
 
-// NBestType: a line for each hypothesis, the likeliest first: certainty, language, text.
+// NBestType: a line for each hypothesis, the most likely first: certainty, language, text.
 std::string n_best_text(std::vector<SrgsGrammar::Hypothesis> const& hypotheses, std::string const& language) {
     std::string lines;
     for (auto const& each : hypotheses)
@@ -34,8 +33,7 @@ std::string n_best_text(std::vector<SrgsGrammar::Hypothesis> const& hypotheses, 
     return lines;
 }
 
-// LatticeType: a line for each word of any hypothesis: its id, the ids of the places before and behind it, certainty, language,
-// text.
+// LatticeType: a line for each word of all hypotheses: id, ids of the positions before and after it, certainty, language, text.
 std::string lattice_text(std::vector<SrgsGrammar::Hypothesis> const& hypotheses, std::string const& language) {
     std::vector<SrgsGrammar::Word> words;
     auto const same = [](SrgsGrammar::Word const& a, SrgsGrammar::Word const& b) {
@@ -59,7 +57,7 @@ std::optional<unsigned> hex_digits(std::string_view two) {
     return byte;
 }
 
-// The document that the parameter gives: itself, or in a data URI (RFC 2397). Nothing for any other URI: nothing is fetched.
+// Returns the document of the parameter: its text, or the content of a data URI (RFC 2397). Nothing for other URIs.
 std::optional<std::string> document_of(std::string_view grammar) {
     grammar = trimmed(grammar);
     if (grammar.starts_with('<')) return std::string{grammar};
@@ -88,8 +86,8 @@ Parameter typed(std::string name, std::string type, std::string value) {
 
 class SrgsSpeechRecognition final : public Listening {
 public:
-    SrgsSpeechRecognition(Fitting fitting, std::shared_ptr<xml::Schemas const> schemas)
-        : Listening{taking_positions(std::move(fitting), "position_of_sound")}, schemas_{std::move(schemas)} {}
+    SrgsSpeechRecognition(Context context, std::shared_ptr<xml::Schemas const> schemas)
+        : Listening{with_position_parameter(std::move(context), "position_of_sound")}, schemas_{std::move(schemas)} {}
 
     ParameterList readable_parameters() const override {
         return {texts("recognizable_languages", {languages.begin(), languages.end()})};
@@ -98,11 +96,11 @@ public:
 private:
     using ReadGrammar = std::variant<SrgsGrammar, SrgsGrammar::Flaw>;
 
-    std::optional<std::string> unfit(ParameterList const& parameters) const override {
+    std::optional<std::string> parameter_problem(ParameterList const& parameters) const override {
         if (auto const* wanted = find(parameters, "languages"))
             for (auto const& language : wanted->values)
                 if (!is_language(language))
-                    return "parameter 'languages': " + quoted(language) + " cannot be recognized; those that can are " +
+                    return "parameter 'languages': " + quoted(language) + " cannot be recognized; expected one of " +
                            names_of_languages();
         if (auto const* position = find(parameters, "position_of_sound"))
             if (position->values.size() > 1 || (!position->values.empty() && !target_from_wire(position->values.front())))
@@ -117,7 +115,7 @@ private:
         return {};
     }
 
-    std::optional<std::string> missing(ParameterList const& parameters) const override {
+    std::optional<std::string> start_problem(ParameterList const& parameters) const override {
         auto const grammar = text_of(parameters, "grammar");
         if (grammar.empty()) return "parameter 'grammar' is mandatory: a grammar of W3C SRGS in XML";
         auto const rule = text_of(parameters, "active_rule");
@@ -126,7 +124,7 @@ private:
         return {};
     }
 
-    // The grammar read; the last one is kept, since each command of a sequence asks for it.
+    // Reads a grammar. Caches the last one: each command of a sequence needs it.
     ReadGrammar const& grammar_of(std::string_view grammar) const {
         if (grammar == source_ && read_grammar_) return *read_grammar_;
         source_ = grammar;
@@ -145,7 +143,7 @@ private:
         grammar_ = std::get<SrgsGrammar>(grammar_of(text_of(parameters, "grammar")));
         rule_ = text_of(parameters, "active_rule");
         auto const* wanted = find(parameters, "languages");
-        // The grammar's own, "en" of "en-US", when not set.
+        // The default is the grammar's language, "en" for "en-US".
         auto const& own = grammar_.language();
         languages_ = wanted != nullptr ? wanted->values : std::vector<std::string>{lower_case(own.substr(0, own.find('-')))};
         place_.reset();
@@ -176,8 +174,8 @@ private:
                               texts("meaning", hypotheses.front().tags)};
         if (!speech.from) return results;
         auto const& from = *speech.from;
-        results.parameters.push_back(positions("position_of_sound", {told(from.pose)}, crs()));
-        results.located.push_back(told_located("position_of_sound", from.ref, from.pose, from.height, from.covariance));
+        results.parameters.push_back(positions("position_of_sound", {pose_text(from.pose)}, crs()));
+        results.located.push_back(located_entity("position_of_sound", from.ref, from.pose, from.height, from.covariance));
         return results;
     }
 
@@ -192,8 +190,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> srgs_speech_recognition(Fitting fitting, std::shared_ptr<xml::Schemas const> schemas) {
-    return std::make_unique<SrgsSpeechRecognition>(std::move(fitting), std::move(schemas));
+std::unique_ptr<Component> srgs_speech_recognition(Context context, std::shared_ptr<xml::Schemas const> schemas) {
+    return std::make_unique<SrgsSpeechRecognition>(std::move(context), std::move(schemas));
 }
 
 }  // namespace rois::simulation

@@ -19,7 +19,7 @@ BadSsml bad(rois::Place place, std::string const& reason) {
     return {"line " + std::to_string(place.line) + ", column " + std::to_string(place.column) + ": " + reason};
 }
 
-// Tells what an element says, and all in it, as deep as the limit of documents lets it be.
+// Walks through the document.
 class Reading {
 public:
     Reading(xml::Element const& root, std::string_view character) : root_namespace_{root.name_space()}, meaning_{character} {
@@ -35,8 +35,8 @@ private:
     void element(xml::Element const& element) {
         bool const is_ours = element.name_space() == root_namespace_ || element.name_space() == ssml_namespace;
         if (auto const language = meaning_.begin(is_ours ? element.name() : std::string_view{}, attributes(element, is_ours))) {
-            flaw_ = bad(element.place(), "the language " + quoted(*language) + " cannot be synthesized; those that can are " +
-                                             names_of_languages());
+            flaw_ = bad(element.place(),
+                        "the language " + quoted(*language) + " cannot be synthesized; expected one of " + names_of_languages());
             return;
         }
         for (auto const& part : element.content()) {

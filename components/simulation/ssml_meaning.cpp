@@ -16,7 +16,7 @@ constexpr Seconds longest_duration = 600;
 constexpr Seconds shortest_speech = 0.5;
 constexpr double least_rate = 0.2;
 constexpr double greatest_rate = 5;
-constexpr int grown_up = 14;  // years: a younger `voice` is a child's
+constexpr int grown_up = 14;  // years; a younger `voice` is a child's voice
 
 struct Word {
     std::string_view name;
@@ -32,10 +32,10 @@ constexpr std::array<std::string_view, 4> sounds{"pitch", "range", "contour", "v
 constexpr std::array<std::string_view, 5> pitches{"x-low", "low", "medium", "high", "x-high"};
 constexpr std::array<std::string_view, 6> volumes{"silent", "x-soft", "soft", "medium", "loud", "x-loud"};
 
-// What is said, but for the readers of the document.
+// Elements whose content is not spoken.
 constexpr std::array<std::string_view, 4> silent_kinds{"metadata", "meta", "desc", "lexicon"};
 
-// Around these one word ends and another begins; others may stand within a word.
+// Elements that separate words. Other elements may occur within a word.
 constexpr std::array<std::string_view, 7> word_ends{"break", "p", "s", "sub", "audio", "w", "token"};
 
 template <std::size_t size>
@@ -49,8 +49,8 @@ std::optional<double> look_up(std::span<Word const> words, std::string_view name
     return found->value;
 }
 
-// SSML 1.1, 3.2.4: a name, a percentage or a plain factor is of the default rate; what has a sign, as SSML 1.0 has it, is of
-// the rate around it. Nothing for what is none of them.
+// SSML 1.1, 3.2.4: a name, a percentage or a factor is relative to the default rate; a value with a sign (SSML 1.0) is relative
+// to the outer rate. Returns nothing for invalid values.
 std::optional<double> rate_of(std::string_view text, double around) {
     if (auto const named = look_up(rates, text)) return named;
     bool const is_change = text.starts_with('+') || text.starts_with('-');
@@ -62,7 +62,7 @@ std::optional<double> rate_of(std::string_view text, double around) {
     return is_change ? around * (1 + factor) : factor;
 }
 
-// "500ms" or "1.5s"; nothing for what is neither.
+// Reads "500ms" or "1.5s". Returns nothing for invalid values.
 std::optional<Seconds> time_of(std::string_view text, Seconds longest) {
     bool const milliseconds = text.ends_with("ms");
     if (!text.ends_with('s')) return {};
@@ -72,7 +72,7 @@ std::optional<Seconds> time_of(std::string_view text, Seconds longest) {
     return std::min(milliseconds ? *number / 1000 : *number, longest);
 }
 
-// "+10", "-2.5st", "120Hz": a number, then one of the units or nothing.
+// Whether the text is a number with an optional unit: "+10", "-2.5st", "120Hz".
 bool is_measure(std::string_view text, std::span<std::string_view const> units) {
     if (text.starts_with('+')) text.remove_prefix(1);
     auto const unit = std::ranges::find_if(units, [&](std::string_view u) { return text.ends_with(u); });
@@ -80,7 +80,7 @@ bool is_measure(std::string_view text, std::span<std::string_view const> units) 
     return to_double(text).has_value();
 }
 
-// Whether `value` says how the voice is to sound, for one of the attributes of `sounds`.
+// Whether the value is valid for this attribute of `sounds`.
 bool is_sound(std::string_view attribute, std::string_view value) {
     constexpr std::size_t longest = 200;  // bytes
     constexpr std::string_view contour_signs = "0123456789+-.%,() abcdefghijklmnopqrstuvwxyzH";
@@ -95,14 +95,14 @@ bool is_sound(std::string_view attribute, std::string_view value) {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-// Without white space at the ends; nothing when it is not there.
+// Returns the trimmed value; nothing if the attribute is missing.
 std::optional<std::string_view> value_of(std::span<SsmlAttribute const> attributes, std::string_view name) {
     auto const found = std::ranges::find(attributes, name, &SsmlAttribute::name);
     if (found == attributes.end()) return {};
     return trimmed(found->value);
 }
 
-// The first character that a list of names names; null when it names none.
+// Returns the first known voice of a list of names; null if there is none.
 VoiceCharacter const* named_voice(std::string_view names) {
     while (!names.empty()) {
         auto const end = std::min(names.find_first_of(" \t\r\n"), names.size());
@@ -132,7 +132,7 @@ std::optional<std::string> SsmlMeaning::begin(std::string_view kind, std::span<S
     element.duration.reset();
     element.first_piece = pieces_.size();
     if (is_one_of(silent_kinds, kind)) element.silent = true;
-    auto in_vain = speak_language(element, attributes);
+    auto unsupported = speak_language(element, attributes);
     set_voice(element, attributes);
     set_pace(element, attributes);
     set_sound(element, attributes);
@@ -145,15 +145,15 @@ std::optional<std::string> SsmlMeaning::begin(std::string_view kind, std::span<S
         say(*alias);
         open_.back().silent = true;
     }
-    return in_vain;
+    return unsupported;
 }
 
-// The region of a language is of no matter here: "en" of "en-US".
+// Ignores the region of a language: "en" for "en-US".
 std::optional<std::string> SsmlMeaning::speak_language(Element& element, std::span<SsmlAttribute const> attributes) {
     if (auto const what = value_of(attributes, "onlangfailure")) {
-        element.in_vain = *what == "ignoretext"   ? InVain::say_nothing
-                          : *what == "ignorelang" ? InVain::keep_language
-                                                  : InVain::refuse;
+        element.on_language_failure = *what == "ignoretext"   ? OnLanguageFailure::say_nothing
+                                      : *what == "ignorelang" ? OnLanguageFailure::keep_language
+                                                              : OnLanguageFailure::refuse;
     }
     auto const said = value_of(attributes, "xml:lang");
     if (!said || element.silent) return {};
@@ -162,12 +162,12 @@ std::optional<std::string> SsmlMeaning::speak_language(Element& element, std::sp
         element.language = std::move(language);
         return {};
     }
-    if (element.in_vain == InVain::refuse) return std::string{*said};
-    element.silent = element.in_vain == InVain::say_nothing;
+    if (element.on_language_failure == OnLanguageFailure::refuse) return std::string{*said};
+    element.silent = element.on_language_failure == OnLanguageFailure::say_nothing;
     return {};
 }
 
-// The voice stays as it is where no character matches, as `onvoicefailure="keepexisting"` of SSML 1.1 asks.
+// Keeps the voice if no character matches (SSML 1.1: onvoicefailure="keepexisting").
 void SsmlMeaning::set_voice(Element& element, std::span<SsmlAttribute const> attributes) {
     if (element.kind != "voice") return;
     if (auto const* named = named_voice(value_of(attributes, "name").value_or(""))) {
@@ -196,7 +196,7 @@ void SsmlMeaning::set_pace(Element& element, std::span<SsmlAttribute const> attr
     }
 }
 
-// A value that says nothing is skipped, as one that cannot be read is.
+// Ignores empty and invalid values.
 void SsmlMeaning::set_sound(Element& element, std::span<SsmlAttribute const> attributes) {
     if (element.kind != "prosody") return;
     for (std::size_t i = 0; i < sounds.size(); ++i) {
@@ -221,7 +221,7 @@ void SsmlMeaning::end() {
 
 void SsmlMeaning::part_words(std::string_view kind) { gap_ = gap_ || is_one_of(word_ends, kind); }
 
-// Another language begins another passage, and so does another voice or another sound of it.
+// A new language, voice or prosody begins a new passage.
 std::size_t SsmlMeaning::passage_of(Element const& element) {
     std::string prosody;
     for (std::size_t i = 0; i < sounds.size(); ++i)

@@ -1,5 +1,5 @@
-// What the markup of W3C SSML means: words, languages, voices, time, and how the voice is to sound. Who walks through the
-// document (ssml.cpp) feeds it.
+// Interprets the markup of W3C SSML: words, languages, voices, durations and prosody. ssml.cpp walks through the document and
+// calls it.
 #pragma once
 
 #include <array>
@@ -21,40 +21,40 @@ struct SsmlAttribute {
 
 class SsmlMeaning {
 public:
-    // `character`: the voice of what is in no `voice` element.
+    // `character`: the voice outside of `voice` elements.
     explicit SsmlMeaning(std::string_view character) : character_{&voice_character(character)} {}
 
-    // An element begins: the local name of one of SSML's own, else empty. Says which language it asks for in vain, when that is
-    // to be refused.
+    // Begins an element. `kind` is its local name, empty for elements of other namespaces. Returns the element's language if it
+    // is unsupported and the document is to be rejected for it.
     std::optional<std::string> begin(std::string_view kind, std::span<SsmlAttribute const>);
     void end();
 
-    // Text, within an element.
+    // Adds text of the current element.
     void say(std::string_view content);
 
     std::vector<Passage> passages() const;
 
 private:
-    // What to do when the voice has not the language of an element (`onlangfailure`).
-    enum class InVain : std::uint8_t { refuse, say_nothing, keep_language };
+    // Values of `onlangfailure`: what to do if the voice does not support an element's language.
+    enum class OnLanguageFailure : std::uint8_t { refuse, say_nothing, keep_language };
 
-    // The values of pitch, range, contour and volume, in this order; empty: as usual.
+    // The values of pitch, range, contour and volume, in this order; empty: the default.
     using Sound = std::array<std::string, 4>;
 
     struct Element {
         std::string kind;
-        double rate = 1;       // of the default one
-        double stress = 1;     // how emphasis changes it
-        bool silent = false;   // what is in it is not spoken
-        std::string language;  // empty: not said
+        double rate = 1;       // relative to the default rate
+        double stress = 1;     // factor of emphasis for the rate
+        bool silent = false;   // its content is not spoken
+        std::string language;  // empty: not specified
         VoiceCharacter const* character = nullptr;
-        InVain in_vain = InVain::refuse;
+        OnLanguageFailure on_language_failure = OnLanguageFailure::refuse;
         Sound sound;
-        std::optional<Seconds> duration;  // in which all that is in it is to be said
+        std::optional<Seconds> duration;  // of its whole content
         std::size_t first_piece = 0;
     };
 
-    // Some of the time that a passage takes.
+    // A part of a passage's duration.
     struct Piece {
         std::size_t passage;
         Seconds seconds;

@@ -1,4 +1,4 @@
-// What stands in for a component that nobody has built yet.
+// A placeholder for a component that is not implemented yet.
 #include <utility>
 
 #include "simulation/example_components.hpp"
@@ -7,7 +7,7 @@
 namespace rois::simulation {
 namespace {
 
-// The results that have a default value, with it.
+// Returns the results that have a default value.
 Results defaults_of(std::vector<ParameterProfile> const& profiles) {
     Results results;
     for (auto const& profile : profiles)
@@ -19,7 +19,7 @@ Results defaults_of(std::vector<ParameterProfile> const& profiles) {
 
 class StandIn final : public ContinuousFunction {
 public:
-    StandIn(Fitting fitting, ComponentProfile whole) : ContinuousFunction{std::move(fitting)}, whole_{std::move(whole)} {}
+    StandIn(Context context, ComponentProfile whole) : ContinuousFunction{std::move(context)}, whole_{std::move(whole)} {}
 
     void perform(CommandHandle command, std::string_view command_type, ParameterList const&, Instant) override {
         auto const* message = find_message(whole_, MessageKind::command, command_type);
@@ -32,7 +32,7 @@ public:
         return {defaults_of(message->results)};
     }
 
-    // As any query; what set_parameter sets, too, is the engine's to tell.
+    // Default values like in any query. The engine adds the parameters of set_parameter.
     ParameterList readable_parameters() const override {
         auto const* message = find_message(whole_, MessageKind::query, "get_parameter");
         return message == nullptr ? ParameterList{} : defaults_of(message->results).parameters;
@@ -47,8 +47,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> stand_in(Fitting fitting, ComponentProfile whole) {
-    return std::make_unique<StandIn>(std::move(fitting), std::move(whole));
+std::unique_ptr<Component> stand_in(Context context, ComponentProfile whole) {
+    return std::make_unique<StandIn>(std::move(context), std::move(whole));
 }
 
 }  // namespace rois::simulation

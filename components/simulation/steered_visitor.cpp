@@ -6,17 +6,17 @@
 namespace rois::simulation {
 namespace {
 
-constexpr Seconds patience = 30;  // with those who are in the way
+constexpr Seconds patience = 30;  // maximum wait for a blocked way
 constexpr Metres at_exit = 0.5;
 
-void drop(std::shared_ptr<Deed> const& deed) { deed->state = Deed::State::dropped; }
+void drop(std::shared_ptr<OrderStatus> const& status) { status->state = OrderStatus::State::dropped; }
 
-// Begins the next when nothing of the kind is going on, and tells of the one that has ended.
+// Marks an ended order as done, and begins the next one. Does nothing while `busy`.
 template <class Turns, class Begin>
 void take_turns(Turns& turns, bool busy, Begin begin) {
     if (turns.empty() || busy) return;
     if (turns.front().begun) {
-        turns.front().deed->state = Deed::State::done;
+        turns.front().status->state = OrderStatus::State::done;
         turns.pop_front();
     }
     if (turns.empty()) return;
@@ -27,35 +27,35 @@ void take_turns(Turns& turns, bool busy, Begin begin) {
 }  // namespace
 
 SteeredVisitor::~SteeredVisitor() {
-    auto const fail = [](auto const& open) { open.deed->fail("they have left"); };
+    auto const fail = [](auto const& open) { open.status->fail("the visitor has left the hall"); };
     if (going_) fail(*going_);
     std::ranges::for_each(words_, fail);
     std::ranges::for_each(gestures_, fail);
 }
 
-SharedDeed SteeredVisitor::obey(Order order) {
-    auto deed = std::make_shared<Deed>();
-    std::visit([&](auto const& what) { begin(what, deed); }, order);
-    return deed;
+SharedOrderStatus SteeredVisitor::obey(Order order) {
+    auto status = std::make_shared<OrderStatus>();
+    std::visit([&](auto const& what) { begin(what, status); }, order);
+    return status;
 }
 
-void SteeredVisitor::begin(Way const& way, OpenDeed deed) {
-    set_out({.stops = {way.stops.begin(), way.stops.end()}, .deed = std::move(deed)});
+void SteeredVisitor::begin(Way const& way, OpenOrder status) {
+    set_out({.stops = {way.stops.begin(), way.stops.end()}, .status = std::move(status)});
 }
-void SteeredVisitor::begin(Leave const&, OpenDeed deed) { set_out({.stops = {}, .deed = std::move(deed)}); }
-void SteeredVisitor::begin(Say const& words, OpenDeed deed) { words_.push_back({words, std::move(deed)}); }
-void SteeredVisitor::begin(Gesture const& gesture, OpenDeed deed) { gestures_.push_back({gesture, std::move(deed)}); }
+void SteeredVisitor::begin(Leave const&, OpenOrder status) { set_out({.stops = {}, .status = std::move(status)}); }
+void SteeredVisitor::begin(Say const& words, OpenOrder status) { words_.push_back({words, std::move(status)}); }
+void SteeredVisitor::begin(Gesture const& gesture, OpenOrder status) { gestures_.push_back({gesture, std::move(status)}); }
 
 void SteeredVisitor::set_out(Going going) {
     stand({});
-    if (going_) drop(going_->deed);
+    if (going_) drop(going_->status);
     going_ = std::move(going);
 }
 
 void SteeredVisitor::stand_still() {
-    auto const drop_open = [](auto const& open) { drop(open.deed); };
+    auto const drop_open = [](auto const& open) { drop(open.status); };
     stand({});
-    if (going_) drop(going_->deed);
+    if (going_) drop(going_->status);
     going_.reset();
     std::ranges::for_each(words_, drop_open);
     words_.clear();
@@ -63,26 +63,26 @@ void SteeredVisitor::stand_still() {
     gestures_.clear();
 }
 
-void SteeredVisitor::play(Company& company) {
+void SteeredVisitor::play(VisitorSurroundings& around) {
     take_turns(words_, person().speaking.has_value(),
-               [&](Say const& words) { say(words.text, words.language.empty() ? role().language : words.language, company); });
-    take_turns(gestures_, person().gesturing.has_value(), [&](Gesture const& gesture) { make_gesture(gesture.id, company); });
-    if (going_) go_on(company);
+               [&](Say const& words) { say(words.text, words.language.empty() ? role().language : words.language, around); });
+    take_turns(gestures_, person().gesturing.has_value(), [&](Gesture const& gesture) { make_gesture(gesture.id, around); });
+    if (going_) go_on(around);
 }
 
-void SteeredVisitor::go_on(Company& company) {
+void SteeredVisitor::go_on(VisitorSurroundings& around) {
     bool const leaves = going_->stops.empty();
-    auto const target = leaves ? Target{company.plan.exit().pose.position, {}} : going_->stops.front();
+    auto const target = leaves ? Target{around.plan.exit().pose.position, {}} : going_->stops.front();
     if (leaves && distance(person().pose.position, target.position) < at_exit) return arrive();
-    switch (go({target.position}, company)) {
+    switch (go({target.position}, around)) {
         case Walker::Step::walking:
             return;
         case Walker::Step::waiting:
-            going_->held_up += company.dt;
-            if (going_->held_up >= patience) give_up("somebody is in the way");
+            going_->held_up += around.dt;
+            if (going_->held_up >= patience) give_up("a person or robot is in the way");
             return;
         case Walker::Step::no_way:
-            return give_up("there is no way there");
+            return give_up("no way leads there");
         case Walker::Step::arrived:
             return arrive();
     }
@@ -96,13 +96,13 @@ void SteeredVisitor::arrive() {
         going_->stops.pop_front();
         if (!going_->stops.empty()) return;
     }
-    going_->deed->state = Deed::State::done;
+    going_->status->state = OrderStatus::State::done;
     going_.reset();
 }
 
-void SteeredVisitor::give_up(std::string why) {
+void SteeredVisitor::give_up(std::string reason) {
     stand({});
-    going_->deed->fail(std::move(why));
+    going_->status->fail(std::move(reason));
     going_.reset();
 }
 

@@ -1,4 +1,4 @@
-// A person who does what they are told, instead of playing a role.
+// A visitor who follows orders instead of a scenario.
 #pragma once
 
 #include <deque>
@@ -11,40 +11,40 @@
 
 namespace rois::simulation {
 
-// Minds robots as others do, but waits for none. Goes, speaks and gestures at the same time; a new way takes the place of the one
-// before, words and gestures wait for those before them. What is open when they are gone has failed.
+// Answers robots like other visitors, but does not wait for them. Walks, speaks and gestures at the same time. A new way replaces
+// the previous one; speech and gestures are queued. Orders that are open when the visitor leaves fail.
 class SteeredVisitor final : public Visitor {
 public:
     using Visitor::Visitor;
     ~SteeredVisitor() override;
 
-    SharedDeed obey(Order);
-    void stand_still();  // all is dropped; words and a gesture that have begun go on
+    SharedOrderStatus obey(Order);
+    void stand_still();  // drops all orders; speech and gestures in progress continue
 
 private:
-    using OpenDeed = std::shared_ptr<Deed>;
+    using OpenOrder = std::shared_ptr<OrderStatus>;
     struct Going {
-        std::deque<Target> stops;  // none: they leave
-        OpenDeed deed;
+        std::deque<Target> stops;  // empty: leaves the hall
+        OpenOrder status;
         Seconds held_up = 0;
     };
     template <class What>
     struct Turn {
         What what;
-        OpenDeed deed;
+        OpenOrder status;
         bool begun = false;
     };
 
-    void begin(Way const&, OpenDeed);
-    void begin(Say const&, OpenDeed);
-    void begin(Gesture const&, OpenDeed);
-    void begin(Leave const&, OpenDeed);
+    void begin(Way const&, OpenOrder);
+    void begin(Say const&, OpenOrder);
+    void begin(Gesture const&, OpenOrder);
+    void begin(Leave const&, OpenOrder);
     void set_out(Going);
 
-    void play(Company&) override;
-    void go_on(Company&);
+    void play(VisitorSurroundings&) override;
+    void go_on(VisitorSurroundings&);
     void arrive();
-    void give_up(std::string why);
+    void give_up(std::string reason);
 
     std::optional<Going> going_;
     std::deque<Turn<Say>> words_;

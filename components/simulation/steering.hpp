@@ -1,4 +1,4 @@
-// What people in the hall can be told to do from outside, and what becomes of it.
+// Orders for steered visitors, and their status.
 #pragma once
 
 #include <cstdint>
@@ -14,30 +14,30 @@
 
 namespace rois::simulation {
 
-// What somebody was told to do: looked at by whoever told, while the world steps.
-struct Deed {
+// The status of an order. The hall updates it while the world steps; the caller reads it.
+struct OrderStatus {
     enum class State : std::uint8_t {
-        goes_on,
+        running,
         done,
-        failed,  // `why` says it
-        dropped  // something else was told instead
-    } state = State::goes_on;
-    std::string why;
+        failed,  // see `reason`
+        dropped  // by another order, or by stop_steering()
+    } state = State::running;
+    std::string reason;
 
-    void fail(std::string reason) {
+    void fail(std::string text) {
         state = State::failed;
-        why = std::move(reason);
+        reason = std::move(text);
     }
 };
-using SharedDeed = std::shared_ptr<Deed const>;
+using SharedOrderStatus = std::shared_ptr<OrderStatus const>;
 
-// To one target after the other.
+// Walks to these targets in order.
 struct Way {
     std::vector<Target> stops;  // one or more
 };
 using Order = std::variant<Way, Say, Gesture, Leave>;
 
-// The numbers of those who are steered begin here, so that those of the others are the same with and without them.
+// The first PersonId of steered visitors. A separate range keeps the ids of the scenario's visitors unchanged.
 inline constexpr std::uint32_t first_steered = 1U << 30U;
 constexpr bool is_steered(PersonId id) { return static_cast<std::uint32_t>(id) >= first_steered; }
 

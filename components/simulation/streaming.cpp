@@ -14,7 +14,7 @@ namespace rois::simulation {
 namespace {
 
 constexpr std::size_t most_streams = 8;
-constexpr std::size_t most_closed = 16;  // that are remembered
+constexpr std::size_t most_closed = 16;  // closed streams in get_stream_status
 
 Results row(std::string const& id, StreamStatus status) { return {{text("stream_id", id), status_of("status", status)}, {}}; }
 
@@ -25,21 +25,21 @@ std::vector<MediaOffer> all_of(std::vector<std::string_view> const& names) {
     return all;
 }
 
-// A transport's name, without the target.
+// Returns a transport's name without the target.
 std::string_view kind_of(MediaOffer const& transport) {
     return std::string_view{transport.name}.substr(0, transport.name.find(':'));
 }
 
-// What is wrong with a transport, whatever is to be transported; nothing when all is well.
+// Returns an error of the transport that is independent of the encoding, or nothing.
 std::optional<std::string> flaw(MediaOffer const& transport) {
-    if (transport.name.starts_with("http:")) return "'http' stands alone: the address is chosen here, and told by connect_stream";
+    if (transport.name.starts_with("http:")) return "'http' takes no target: connect_stream returns the address";
     return MediaFields{transport}.problem();
 }
 
-// Why an offer is none of those that there are.
+// Returns an error if the name is unknown.
 std::optional<std::string> unknown(std::string_view name, std::vector<std::string_view> const& known) {
     if (std::ranges::any_of(known, [&](auto each) { return equal_ignoring_case(each, name); })) return {};
-    return quoted(name) + " is not available; there is " + listed(known);
+    return quoted(name) + " is not supported; expected one of " + listed(known);
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ void Streaming::resume(Instant now) {
 void Streaming::perform(CommandHandle command, std::string_view command_type, ParameterList const& arguments, Instant now) {
     if (command_type == "connect_stream") return connect(command, now);
     auto* const stream = find(text_of(arguments, "stream_id"));
-    // Closed since the command was accepted, or in that state already.
+    // The stream may have changed since the command was accepted.
     bool const held = stream != nullptr && stream->status == StreamStatus::suspended;
     if (stream == nullptr || (command_type == "suspend_stream" && held) || (command_type == "resume_stream" && !held))
         return port().completed(command, CompletedStatus::error, {}, Afterwards::as_before,
@@ -94,7 +94,7 @@ ParameterList Streaming::readable_parameters() const {
     return {text("available_encodings", listed(encodings())), text("available_transports", listed(transports()))};
 }
 
-// The streams that are connected, the latest first; then those that were.
+// Returns the connected streams, the latest first, then the closed ones.
 std::vector<Results> Streaming::query(std::string_view query_type, Instant) {
     if (query_type != "get_stream_status") return {};
     std::vector<Results> rows;
@@ -104,7 +104,7 @@ std::vector<Results> Streaming::query(std::string_view query_type, Instant) {
     return rows;
 }
 
-void Streaming::stepped(Instant when) {
+void Streaming::on_step(Instant when) {
     if (streams_.empty()) return;
     look(when);
 }
@@ -113,22 +113,22 @@ void Streaming::time_passed(Instant now) {
     for (auto& stream : streams_) receptions(stream, now);
 }
 
-std::optional<std::string> Streaming::unfit(ParameterList const& parameters) const {
+std::optional<std::string> Streaming::parameter_problem(ParameterList const& parameters) const {
     auto agreed = negotiated(parameters);
     if (auto* problem = std::get_if<std::string>(&agreed)) return std::move(*problem);
     return {};
 }
 
-std::optional<std::string> Streaming::impossible(std::string_view command_type, ParameterList const& arguments) const {
+std::optional<std::string> Streaming::command_problem(std::string_view command_type, ParameterList const& arguments) const {
     if (!command_type.ends_with("_stream") || command_type == "connect_stream") return {};
     auto const id = text_of(arguments, "stream_id");
     if (std::ranges::find(streams_, id, &Stream::id) != streams_.end()) return {};
     auto const there_are = listed(streams_, &Stream::id);
-    return "argument 'stream_id': no stream " + quoted(id) + " is connected; " +
-           (there_are.empty() ? "there is none" : "there is " + there_are);
+    return "argument 'stream_id': stream " + quoted(id) +
+           " is not connected; connected: " + (there_are.empty() ? "none" : there_are);
 }
 
-// The first pair that fits, the transports' order before the encodings'.
+// Returns the first supported pair; the order of the transports comes first.
 std::variant<Streaming::Opening, std::string> Streaming::negotiated(ParameterList const& parameters) const {
     std::array<std::vector<MediaOffer>, 2> wanted;
     std::array<std::string_view, 2> const names{"transport_parameters", "encoding_parameters"};
@@ -162,7 +162,7 @@ std::variant<Streaming::Opening, std::string> Streaming::negotiated(ParameterLis
 void Streaming::connect(CommandHandle command, Instant now) {
     if (streams_.size() >= most_streams)
         return port().completed(command, CompletedStatus::out_of_resources, {}, Afterwards::as_before,
-                                std::to_string(most_streams) + " streams are open already");
+                                std::to_string(most_streams) + " streams are open: close one first");
     auto const agreed = negotiated(parameters_);
     auto const* opening = std::get_if<Opening>(&agreed);
     if (opening == nullptr)

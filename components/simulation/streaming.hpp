@@ -1,5 +1,5 @@
-// What the two streaming components have in common (RoIS 2.0): streams that are connected, held and closed, and whose media pass
-// beside RoIS messages.
+// Base of the two streaming components (RoIS 2.0): connects, suspends and closes streams. Their media do not pass through RoIS
+// messages.
 #pragma once
 
 #include <deque>
@@ -17,7 +17,7 @@
 
 namespace rois::simulation {
 
-// Has no action of its own: it is active as long as a stream is connected.
+// Active while a stream is connected; `start` only sets parameters.
 class Streaming : public RobotComponent {
 public:
     using RobotComponent::RobotComponent;
@@ -32,23 +32,24 @@ public:
     std::vector<Results> query(std::string_view query_type, Instant now) final;
 
 protected:
-    // What an encoding and a transport agree on.
+    // The result of a negotiation.
     struct Opening {
         std::string encoding;  // with all its fields
         std::function<std::unique_ptr<media::Outlet>(media::Flow)> open;
     };
 
-    // Their names, the first of them when nothing is asked for.
+    // The supported names; the first is the default.
     virtual std::vector<std::string_view> encodings() const = 0;
     virtual std::vector<std::string_view> transports() const = 0;
 
-    // Why nothing can be sent to the target of a transport, whatever it is.
+    // Returns why the target of a transport is rejected for all encodings, or nothing.
     virtual std::optional<std::string> unreachable(MediaOffer const&) const { return {}; }
 
-    // Or why there is none. Both names are known ones, and the transport can be reached.
+    // Returns the stream's opening, or why the pair is unsupported. Both names are supported, and the transport's target is
+    // valid.
     virtual std::variant<Opening, std::string> opening(MediaOffer const& encoding, MediaOffer const& transport) const = 0;
 
-    // Once a step of the world, while a stream is connected.
+    // Called after each step while a stream is connected.
     virtual void look(Instant) {}
 
 private:
@@ -60,10 +61,10 @@ private:
         bool held_with_all = false;  // by `suspend`
     };
 
-    void stepped(Instant when) final;
+    void on_step(Instant when) final;
     void time_passed(Instant now) final;
-    std::optional<std::string> unfit(ParameterList const&) const final;
-    std::optional<std::string> impossible(std::string_view command_type, ParameterList const& arguments) const final;
+    std::optional<std::string> parameter_problem(ParameterList const&) const final;
+    std::optional<std::string> command_problem(std::string_view command_type, ParameterList const& arguments) const final;
 
     std::variant<Opening, std::string> negotiated(ParameterList const&) const;
     void connect(CommandHandle, Instant now);
@@ -75,10 +76,10 @@ private:
     void turn(Stream&, StreamStatus, Instant now);
 
     ParameterList parameters_;
-    std::vector<Stream> streams_;     // connected, in the order of connecting
-    std::deque<std::string> closed_;  // ids, the last one closed first
+    std::vector<Stream> streams_;     // connected streams, oldest first
+    std::deque<std::string> closed_;  // ids, the most recently closed first
     unsigned last_ = 0;
-    bool held_ = false;  // by `suspend`, which holds what is connected meanwhile, too
+    bool held_ = false;  // by `suspend`; also holds streams that connect later
 };
 
 }  // namespace rois::simulation

@@ -1,4 +1,4 @@
-// System information (7.6.1): where the robot is, and how it is.
+// System information (7.6.1): the robot's position and the status of its engine.
 #include "simulation/basic_components.hpp"
 #include "simulation/codebooks.hpp"
 #include "simulation/random.hpp"
@@ -6,18 +6,18 @@
 namespace rois::simulation {
 namespace {
 
-// Standard deviations of the robot's knowledge of where it is.
+// Standard deviations of the robot's own position.
 constexpr Metres sigma = 0.01;
 constexpr Radians heading_sigma = from_degrees(0.5);
 
-// Tells this use of random numbers from those of the sensors.
+// Separates these random numbers from those of the sensors.
 constexpr std::uint64_t own_position = 0x6f776e;
 
 class SystemInformation final : public RobotComponent {
 public:
     using RobotComponent::RobotComponent;
 
-    // Without the methods of RoIS_Common: there is nothing to start, and the engine never asks for it.
+    // Never called: the component has no methods of RoIS_Common.
     void start(CommandHandle command, ParameterList const&, Instant) override {
         port().completed(command, CompletedStatus::error, {}, Afterwards::as_before, "there is nothing to start");
     }
@@ -32,12 +32,12 @@ public:
     }
 
 private:
-    void stepped(Instant when) override {
+    void on_step(Instant when) override {
         if (!operable_time_) operable_time_ = date_time("operable_time", when.utc);
     }
 
-    // WARNING while somebody is in the robot's way.
-    ComponentStatus condition() const override {
+    // WARNING while the robot is obstructed.
+    ComponentStatus running_status() const override {
         auto const motion = hall().drive(robot()).current();
         return motion && motion->state == MotionState::obstructed ? ComponentStatus::warning : ComponentStatus::ready;
     }
@@ -48,11 +48,11 @@ private:
         Covariance const covariance =
             Eigen::Vector3d{sigma * sigma, sigma * sigma, heading_sigma * heading_sigma}.asDiagonal().toDenseMatrix();
         return {{date_time("timestamp", measured_at.utc), references("robot_ref", {self.name}, std::string{codebook::robot}),
-                 positions("position_data", {told(pose)}, crs())},
-                {told_located("position_data", self.name, pose, 0, covariance)}};
+                 positions("position_data", {pose_text(pose)}, crs())},
+                {located_entity("position_data", self.name, pose, 0, covariance)}};
     }
 
-    // The same however often it is asked within a step.
+    // Returns the same for all calls within a step.
     Pose measured(Pose const& pose) const {
         auto const step = static_cast<std::uint64_t>(hall().now() / Hall::step_length);
         Random random{mixed({hall().seed(), step, static_cast<std::uint64_t>(robot()), own_position})};
@@ -73,6 +73,6 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> system_information(Fitting fitting) { return std::make_unique<SystemInformation>(std::move(fitting)); }
+std::unique_ptr<Component> system_information(Context context) { return std::make_unique<SystemInformation>(std::move(context)); }
 
 }  // namespace rois::simulation

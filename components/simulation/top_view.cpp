@@ -23,7 +23,7 @@ public:
         picture_.rgb.resize(std::size_t{picture_.width} * picture_.height * 3);
     }
 
-    // Every pixel of the box whose centre `is_inside`.
+    // Fills the pixels of the box whose centre `is_inside`.
     template <class Inside>
     void fill(Box const& around, Colour colour, Inside is_inside) {
         auto const first = at(Point{around.low.x(), around.high.y()}), last = at(Point{around.high.x(), around.low.y()});

@@ -21,7 +21,7 @@ struct Colour {
 inline constexpr Colour floor_colour{236, 234, 226}, desk_colour{172, 138, 96}, wall_colour{60, 60, 66},
     robot_colour{24, 140, 70}, person_colour{40, 90, 200}, speaking_colour{230, 120, 20};
 
-// What moves, at one moment.
+// The moving figures at one moment.
 struct Scene {
     struct Figure {
         Pose pose;
@@ -31,26 +31,26 @@ struct Scene {
     std::vector<Figure> figures;
 };
 
-// Those who speak have a colour of their own.
+// Robots and people who speak have the speaking colour.
 Scene scene_of(FloorPlan const&, std::span<Robot const>, std::span<Person const>);
 
-// The plan fills the picture: north (y) is up. Neither side is longer than `longest`.
+// Draws the plan so that it fills the picture. North (y) is up; the longer side has at most `longest` pixels.
 media::Picture top_view(FloorPlan const&, Scene const&, std::uint16_t longest);
 
-// Where the last pixel row and column of a position are, in a picture of the plan that is `picture` wide and high.
+// The pixel of a position in a picture of the plan.
 struct Pixel {
     int column, row;
 };
 Pixel pixel_of(FloorPlan const&, media::Picture const&, Point const&);
 
-// Hands the scene from the engine's thread to the one that draws.
+// Passes the scene from the engine's thread to the drawing thread. Thread-safe.
 class Camera {
 public:
     explicit Camera(FloorPlan plan) : plan_{std::move(plan)} {}
 
     void see(Scene);
 
-    // Nothing before the first scene.
+    // Returns nothing before the first scene.
     std::optional<media::Picture> picture(std::uint16_t longest) const;
 
 private:

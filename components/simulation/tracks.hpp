@@ -1,4 +1,4 @@
-// The temporary names by which robots know people, and whom they have identified.
+// The temporary names of people, and who has been identified.
 #pragma once
 
 #include <map>
@@ -15,19 +15,19 @@ class Tracks {
 public:
     explicit Tracks(WorldTime memory) : memory_(memory) {}
 
-    void see(PersonId, WorldTime now);  // gives a new name when there is none
-    void identify(PersonId);            // a known person who was recognized
-    void forget_lost(WorldTime now);    // the names of those not seen for longer than the memory, and who they are
+    void see(PersonId, WorldTime now);  // assigns a new name if the person has none
+    void identify(PersonId);            // marks a known person as identified
+    void forget_lost(WorldTime now);    // forgets names and identification of people not seen for longer than `memory`
     void leave(PersonId);
 
     std::optional<std::string> name(PersonId) const;
     std::optional<PersonId> find(std::string_view name) const;
     bool identified(PersonId) const;
-    bool was_given(std::string_view name) const;  // to anybody, at any time
+    bool was_given(std::string_view name) const;  // ever assigned to a person
 
 private:
     struct Track {
-        std::uint64_t number = 0;  // 0: has no name now
+        std::uint64_t number = 0;  // 0: no name
         WorldTime seen{};
         bool identified = false;
     };

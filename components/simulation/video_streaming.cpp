@@ -1,4 +1,4 @@
-// Video streaming (RoIS 2.0): the hall seen from above, which stands for what the robot's cameras see.
+// Video streaming (RoIS 2.0): the hall seen from above, instead of the robot's cameras.
 #include "simulation/basic_components.hpp"
 #include "simulation/streaming.hpp"
 #include "simulation/top_view.hpp"
@@ -10,7 +10,7 @@ constexpr auto between_scenes = std::chrono::milliseconds{40};
 
 class VideoStreaming final : public Streaming {
 public:
-    explicit VideoStreaming(Fitting fitting) : Streaming{std::move(fitting)}, camera_{std::make_shared<Camera>(hall().plan())} {}
+    explicit VideoStreaming(Context context) : Streaming{std::move(context)}, camera_{std::make_shared<Camera>(hall().plan())} {}
 
 private:
     std::vector<std::string_view> encodings() const override { return {"multipart/x-mixed-replace", "image/jpeg"}; }
@@ -43,6 +43,6 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> video_streaming(Fitting fitting) { return std::make_unique<VideoStreaming>(std::move(fitting)); }
+std::unique_ptr<Component> video_streaming(Context context) { return std::make_unique<VideoStreaming>(std::move(context)); }
 
 }  // namespace rois::simulation

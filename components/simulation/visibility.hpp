@@ -1,4 +1,4 @@
-// Whether a sensor of a robot reaches a person, without noise.
+// Whether a sensor of a robot detects a person, without noise.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@ inline bool reaches(FloorPlan const& plan, Pose const& robot, Point const& place
            plan.in_sight(robot.position, place);
 }
 
-// The person's face looks at the robot within this angle to either side.
+// Whether the person's face looks at the robot within this angle to either side.
 inline bool is_turned_to(Person const& person, Pose const& robot, Radians within) {
     return std::abs(bearing(person.pose, robot.position)) <= within;
 }

@@ -1,4 +1,4 @@
-// The mind of a person: plays a role, minds the robots, and answers them.
+// The behaviour of a person: plays a role, pays attention to robots and answers them.
 #pragma once
 
 #include <deque>
@@ -13,12 +13,12 @@
 
 namespace rois::simulation {
 
-// What a visitor finds around them in a step.
-struct Company {
+// The world around one visitor in one step.
+struct VisitorSurroundings {
     FloorPlan const& plan;
     Planner const& planner;  // for bodies of person_radius
     std::span<Robot const> robots;
-    std::vector<Disc> others;  // robots with the floor they need to stop on, and the other people
+    std::vector<Disc> obstacles;  // the other people, and the robots with the floor that they need to stop
     Chronicle& chronicle;
     WorldTime now;
     Seconds dt;
@@ -26,7 +26,7 @@ struct Company {
 
 class Visitor {
 public:
-    // Comes in at `pose`; `seed` is this visitor's own.
+    // Enters at `pose`. `seed` seeds the visitor's own random numbers.
     Visitor(PersonId, Role, Pose const& pose, WorldTime now, FloorPlan const&, Planner const&, std::uint64_t seed);
     virtual ~Visitor() = default;
     Visitor(Visitor const&) = delete;
@@ -36,21 +36,22 @@ public:
     std::string const& role_id() const { return role_.id; }
     bool gone() const { return gone_; }
 
-    // A robot's speech that ended, or a reaction that it shows; minded when it is near and the visitor looks at it.
-    void notice(Happening const&, Robot const&, double loudness, Company const&);
+    // Notifies the visitor of a robot's completed speech or its reaction. Ignored unless the robot is near and the visitor looks
+    // at it.
+    void notice(Happening const&, Robot const&, double loudness, VisitorSurroundings const&);
 
-    void step(Company&);
+    void step(VisitorSurroundings&);
 
 protected:
-    // What they do in a step, as their own mind has it.
-    virtual void play(Company&);
+    // Does the visitor's own actions of one step.
+    virtual void play(VisitorSurroundings&);
 
     Role const& role() const { return role_; }
-    void say(std::string text, std::string language, Company&);
-    void make_gesture(std::string id, Company&);
-    // A step on the way there, or beside it when somebody stands there. `waiting` also when there is no room.
-    Walker::Step go(Whereabouts const&, Company&);
-    // Goes nowhere, and is turned like this as long as no robot attends to them.
+    void say(std::string text, std::string language, VisitorSurroundings&);
+    void make_gesture(std::string id, VisitorSurroundings&);
+    // Walks one step towards a target, or beside it if it is occupied. Returns `waiting` also if there is no room.
+    Walker::Step go(Whereabouts const&, VisitorSurroundings&);
+    // Stops walking, and turns to `heading` while no robot attends to the visitor.
     void stand(std::optional<Radians> heading);
     void go_out() { gone_ = true; }
 
@@ -59,32 +60,32 @@ private:
     enum class Doing : std::uint8_t { still, done };
     static constexpr std::size_t most_pending = 8;
     struct Pending {
-        std::size_t answer;  // its place in the role
+        std::size_t answer;  // index in the role
         WorldTime due;
     };
 
-    Doing act(Walk const&, Company&);
-    Doing act(Face const&, Company&);
-    Doing act(Ignore const&, Company&);
-    Doing act(Say const&, Company&);
-    Doing act(Gesture const&, Company&);
-    Doing act(Wait const&, Company&);
-    Doing act(Wander const&, Company&);
-    Doing act(Leave const&, Company&);
+    Doing act(Walk const&, VisitorSurroundings&);
+    Doing act(Face const&, VisitorSurroundings&);
+    Doing act(Ignore const&, VisitorSurroundings&);
+    Doing act(Say const&, VisitorSurroundings&);
+    Doing act(Gesture const&, VisitorSurroundings&);
+    Doing act(Wait const&, VisitorSurroundings&);
+    Doing act(Wander const&, VisitorSurroundings&);
+    Doing act(Leave const&, VisitorSurroundings&);
 
     void next_action(WorldTime now);
-    void end_speech_and_gesture(Company&);
-    bool is_open(std::size_t answer) const;  // not used up by `once`
-    void answer(Company&);
-    void turn(Company const&);
-    void mind_robots(Company const&);
-    Robot const* attended_robot(Company const&) const;
-    bool robot_speaks_nearby(Company const&) const;
-    bool stays_for_robot(Company const&);
-    std::optional<Point> whereabouts(Whereabouts const&, Company const&) const;
-    std::optional<Point> standing_place(Whereabouts const&, Company const&);
-    Point somewhere(Company const&);
-    Walker::Step walk(Company&);
+    void end_speech_and_gesture(VisitorSurroundings&);
+    bool is_open(std::size_t answer) const;  // false if used up by `once`
+    void answer(VisitorSurroundings&);
+    void turn(VisitorSurroundings const&);
+    void mind_robots(VisitorSurroundings const&);
+    Robot const* attended_robot(VisitorSurroundings const&) const;
+    bool robot_speaks_nearby(VisitorSurroundings const&) const;
+    bool stays_for_robot(VisitorSurroundings const&);
+    std::optional<Point> whereabouts(Whereabouts const&, VisitorSurroundings const&) const;
+    std::optional<Point> standing_place(Whereabouts const&, VisitorSurroundings const&);
+    Point somewhere(VisitorSurroundings const&);
+    Walker::Step walk(VisitorSurroundings&);
 
     Person person_;
     Role role_;
@@ -98,15 +99,15 @@ private:
     bool ignores_ = false;
     std::optional<Whereabouts> faces_;
     std::optional<Radians> heading_wanted_;
-    std::deque<Pending> pending_;         // answers to give, one after the other
-    std::vector<std::size_t> answered_;   // those of `once` that were given
-    Seconds still_to_wait_ = 0;           // of a Wait, of a pause in wandering, or for others to end their speech
-    bool said_ = false;                   // the words or the gesture of this action were begun
-    std::optional<RobotId> approaching_;  // a robot that comes up to this visitor
-    std::optional<RobotId> talks_with_;   // a robot nearby that has turned to this visitor, or spoken to them lately
-    WorldTime addressed_{-1'000'000};     // when a robot last spoke or showed something to them
-    Seconds patience_ = usual_patience;   // left for robots; comes back when none attends to the visitor, or one talks to them
-    int talks_left_ = 8;                  // how often talking brings patience back in a visit
+    std::deque<Pending> pending_;         // answers to give, in order
+    std::vector<std::size_t> answered_;   // used answers with `once`
+    Seconds still_to_wait_ = 0;           // in Wait, in a pause of Wander, or before Say while others speak
+    bool said_ = false;                   // speech or gesture of this action has begun
+    std::optional<RobotId> approaching_;  // the robot that approaches this visitor
+    std::optional<RobotId> talks_with_;   // the robot nearby that faces this visitor or spoke to them recently
+    WorldTime addressed_{-1'000'000};     // last speech or reaction of a robot to them
+    Seconds patience_ = usual_patience;   // time left for robots; restored by their speech and while none attends
+    int talks_left_ = 8;                  // how often a robot's speech can still restore patience_
 };
 
 }  // namespace rois::simulation

@@ -7,7 +7,7 @@ namespace rois::simulation {
 
 Seconds spoken_seconds(std::string_view text) {
     constexpr Seconds per_letter = 0.065;    // about 15 letters a second
-    constexpr Seconds per_wide_sign = 0.15;  // a kana or an ideograph: three bytes or more in UTF-8
+    constexpr Seconds per_wide_sign = 0.15;  // kana or ideograph: at least three bytes in UTF-8
     Seconds sum = 0;
     for (unsigned char byte : text) {
         if (byte >= 0xe3) {

@@ -1,4 +1,4 @@
-// The voice of one robot: one utterance at a time, which ends by itself.
+// The voice of one robot. It speaks one utterance at a time, which ends by itself.
 #pragma once
 
 #include <deque>
@@ -14,17 +14,17 @@ class Voice {
 public:
     explicit Voice(RobotId robot) : robot_(robot) {}
 
-    // `place` is where the robot is; the chronicle hears of every beginning and end.
+    // `place` is the robot's position. Every start and end of speech is added to the chronicle.
     UtteranceId speak(Utterance, WorldTime now, Point const& place, Chronicle&);
     SpeechState state(UtteranceId) const;
     void break_off(UtteranceId, WorldTime now, Point const& place, Chronicle&);
     void hold(UtteranceId, WorldTime now);
     void go_on(UtteranceId, WorldTime now);
 
-    // Ends the utterance when its last word is said.
+    // Advances to `now`: begins the next passage, or ends the utterance.
     void step(WorldTime now, Point const& place, Chronicle&);
 
-    // What is heard now; nothing while held or silent.
+    // The current speech; nothing while held or silent.
     std::optional<Speech> speech() const;
     double loudness() const { return loudness_; }  // of the last utterance
 
@@ -36,7 +36,7 @@ private:
     UtteranceId last_{};
     SpeechState state_ = SpeechState::spoken;
     Speech speech_;
-    std::deque<Passage> further_;  // of the last utterance, to be said
+    std::deque<Passage> further_;  // remaining passages of the last utterance
     WorldTime left_when_held_{};
     double loudness_ = 0.5;
     std::deque<std::pair<UtteranceId, SpeechState>> ended_;  // the last few

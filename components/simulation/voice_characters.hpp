@@ -1,4 +1,4 @@
-// The voices with which a robot can speak: the values of `character` (table 44).
+// The voices of robots: the values of `character` (table 44).
 #pragma once
 
 #include <span>
@@ -11,18 +11,18 @@ namespace rois::simulation {
 struct VoiceCharacter {
     std::string_view name;
     double pitch;  // Hz
-    double pace;   // how fast it speaks: 1 is the default voice's
+    double pace;   // speed relative to the default voice
 };
 
 inline constexpr std::string_view default_character = "default";
 
-// All of them; the first one is the default.
+// All voices; the first one is the default.
 std::span<VoiceCharacter const> voice_characters();
 
-// Null when there is none of this name.
+// Returns null if the name is unknown.
 VoiceCharacter const* find_voice_character(std::string_view name);
 
-// The character of that name, or the default one.
+// Returns the voice of that name, or the default one.
 VoiceCharacter const& voice_character(std::string_view name);
 
 std::vector<std::string> names_of_voice_characters();

@@ -1,4 +1,4 @@
-// The courses that follow ways of the planner: GoTo and KeepDistance.
+// The courses that follow paths of the planner: GoTo and KeepDistance.
 #include <algorithm>
 #include <cmath>
 
@@ -10,9 +10,9 @@ namespace {
 
 constexpr Metres at_place = 0.04;
 constexpr Radians at_heading = from_degrees(1.5);
-constexpr Radians too_far_aside = 1.0;  // the robot stops and turns on the spot
+constexpr Radians too_far_aside = 1.0;  // beyond it, the robot stops and turns on the spot
 
-// Drives along corner points.
+// Drives along the corners of a path.
 class Corners {
 public:
     bool given() const { return !points_.empty(); }
@@ -22,7 +22,7 @@ public:
     }
     void clear() { points_.clear(); }
 
-    // Nothing when the last point is reached.
+    // Returns nothing when the last point is reached.
     std::optional<Twist> steer(Wheels const& wheels) {
         while (points_.size() > 1 && passed(wheels.pose.position)) {
             if (std::abs(turn_at(0, before_)) >= sharpest_bend) turning_ = true;
@@ -40,7 +40,7 @@ public:
     }
 
 private:
-    // Whether the next corner is at hand, or lies behind already, beside the way that was driven.
+    // Whether the next corner is near, or already behind the robot.
     bool passed(Point const& at) const {
         Point const left = points_.front() - at;
         return left.norm() < near_corner || left.dot(unit(direction(before_, points_.front()))) < 0;
@@ -50,7 +50,7 @@ private:
         return wrapped(direction(points_[i], points_[i + 1]) - direction(from, points_[i]));
     }
 
-    // Slow enough for all corners that are left, and to stop at the last one.
+    // The highest speed that allows the remaining corners and a stop at the last one.
     MetresPerSecond speed(Wheels const& wheels) const {
         MetresPerSecond most = wheels.plan.max_speed;
         Metres left = 0;
@@ -66,12 +66,12 @@ private:
         return most;
     }
 
-    Point before_ = Point::Zero();  // where the leg to the next point began
+    Point before_ = Point::Zero();  // start of the current leg
     std::vector<Point> points_;
     bool turning_ = false;
 };
 
-// How long it takes to drive a way and to turn to `heading` then, if nobody gets in the way.
+// Simulates how long it takes to drive a path and to turn to `heading`, without obstacles.
 Seconds rehearsed(Wheels const& wheels, std::vector<Point> const& way, std::optional<Radians> heading) {
     constexpr Seconds longest = 600;
     Pose pose = wheels.pose;
@@ -88,14 +88,14 @@ Seconds rehearsed(Wheels const& wheels, std::vector<Point> const& way, std::opti
     return longest;
 }
 
-// Turns towards a heading; nothing when it is there and stands.
+// Turns to a heading. Returns nothing when the robot stands at that heading.
 std::optional<Twist> turn_to(Wheels const& wheels, Radians heading) {
     Radians const left = wrapped(heading - wheels.pose.heading);
     if (std::abs(left) < at_heading && wheels.stand()) return std::nullopt;
     return Twist{0, wheels.rate_to_stop_in(left)};
 }
 
-// Drives to goals that may move, on ways around those who stand there, and looks for another way after waiting.
+// Drives to goals that may move, around obstacles that stand still. Plans a new path if the robot is blocked for a while.
 class Approach {
 public:
     enum class Step : std::uint8_t { driving, waiting, there, no_way };
@@ -109,34 +109,34 @@ public:
         }
         if (waits_too_long(wheels)) {
             corners_.clear();
-            others_ = Others::all;
+            avoid_ = Avoid::all;
         }
         if (!corners_.given()) {
             Step const planned = plan(policy, wheels);
             if (planned != Step::driving) return planned;
         }
         auto const wanted = corners_.steer(wheels);
-        patience_.look(wheels, wanted.has_value());
-        if (!patience_.obstructed()) others_ = Others::standing;
+        stall_.update(wheels, wanted.has_value());
+        if (!stall_.is_stalled()) avoid_ = Avoid::standing;
         twist = wanted.value_or(Twist{});
         if (!wanted) return Step::there;
-        return patience_.obstructed() ? Step::waiting : Step::driving;
+        return stall_.is_stalled() ? Step::waiting : Step::driving;
     }
 
     void forget() {
         goal_.reset();
         corners_.clear();
-        patience_.forget();
+        stall_.reset();
     }
 
 private:
-    enum class Others : std::uint8_t { standing, all };
+    enum class Avoid : std::uint8_t { standing, all };
 
-    // Robots with a higher number wait longer, so that of two which meet one stands while the other goes around it.
+    // Robots with a higher id wait longer: if two robots meet, one stands while the other drives around it.
     bool waits_too_long(Wheels const& wheels) {
         Seconds const limit = 1.0 + 3.0 * std::min(3.0, static_cast<double>(wheels.robot));
-        if (!corners_.given() || patience_.waited() < limit) return false;
-        patience_.forget();
+        if (!corners_.given() || stall_.waited() < limit) return false;
+        stall_.reset();
         until_next_try_ = 0;
         return true;
     }
@@ -144,27 +144,27 @@ private:
     Step plan(RoutingPolicy policy, Wheels const& wheels) {
         if (until_next_try_ > 0) return Step::waiting;
         until_next_try_ = 1.0;
-        auto const others =
-            others_ == Others::all ? wheels.around.others(wheels.robot) : wheels.around.others_standing(wheels.robot);
-        auto way = wheels.planner.way(wheels.pose, goal_->position, policy, others);
+        auto const obstacles = avoid_ == Avoid::all ? wheels.around.obstacles_with_stopping_room(wheels.robot)
+                                                    : wheels.around.standing_obstacles(wheels.robot);
+        auto way = wheels.planner.way(wheels.pose, goal_->position, policy, obstacles);
         if (!way) return wheels.planner.way(wheels.pose, goal_->position, policy) ? Step::waiting : Step::no_way;
-        if (policy == RoutingPolicy::time) take_shortest_if_faster(*way, wheels, others);
+        if (policy == RoutingPolicy::time) take_shortest_if_faster(*way, wheels, obstacles);
         corners_.set(wheels.pose.position, std::move(*way));
         return Step::driving;
     }
 
-    // The planner only estimates seconds: where the shortest way is hardly slower, both are rehearsed.
-    void take_shortest_if_faster(std::vector<Point>& way, Wheels const& wheels, std::vector<Disc> const& others) const {
+    // The planner only estimates durations. Simulates the shortest path too, and takes it if it is faster.
+    void take_shortest_if_faster(std::vector<Point>& way, Wheels const& wheels, std::vector<Disc> const& obstacles) const {
         if (way.size() < 2) return;
-        auto shortest = wheels.planner.way(wheels.pose, goal_->position, RoutingPolicy::distance, others);
+        auto shortest = wheels.planner.way(wheels.pose, goal_->position, RoutingPolicy::distance, obstacles);
         if (!shortest || *shortest == way) return;
         if (rehearsed(wheels, *shortest, goal_->heading) < rehearsed(wheels, way, goal_->heading)) way = std::move(*shortest);
     }
 
     Corners corners_;
-    Patience patience_;
+    StallDetector stall_;
     std::optional<Target> goal_;
-    Others others_ = Others::standing;
+    Avoid avoid_ = Avoid::standing;
     Seconds until_next_try_ = 0;
 };
 
@@ -200,7 +200,7 @@ public:
     }
 
 private:
-    // At the position: turns as wanted, then the next target's turn comes.
+    // At the position: turns to the target's heading, then begins the next target.
     Twist turn(Progress& progress, Wheels const& wheels) {
         progress.state = MotionState::moving;
         auto const twist = aim_->heading ? turn_to(wheels, *aim_->heading) : std::optional<Twist>{};
@@ -212,25 +212,25 @@ private:
         return {};
     }
 
-    // Where to stand for this target now: at it, or beside whoever stands there.
+    // Computes where to stand for this target: at it, or beside its occupant.
     void aim(Target const& target, Wheels const& wheels) {
         until_next_aim_ = 0.5;
-        auto const others = wheels.around.others_standing(wheels.robot);
-        auto const there = std::ranges::find_if(others, [&](Disc const& other) {
+        auto const obstacles = wheels.around.standing_obstacles(wheels.robot);
+        auto const there = std::ranges::find_if(obstacles, [&](Disc const& other) {
             return distance(other.centre, target.position) < other.radius + wheels.plan.radius + Planner::elbow_room;
         });
         Target wanted = target;
-        if (there != others.end()) wanted = beside(*there, others, target, wheels);
-        // A measured person sways; the robot does not.
+        if (there != obstacles.end()) wanted = beside(*there, obstacles, target, wheels);
+        // Ignores small movements of the occupant.
         if (aim_ && distance(aim_->position, wanted.position) < 0.05) wanted.position = aim_->position;
         aim_ = wanted;
     }
 
-    static Target beside(Disc const& body, std::vector<Disc> const& others, Target const& target, Wheels const& wheels) {
+    static Target beside(Disc const& body, std::vector<Disc> const& obstacles, Target const& target, Wheels const& wheels) {
         bool const near = distance(wheels.pose.position, body.centre) < polite_distance + 0.15 &&
                           wheels.around.plan().in_sight(wheels.pose.position, body.centre);
         auto const place = near ? std::optional<Point>{wheels.pose.position}
-                                : wheels.planner.beside(body.centre, polite_distance, wheels.pose.position, others);
+                                : wheels.planner.beside(body.centre, polite_distance, wheels.pose.position, obstacles);
         if (!place) return target;
         return {*place, direction(*place, body.centre)};
     }
@@ -266,7 +266,7 @@ public:
     }
 
 private:
-    // The place to stand at is chosen anew when the other one has moved on.
+    // Chooses a new place to stand when the other one has moved.
     Twist come(Point const& whom, Metres wanted, Wheels const& wheels, Progress& progress) {
         until_next_aim_ -= wheels.dt;
         if (!aim_ || (distance(whom, aimed_at_) > 0.3 && until_next_aim_ <= 0)) {

@@ -1,5 +1,5 @@
-// Wheelchair robot (Annex C.4): navigation with brakes, a preferred speed, and a state that is told when it changes. Its robot is
-// the wheelchair: brakes, speed and state are those of the robot, whichever component drives it.
+// Wheelchair robot (Annex C.4): navigation with brakes, a preferred speed and a state whose changes are reported. The robot is
+// the wheelchair: brakes, speed and state apply to motions of all its components.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -14,7 +14,7 @@
 namespace rois::simulation {
 namespace {
 
-// "3250.5", of mm.
+// Returns "3250.5".
 std::string one_decimal(double value) {
     std::array<char, 32> text{};
     auto const end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, 1).ptr;
@@ -23,7 +23,7 @@ std::string one_decimal(double value) {
 
 class WheelchairRobot final : public Navigation {
 public:
-    explicit WheelchairRobot(Fitting fitting) : Navigation{std::move(fitting), "wheelchair_robot"} {}
+    explicit WheelchairRobot(Context context) : Navigation{std::move(context), "wheelchair_robot"} {}
 
     void parameters_changed(ParameterList const& parameters, Instant) override { limit_speed(parameters); }
 
@@ -32,7 +32,7 @@ public:
         wheels().brake(on);
         if (auto const earlier = std::exchange(braking_, {}))
             port().completed(*earlier, on ? CompletedStatus::ok : CompletedStatus::abort, {}, Afterwards::as_before,
-                             on ? "" : "the brakes were put off before the wheelchair stood");
+                             on ? "" : "the brakes were released before the wheelchair stood");
         port().started(command);
         if (on && !wheels().stands()) {
             braking_ = command;
@@ -43,7 +43,7 @@ public:
 
     std::vector<Results> query(std::string_view query_type, Instant) override {
         if (query_type != "wc_status_change") return {};
-        return one_row(told_state(state()));
+        return one_row(state_results(state()));
     }
 
 private:
@@ -59,7 +59,7 @@ private:
     Drive& wheels() { return hall().drive(robot()); }
     Drive const& wheels() const { return hall().drive(robot()); }
 
-    std::optional<std::string> unfit(ParameterList const& parameters) const override {
+    std::optional<std::string> parameter_problem(ParameterList const& parameters) const override {
         auto const speed = to_double(text_of(parameters, "preferred_max_speed"));
         if (speed && !(*speed > 0))
             return "parameter 'preferred_max_speed' must be more than 0 mm/s, not " +
@@ -71,11 +71,11 @@ private:
         if (!tag.empty() && hall().plan().place(tag) == nullptr)
             return "parameter 'behaviour_tag': " + quoted(tag) + " is not one of the places " +
                    listed(hall().plan().places, &Place::name);
-        return Navigation::unfit(parameters);
+        return Navigation::parameter_problem(parameters);
     }
 
-    std::optional<std::string> missing(ParameterList const& parameters) const override {
-        if (!goes_by_tag(parameters)) return Navigation::missing(parameters);
+    std::optional<std::string> start_problem(ParameterList const& parameters) const override {
+        if (!goes_by_tag(parameters)) return Navigation::start_problem(parameters);
         if (!text_of(parameters, "behaviour_tag").empty()) return {};
         return "parameter 'behaviour_tag' is mandatory when 'navigation_mode' is 'Tag'";
     }
@@ -113,8 +113,8 @@ private:
         return now;
     }
 
-    Results told_state(State const& state) const {
-        auto const place = told_located("position", hall().robot(robot()).name, hall().robot(robot()).pose, 0, {}).position;
+    Results state_results(State const& state) const {
+        auto const place = located_entity("position", hall().robot(robot()).name, hall().robot(robot()).pose, 0, {}).position;
         return {{text("position", one_decimal(place[0]) + ", " + one_decimal(place[1])), boolean("brake_status", state.brakes),
                  boolean("pause_status", state.pause), text("wc_status", std::string{state.wheelchair}),
                  text("nav_status", std::string{state.navigation})},
@@ -124,16 +124,16 @@ private:
     void watch(Instant) override {
         if (braking_ && wheels().stands()) port().completed(*std::exchange(braking_, {}), CompletedStatus::ok);
         auto const now = state();
-        if (told_ && *told_ != now) port().event("wc_status_change", told_state(now));
-        told_ = now;
+        if (reported_ && *reported_ != now) port().event("wc_status_change", state_results(now));
+        reported_ = now;
     }
 
     std::optional<CommandHandle> braking_;  // a `brake` that completes when the wheelchair stands
-    std::optional<State> told_;
+    std::optional<State> reported_;
 };
 
 }  // namespace
 
-std::unique_ptr<Component> wheelchair_robot(Fitting fitting) { return std::make_unique<WheelchairRobot>(std::move(fitting)); }
+std::unique_ptr<Component> wheelchair_robot(Context context) { return std::make_unique<WheelchairRobot>(std::move(context)); }
 
 }  // namespace rois::simulation

@@ -17,7 +17,7 @@ std::string whole(double value) { return std::to_string(std::lround(value)); }
 
 double fine(double value) { return std::round(value * 1000.0) / 1000.0; }
 
-// Row by row, to a thousandth.
+// Returns the rows, rounded to a thousandth.
 std::vector<double> rows_of(Covariance const& covariance) {
     Eigen::Vector3d const units{mm, mm, to_degrees(1.0)};
     Covariance const scaled = units.asDiagonal() * covariance * units.asDiagonal();

@@ -1,4 +1,4 @@
-// The one place where metres and radians become the millimetres and degrees of messages (decision 27), and back.
+// Converts between metres and radians and the millimetres and degrees of messages (decision 27).
 #pragma once
 
 #include <optional>
@@ -13,29 +13,29 @@
 
 namespace rois::simulation {
 
-// To a thousandth, finer than anything here is measured; an angle in (-180, 180].
+// Rounded to a thousandth; angles in (-180, 180].
 double millimetres(Metres);
 double degrees(Radians);
 
-// "x, y, th" in mm, mm, degrees, rounded to whole ones: "12500, 3000, -90".
+// Returns "x, y, th" in whole mm, mm, degrees: "12500, 3000, -90".
 std::string to_wire(Pose const&);
 
-// A position to go to, with or without a heading to have there.
+// A position to go to, optionally with a heading.
 struct Target {
     Point position = Point::Zero();
     std::optional<Radians> heading;
 };
 
-// Reads "x, y, th" or "x, y"; nothing when it is neither, or not finite.
+// Reads "x, y, th" or "x, y". Returns nothing if the text is neither, or a number is not finite.
 std::optional<Target> target_from_wire(std::string_view);
 
-// The structured form of one position: `height` becomes z, the covariance (when there is one) x, y, th in mm and degrees.
+// The structured form of one position: `height` becomes z, the covariance is converted to mm and degrees.
 Located located(std::string of, std::string ref, std::string crs, Pose const&, Metres height, std::optional<Covariance> const&);
 
-// A frame that is placed in `base` like this.
+// Makes the frame `crs` that has this pose in `base`.
 Frame placed(std::string crs, std::string base, Pose const&, Covariance const&);
 
-// A box of the floor as conditions have it.
+// Makes the geometry of a box of the floor, for conditions.
 Geometry area(std::string crs, Box const&);
 
 }  // namespace rois::simulation

@@ -9,7 +9,7 @@ namespace rois::simulation {
 namespace {
 
 constexpr Agility on_foot{.speed = 1.1, .acceleration = 3.0, .turn_rate = 3.0, .turn_acceleration = 12.0};
-constexpr Metres free_entrance = 0.15;  // between somebody who comes in and others
+constexpr Metres free_entrance = 0.15;  // gap around a person who enters
 constexpr WorldTime tracking_period{100};
 
 FloorPlan checked(FloorPlan plan) {
@@ -60,7 +60,7 @@ Person const* Hall::World::person(PersonId id) const {
 
 Disc Hall::World::disc(Person const& who) const { return {who.pose.position, person_radius}; }
 
-std::vector<Disc> Hall::World::bodies(RobotId robot) const {
+std::vector<Disc> Hall::World::obstacles(RobotId robot) const {
     std::vector<Disc> discs;
     discs.reserve(people.size() + drives.size());
     for (Person const& who : people) discs.push_back(disc(who));
@@ -70,7 +70,7 @@ std::vector<Disc> Hall::World::bodies(RobotId robot) const {
     return discs;
 }
 
-std::vector<Disc> Hall::World::others(RobotId robot) const {
+std::vector<Disc> Hall::World::obstacles_with_stopping_room(RobotId robot) const {
     std::vector<Disc> discs;
     discs.reserve(people.size() + drives.size());
     for (Person const& who : people) discs.push_back(disc(who));
@@ -80,7 +80,7 @@ std::vector<Disc> Hall::World::others(RobotId robot) const {
     return discs;
 }
 
-std::vector<Disc> Hall::World::others_standing(RobotId robot) const {
+std::vector<Disc> Hall::World::standing_obstacles(RobotId robot) const {
     std::vector<Disc> discs;
     for (Person const& who : people) {
         if (who.velocity.isZero(1e-6)) discs.push_back(disc(who));
@@ -96,7 +96,7 @@ void Hall::World::step() {
     now += Hall::step_length;
     for (Robot const& each : robots) voices[static_cast<std::size_t>(each.id)].step(now, each.pose.position, chronicle);
     admit();
-    tell_visitors();
+    notify_visitors();
     step_visitors();
     step_robots();
     if (now % tracking_period == WorldTime{0}) track();
@@ -116,16 +116,16 @@ void Hall::World::admit() {
     enter(std::make_unique<Visitor>(id, std::move(*role), entrance, now, plan_, walkways_, mixed({seed, 2, last_person_})));
 }
 
-// Those of the scenario come first, and have numbers and random numbers of their own: they come as they would anyway.
+// Steered visitors enter after those of the scenario, with separate ids and random numbers, so that the scenario is unaffected.
 void Hall::World::admit_steered(Pose const& entrance) {
     if (waiting_.empty()) return;
-    auto [role, deed] = std::move(waiting_.front());
+    auto [role, status] = std::move(waiting_.front());
     waiting_.pop_front();
-    if (is_inside(role.id)) return deed->fail(already_inside(role.id));
+    if (is_inside(role.id)) return status->fail(already_inside(role.id));
     PersonId const id{++last_steered_};
     enter(
         std::make_unique<SteeredVisitor>(id, std::move(role), entrance, now, plan_, walkways_, mixed({seed, 3, last_steered_})));
-    deed->state = Deed::State::done;
+    status->state = OrderStatus::State::done;
 }
 
 void Hall::World::enter(std::unique_ptr<Visitor> visitor) {
@@ -139,15 +139,15 @@ bool Hall::World::is_inside(std::string_view role) const {
     return std::ranges::any_of(visitors_, [&](auto const& visitor) { return visitor->role_id() == role; });
 }
 
-SharedDeed Hall::World::let_in(Role role) {
-    auto deed = std::make_shared<Deed>();
+SharedOrderStatus Hall::World::let_in(Role role) {
+    auto status = std::make_shared<OrderStatus>();
     bool const waits = std::ranges::any_of(waiting_, [&](Waiting const& other) { return other.role.id == role.id; });
     if (waits || is_inside(role.id)) {
-        deed->fail(already_inside(role.id));
+        status->fail(already_inside(role.id));
     } else {
-        waiting_.push_back({std::move(role), deed});
+        waiting_.push_back({std::move(role), status});
     }
-    return deed;
+    return status;
 }
 
 SteeredVisitor* Hall::World::steered(std::string_view ref) {
@@ -164,33 +164,34 @@ void Hall::World::stop_steering() {
         if (auto* const steered = dynamic_cast<SteeredVisitor*>(visitor.get())) steered->stand_still();
 }
 
-Company Hall::World::company(PersonId self) {
-    Company around{plan_, walkways_, robots, {}, chronicle, now, in_seconds(Hall::step_length)};
+VisitorSurroundings Hall::World::surroundings_of(PersonId self) {
+    VisitorSurroundings around{plan_, walkways_, robots, {}, chronicle, now, in_seconds(Hall::step_length)};
     for (Person const& who : people) {
-        if (who.id != self) around.others.push_back(disc(who));
+        if (who.id != self) around.obstacles.push_back(disc(who));
     }
-    for (Drive const& drive : drives) around.others.push_back(drive.stopping_disc());
+    for (Drive const& drive : drives) around.obstacles.push_back(drive.stopping_disc());
     return around;
 }
 
-// What robots said and showed since the last step.
-void Hall::World::tell_visitors() {
+// Notifies visitors of the speech and reactions of robots since the last step.
+void Hall::World::notify_visitors() {
     std::vector<Happening> news;
-    for (Happening const& happening : chronicle.since(told_)) {
+    for (Happening const& happening : chronicle.since(reported_)) {
         if (is_for_visitors(happening)) news.push_back(happening);
     }
-    told_ = chronicle.last();
+    reported_ = chronicle.last();
     for (Happening const& happening : news) {
         RobotId const id = std::get<RobotId>(happening.who);
         double const loudness = voices[static_cast<std::size_t>(id)].loudness();
-        for (auto const& visitor : visitors_) visitor->notice(happening, robot(id), loudness, company(visitor->person().id));
+        for (auto const& visitor : visitors_)
+            visitor->notice(happening, robot(id), loudness, surroundings_of(visitor->person().id));
     }
 }
 
-// In the order of their coming; each sees where those before have stepped.
+// In order of arrival. Each visitor sees the new positions of earlier ones.
 void Hall::World::step_visitors() {
     for (std::size_t i = 0; i < visitors_.size(); ++i) {
-        Company around = company(people[i].id);
+        VisitorSurroundings around = surroundings_of(people[i].id);
         visitors_[i]->step(around);
         people[i] = visitors_[i]->person();
     }

@@ -1,4 +1,4 @@
-// What the Hall is made of, and one step of it.
+// The implementation of the Hall.
 #pragma once
 
 #include <deque>
@@ -24,19 +24,19 @@ public:
 
     FloorPlan const& plan() const override { return plan_; }
     std::optional<Pose> pose_of(Entity) const override;
-    std::vector<Disc> bodies(RobotId) const override;
-    std::vector<Disc> others(RobotId) const override;
-    std::vector<Disc> others_standing(RobotId) const override;
+    std::vector<Disc> obstacles(RobotId) const override;
+    std::vector<Disc> obstacles_with_stopping_room(RobotId) const override;
+    std::vector<Disc> standing_obstacles(RobotId) const override;
 
     void step();
     Robot& robot(RobotId id) { return robots.at(static_cast<std::size_t>(id)); }
     Person const* person(PersonId) const;
 
-    SharedDeed let_in(Role);
-    SteeredVisitor* steered(std::string_view ref);  // null when no steered visitor of this name is in the hall
+    SharedOrderStatus let_in(Role);
+    SteeredVisitor* steered(std::string_view ref);  // null if no such visitor is in the hall
     void stop_steering();
     bool is_inside(std::string_view role) const;
-    bool is_known(std::string_view role) const { return known_.contains(role); }  // those of the scenario, before they come, too
+    bool is_known(std::string_view role) const { return known_.contains(role); }  // also before the person enters
 
     std::uint64_t seed;
     WorldTime now{0};
@@ -45,34 +45,34 @@ public:
     std::vector<Robot> robots;
     std::vector<Drive> drives;
     std::vector<Voice> voices;
-    std::vector<Person> people;  // as the visitors are after the last step
+    std::vector<Person> people;  // copies of the visitors' persons after the last step
 
 private:
-    // Who is steered and waits to be let in.
+    // A steered visitor who waits at the entrance.
     struct Waiting {
         Role role;
-        std::shared_ptr<Deed> deed;
+        std::shared_ptr<OrderStatus> status;
     };
 
     void admit();
     void admit_steered(Pose const& entrance);
     void enter(std::unique_ptr<Visitor>);
-    void tell_visitors();
+    void notify_visitors();
     void step_visitors();
     void step_robots();
     void track();
-    Company company(PersonId);
+    VisitorSurroundings surroundings_of(PersonId);
     Disc disc(Person const&) const;
 
     FloorPlan plan_;
     Planner walkways_;
-    std::set<std::string, std::less<>> known_;  // the roles of known people
+    std::set<std::string, std::less<>> known_;  // roles of known people
     Crowd crowd_;
     std::vector<std::unique_ptr<Visitor>> visitors_;
-    std::uint32_t last_person_ = 0;  // of those who are not steered
+    std::uint32_t last_person_ = 0;  // of the scenario and the arrivals
     std::uint32_t last_steered_ = first_steered - 1;
     std::deque<Waiting> waiting_;
-    std::uint64_t told_ = 0;  // the visitors know of what happened up to here
+    std::uint64_t reported_ = 0;  // the last sequence that visitors were notified of
 };
 
 }  // namespace rois::simulation

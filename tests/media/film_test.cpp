@@ -20,7 +20,7 @@ TEST(Jpeg, CanBeDecoded) {
     EXPECT_GT(bitmap.at(4, 13)[0], 200);
 }
 
-TEST(Jpeg, IsNotMadeOfAPictureThatIsNotWhole) {
+TEST(Jpeg, RefusesAnIncompletePicture) {
     auto picture = plain(1, 2, 3);
     picture.rgb.pop_back();
     EXPECT_THROW(jpeg_of(picture), std::invalid_argument);
@@ -40,7 +40,7 @@ TEST(HttpFilm, IsOnePictureAfterAnother) {
     EXPECT_EQ(colour_of(receiving.next_picture()), 'b');
 }
 
-TEST(HttpFilm, BeginsWhenThereIsSomethingToSee) {
+TEST(HttpFilm, BeginsWithTheFirstPicture) {
     Stage stage;
     Screen screen;
     screen.colour = '-';
@@ -50,7 +50,7 @@ TEST(HttpFilm, BeginsWhenThereIsSomethingToSee) {
     EXPECT_EQ(colour_of(receiving.next_picture()), 'g');
 }
 
-TEST(HttpFilm, ShowsNothingWhileItIsHeld) {
+TEST(HttpFilm, SendsNothingWhileHeld) {
     Stage stage;
     Screen screen, other;
     auto const held = stage.server.serve(screen.film(Film::Form::motion_jpeg), Flow::on);
@@ -83,7 +83,7 @@ TEST(HttpFilm, MayBeFetchedPictureByPicture) {
     EXPECT_EQ(colour_of(Receiving{outlet->address()}.line().rest()), 'r');
 }
 
-TEST(HttpFilm, WithoutAPictureSaysSo) {
+TEST(HttpFilm, Answers503WithoutAPicture) {
     Stage stage;
     Screen screen;
     screen.colour = '-';
@@ -93,7 +93,7 @@ TEST(HttpFilm, WithoutAPictureSaysSo) {
     EXPECT_EQ(receiving.line().rest(), "there is no picture yet\n");
 }
 
-TEST(HttpFilm, IsReceivedAsLongAsSomebodyAsksForPictures) {
+TEST(HttpFilm, CountsRequestsForPicturesAsReception) {
     Settings settings;
     settings.picture_interest = std::chrono::milliseconds{50};
     Stage stage{settings};

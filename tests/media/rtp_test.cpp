@@ -36,13 +36,13 @@ TEST(Rtp, PacketsAreNumberedAndTimed) {
     EXPECT_EQ(first.payload_type, 96u);
     EXPECT_EQ(first.ssrc, 0xDEADBEEF);
     EXPECT_EQ(first.timestamp, 0xFFFFFF00);
-    EXPECT_EQ(second.timestamp, 0xFFFFFF00 + 320) << "beyond the largest number it begins again";
-    EXPECT_EQ(third.timestamp, second.timestamp + 640) << "the clock goes on in silence";
+    EXPECT_EQ(second.timestamp, 0xFFFFFF00 + 320) << "wraps around";
+    EXPECT_EQ(third.timestamp, second.timestamp + 640) << "the timestamp advances in silence";
     EXPECT_EQ(fourth.timestamp, third.timestamp + 320);
     EXPECT_EQ(first.sequence, 0xFFFF);
     EXPECT_EQ(second.sequence, 0);
     EXPECT_EQ(third.sequence, 1);
-    EXPECT_TRUE(first.marker && third.marker) << "where the sound begins";
+    EXPECT_TRUE(first.marker && third.marker) << "first packet after silence";
     EXPECT_FALSE(second.marker || fourth.marker);
     EXPECT_EQ(first.payload.size(), 640u);
 }
@@ -86,7 +86,7 @@ TEST(Rtp, IsSentToItsTarget) {
     EXPECT_EQ(next_reception(*outlet), Reception::begun);
 }
 
-TEST(Rtp, IsSilentUntilItGoesOnWhenItBeginsHeld) {
+TEST(Rtp, IsSilentUntilResumedWhenItStartsHeld) {
     Stage stage;
     Mailbox mailbox, witness;
     auto const outlet = stage.server.send({}, target(mailbox), Flow::held),
@@ -95,7 +95,7 @@ TEST(Rtp, IsSilentUntilItGoesOnWhenItBeginsHeld) {
     outlet->go_on();
     RtpPacket const first{mailbox.take()};
     EXPECT_TRUE(first.marker);
-    EXPECT_EQ(RtpPacket{mailbox.take()}.timestamp, first.timestamp + 320) << "nothing was sent before";
+    EXPECT_EQ(RtpPacket{mailbox.take()}.timestamp, first.timestamp + 320) << "no packet before";
 }
 
 TEST(Rtp, IsSilentWhileItIsHeld) {
@@ -107,15 +107,15 @@ TEST(Rtp, IsSilentWhileItIsHeld) {
     outlet->hold();
     for (int i = 0; i < 10; ++i) witness.take();  // 200 ms
     outlet->go_on();
-    // What was on its way comes first.
+    // Packets in transit arrive first.
     RtpPacket next{mailbox.take()};
     for (; !next.marker; next = RtpPacket{mailbox.take()}) last = next;
     EXPECT_EQ(next.sequence, static_cast<std::uint16_t>(last.sequence + 1));
-    EXPECT_GT(next.timestamp - last.timestamp, 5u * 320u) << "silence takes its time";
+    EXPECT_GT(next.timestamp - last.timestamp, 5u * 320u) << "silence counts in the timestamp";
     EXPECT_TRUE(outlet->receptions().size() <= 1);
 }
 
-TEST(Rtp, IsNotSentToAnybody) {
+TEST(Rtp, RefusesForeignTargets) {
     Stage stage;
     EXPECT_THAT(stage.server.rtp_refusal("rtp://192.0.2.1:5004"), Optional(HasSubstr("loopback")));
     EXPECT_THAT(stage.server.rtp_refusal("rtp://239.1.2.3:5004"), Optional(HasSubstr("loopback")));

@@ -1,4 +1,4 @@
-// How the server holds out against those who want something else.
+// The server rejects invalid requests and enforces its limits.
 #include "media/server.hpp"
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ struct MediaServer : testing::Test {
     Stage stage;
 };
 
-TEST_F(MediaServer, KnowsOnlyWhatIsServed) {
+TEST_F(MediaServer, Answers404ForUnknownPaths) {
     auto outlet = stage.server.serve(Sound{}, Flow::on);
     MediaUrl const url{outlet->address()};
     for (std::string const path : {"/", "/stream-2", "/stream-1/", "/STREAM-1", "//stream-1", "*", "/../stream-1"})
@@ -31,7 +31,7 @@ TEST_F(MediaServer, KnowsOnlyWhatIsServed) {
     EXPECT_THAT(answer(media_request(url)), StartsWith("HTTP/1.1 404 "));
 }
 
-TEST_F(MediaServer, OnlyShowsWhatIsServed) {
+TEST_F(MediaServer, AcceptsOnlyGetAndHead) {
     auto const outlet = stage.server.serve(Sound{}, Flow::on);
     MediaUrl const url{outlet->address()};
     for (std::string const method : {"POST", "PUT", "DELETE", "OPTIONS", "TRACE", "STRANGE"}) {
@@ -43,16 +43,16 @@ TEST_F(MediaServer, OnlyShowsWhatIsServed) {
     EXPECT_THAT(head, StartsWith("HTTP/1.1 200 OK\r\nContent-Type: audio/wav\r\n"));
     EXPECT_TRUE(head.ends_with("\r\n\r\n"));
     EXPECT_TRUE(answer(media_request(MediaUrl{stage.server.url() + "/none"}, "HEAD")).ends_with("\r\n\r\n"));
-    EXPECT_TRUE(outlet->receptions().empty()) << "who asks for the head does not receive";
+    EXPECT_TRUE(outlet->receptions().empty()) << "HEAD does not count as receiving";
 }
 
-TEST_F(MediaServer, RefusesWhatIsNoRequest) {
+TEST_F(MediaServer, RefusesInvalidRequests) {
     EXPECT_THAT(answer("hello\r\n\r\n"), StartsWith("HTTP/1.1 400 "));
     EXPECT_THAT(answer("GET / HTTP/9.9\r\n\r\n"), StartsWith("HTTP/1.1 400 "));
     EXPECT_THAT(answer("GET / HTTP/1.1\r\nX: " + std::string(9'000, 'x') + "\r\n\r\n"), StartsWith("HTTP/1.1 431 "));
 }
 
-TEST_F(MediaServer, TellsWhenReceptionBeginsAndEnds) {
+TEST_F(MediaServer, ReportsStartAndEndOfReception) {
     auto const outlet = stage.server.serve(Sound{}, Flow::on);
     EXPECT_TRUE(outlet->receptions().empty());
     {
@@ -60,14 +60,14 @@ TEST_F(MediaServer, TellsWhenReceptionBeginsAndEnds) {
         EXPECT_EQ(next_reception(*outlet), Reception::begun);
         Receiving two{outlet->address()};
         two.line().take(100);
-        EXPECT_TRUE(outlet->receptions().empty()) << "the first one counts";
+        EXPECT_TRUE(outlet->receptions().empty()) << "only the first one is reported";
     }
     EXPECT_EQ(next_reception(*outlet), Reception::ended);
     Receiving again{outlet->address()};
     EXPECT_EQ(next_reception(*outlet), Reception::begun);
 }
 
-TEST_F(MediaServer, NoticesAReceiverThatGoesWhileItIsHeld) {
+TEST_F(MediaServer, NoticesAReceiverThatLeavesWhileHeld) {
     auto const outlet = stage.server.serve(Sound{}, Flow::on);
     {
         Receiving receiving{outlet->address()};
@@ -93,7 +93,7 @@ TEST_F(MediaServer, EndsTheConnectionWithTheOutlet) {
     EXPECT_EQ(three.line().rest(), "");
 }
 
-TEST(MediaServerLimits, LetsOthersWaitWhenTooManyAreThere) {
+TEST(MediaServerLimits, QueuesConnectionsBeyondTheLimit) {
     Settings settings;
     settings.max_connections = 2;
     Stage stage{settings};
@@ -108,7 +108,7 @@ TEST(MediaServerLimits, LetsOthersWaitWhenTooManyAreThere) {
     EXPECT_THAT(third.take_until("\r\n\r\n"), StartsWith("HTTP/1.1 200 "));
 }
 
-TEST(MediaServerLimits, WaitsForARequestForSomeTimeOnly) {
+TEST(MediaServerLimits, LimitsTheTimeOfARequest) {
     Settings settings;
     settings.request_timeout = std::chrono::milliseconds{100};
     Stage stage{settings};
@@ -117,7 +117,7 @@ TEST(MediaServerLimits, WaitsForARequestForSomeTimeOnly) {
     EXPECT_EQ(line.rest(), "");
 }
 
-TEST(MediaServerLimits, DropsWhoDoesNotTakeWhatTheyAskedFor) {
+TEST(MediaServerLimits, DisconnectsAReceiverThatDoesNotRead) {
     Settings settings;
     settings.write_timeout = std::chrono::milliseconds{100};
     Stage stage{settings};
@@ -132,7 +132,7 @@ TEST(MediaServerLimits, DropsWhoDoesNotTakeWhatTheyAskedFor) {
     EXPECT_EQ(next_reception(*outlet), Reception::ended);
 }
 
-TEST(MediaServerSettings, SayHowItIsReached) {
+TEST(MediaServerSettings, SetThePublicUrl) {
     Settings settings;
     settings.url = "https://robots.example/media/";
     EXPECT_EQ(Stage{settings}.server.serve(Sound{}, Flow::on)->address(), "https://robots.example/media/stream-1");
@@ -141,13 +141,13 @@ TEST(MediaServerSettings, SayHowItIsReached) {
     EXPECT_THAT(Stage{settings}.server.url(), StartsWith("http://127.0.0.1:"));
 }
 
-TEST(MediaServerSettings, NameAFreePort) {
+TEST(MediaServerSettings, APortInUseIsRefused) {
     Stage stage;
     Settings settings;
     settings.port = MediaUrl{stage.server.url() + "/"}.address.port;
     try {
         Stage second{settings};
-        ADD_FAILURE() << "two on one port";
+        ADD_FAILURE() << "two servers on one port";
     } catch (std::runtime_error const& error) {
         EXPECT_THAT(error.what(), HasSubstr("cannot serve media on 127.0.0.1:" + std::to_string(settings.port)));
     }

@@ -9,7 +9,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-TEST(Tone, IsASineOfItsFrequency) {
+TEST(Tone, IsASine) {
     for (std::uint32_t const rate : {8'000u, 16'000u, 44'100u, 48'000u}) {
         ToneGenerator generator{{.frequency = 440, .rate = rate}, ToneGenerator::Order::little_endian};
         auto const samples = samples_of(generator.next(rate), ByteOrder::little_endian);
@@ -18,7 +18,7 @@ TEST(Tone, IsASineOfItsFrequency) {
     }
 }
 
-TEST(Tone, GoesOnWithoutAClick) {
+TEST(Tone, ContinuesWithoutAClick) {
     ToneGenerator whole{{}, ToneGenerator::Order::big_endian}, pieces{{}, ToneGenerator::Order::big_endian};
     std::string together;
     for (std::size_t const size : {1u, 7u, 100u, 892u}) together += pieces.next(size);
@@ -34,7 +34,7 @@ TEST(Tone, ChangesItsFrequencyWithoutAClick) {
     now = 120;
     samples = samples_of(generator.next(16'000), ByteOrder::little_endian);
     EXPECT_GT(share_of(120, samples, 16'000), 0.999);
-    EXPECT_LT(std::abs(samples.front() - before), 2'100) << "no more than a step of the sine before";
+    EXPECT_LT(std::abs(samples.front() - before), 2'100) << "at most one step of the sine";
 }
 
 TEST(Tone, IsTheSameInAllChannels) {
@@ -72,7 +72,7 @@ TEST(HttpSound, IsNetworkOrderAsL16) {
     EXPECT_GT(share_of(440, samples_of(receiving.line().take(3'200), ByteOrder::big_endian), 8'000), 0.999);
 }
 
-TEST(HttpSound, GoesOnWhereItWasHeld) {
+TEST(HttpSound, ResumesWhereItWasHeld) {
     Stage stage;
     auto const held = stage.server.serve(Sound{}, Flow::on), other = stage.server.serve(Sound{}, Flow::on);
     Receiving receiving{held->address()}, witness{other->address()};

@@ -1,4 +1,4 @@
-// A media server on a free port, and those who receive from it.
+// A media server on a free port, and its receivers.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ public:
     Server server;
 };
 
-// Waits for what the outlet tells next.
+// Waits for the outlet's next change of reception.
 inline Reception next_reception(Outlet& outlet) {
     auto const end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
     while (std::chrono::steady_clock::now() < end) {
@@ -35,7 +35,7 @@ inline Reception next_reception(Outlet& outlet) {
         }
         std::this_thread::yield();
     }
-    throw std::runtime_error{"nobody came or went"};
+    throw std::runtime_error{"no change of reception within 20 s"};
 }
 
 // A picture of one colour.
@@ -45,14 +45,14 @@ inline Picture plain(std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
     return picture;
 }
 
-// Which of the three colours a picture has most of.
+// The dominant colour of a picture: 'r', 'g' or 'b'.
 inline char colour_of(std::string const& jpeg) {
     auto const pixel = decoded_jpeg(jpeg).at(16, 8);
     if (pixel[0] > 200) return 'r';
     return pixel[1] > 200 ? 'g' : 'b';
 }
 
-// A film that shows what is set.
+// A film in a settable colour.
 struct Screen {
     std::atomic<char> colour{'r'};
 

@@ -383,10 +383,10 @@ TEST_P(Visitor, IsLocalizedOftenWithoutThem) {
 
 TEST_P(Visitor, IsNotLocalizedByLessThanTheProfileSaysIsTheLowestThreshold) {
     auto const profile = desk.ask("get_profile", where(equal("component_ref", "person_localization"))).whole();
-    EXPECT_THAT(profile, HasSubstr("At least 125: less is the noise of this robot's sensor."));
+    EXPECT_THAT(profile, HasSubstr("At least 125, because of the noise of this robot's sensor."));
     EXPECT_THAT(profile, HasSubstr("rois:default_value=\"200\""));
     auto const refused = desk.set_parameter("person_localization", {{"detection_threshold", "int", {"124"}}});
-    EXPECT_THAT(refused, IsRefused("BAD_PARAMETER", "124 mm is less than the lowest that works, 125 mm"));
+    EXPECT_THAT(refused, IsRefused("BAD_PARAMETER", "124 mm is less than the minimum of 125 mm"));
     EXPECT_GT(localized_while_speaking(desk, {"detection_threshold", "int", {"125"}}), 3U);
 }
 

@@ -230,7 +230,7 @@ TEST_P(ProfilesOfUsers, MakeComponentsThatAScenarioLetsFail) {
     EXPECT_THAT(desk.search(where(equal("status", "ERROR"))), ElementsAre("fan"));
     auto const without = run_gateway({"--scenario", scenario, "--check-config"});
     EXPECT_EQ(without.exit_code, 2);
-    EXPECT_THAT(without.error, HasSubstr("day.scenario:2:1: the robots of the floor plan have no component 'fan'"));
+    EXPECT_THAT(without.error, HasSubstr("day.scenario:2:1: unknown component 'fan'"));
 }
 
 TEST_P(ProfilesOfUsers, MayListenWithAGrammar) {
@@ -250,7 +250,7 @@ TEST_P(ProfilesOfUsers, MayListenWithAGrammar) {
                                        "root='" +
                                        rule + "'><rule id='hello'>hello<tag>greeting</tag></rule></grammar>"}}}});
     };
-    EXPECT_THAT(start("bye").reason(), HasSubstr("grammar:1:1: there is no rule 'bye'"));
+    EXPECT_THAT(start("bye").reason(), HasSubstr("grammar:1:1: unknown root rule 'bye'"));
     EXPECT_EQ(start("hello").return_code(), "OK");
     auto const values = desk.hear_event("speech_recognized").values();
     EXPECT_THAT(values.at("nbest"), ElementsAre("1.000 en hello"));
@@ -349,7 +349,7 @@ struct Idlers {
     ProfileFolder folder;
     std::vector<std::string> const lines{
         "refused: b.xml:2:1: there is a component 'navigation' already: it is the gateway's own\n",
-        "refused: c.xml:2:1: there is no adapter 'magic'; there are ",
+        "refused: c.xml:2:1: unknown adapter 'magic'; expected one of ",
         "refused: e.xml:4:1: there is a component 'lamp' already: it is that of d.xml\n",
         "refused: f.xml:4:1: there is a component 'navigation' already: it is the gateway's own\n",
         "refused: g.xml:3:1: no component profile 'urn:test::Lost' is known\n"};
@@ -373,7 +373,7 @@ TEST(CheckProfiles, KnowsWhetherAnythingIsStreamed) {
     EXPECT_EQ(run_gateway({"--check-profiles", folder.name(), "--media", "127.0.0.1:0"}).exit_code, 0);
     auto const without = run_gateway({"--check-profiles", folder.name()});
     EXPECT_EQ(without.exit_code, 1);
-    EXPECT_THAT(without.out, HasSubstr("refused: phone.xml:2:1: there is no adapter 'audio_streaming'"));
+    EXPECT_THAT(without.out, HasSubstr("refused: phone.xml:2:1: unknown adapter 'audio_streaming'"));
 }
 
 TEST(ProfilesOfUsersSay, InTheLogWhatComesOfThem) {

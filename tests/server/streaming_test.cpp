@@ -195,11 +195,11 @@ TEST_P(Streaming, ParametersTellWhatThereIs) {
 TEST_P(Streaming, WhatCannotBeIsRefused) {
     listen("audio_streaming");
     EXPECT_THAT(desk.set_parameter("audio_streaming", {{"encoding_parameters", "string", {"audio/opus"}}}),
-                IsRefused("BAD_PARAMETER", "'audio/opus' is not available; there is audio/wav, audio/L16"));
+                IsRefused("BAD_PARAMETER", "'audio/opus' is not supported; expected one of audio/wav, audio/L16"));
     EXPECT_THAT(desk.set_parameter("audio_streaming", {{"transport_parameters", "string", {"rtp://192.0.2.1:5004"}}}),
                 IsRefused("BAD_PARAMETER", "loopback"));
     EXPECT_THAT(order("audio_streaming", "suspend_stream", "moon"),
-                IsRefused("BAD_PARAMETER", "command_unit_list[1]: argument 'stream_id': no stream 'moon' is connected"));
+                IsRefused("BAD_PARAMETER", "command_unit_list[1]: argument 'stream_id': stream 'moon' is not connected"));
     EXPECT_THAT(desk.execute(Command{.component = "audio_streaming", .type = "disconnect_stream"}),
                 IsRefused("BAD_PARAMETER", "'stream_id' is missing"));
     EXPECT_THAT(desk.query("get_stream_status", where(equal("stream_id", "moon"))),

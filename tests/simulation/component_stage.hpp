@@ -1,4 +1,4 @@
-// A hall with one or two robots whose components are operated as the engine does it, on a clock that is stepped by hand.
+// A hall with one or two robots. Tests operate the components like the engine, with a manual clock.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,14 +22,14 @@
 
 namespace rois::simulation::stage {
 
-// Told by a component: an event, or how a command went.
-struct Told {
+// A report of a component: an event, or the progress of a command.
+struct LogEntry {
     std::string what;  // the event's type, or "started", or "completed OK"
     Results results;   // of an event
     WorldTime at{};
 };
 
-// One component with its port. It keeps the parameters as the engine does.
+// One component with its port. Stores the parameters like the engine.
 class Operated final : public ComponentPort {
 public:
     Operated(std::unique_ptr<Component> component, std::function<Instant()> now, std::function<WorldTime()> world_now)
@@ -39,7 +39,7 @@ public:
 
     Component& component() { return *component_; }
 
-    // Why the command is refused with these parameters put over those stored.
+    // Returns why the command is refused with these parameters merged into the stored ones.
     std::optional<std::string> refusal(std::string const& command_type, ParameterList const& arrived) const {
         return component_->refusal(command_type, merged(arrived));
     }
@@ -74,10 +74,10 @@ public:
     }
     ParameterList const& stored() const { return stored_; }
 
-    // How the last `start` ended, if it did.
+    // The outcome of the last `start`; nothing if it has not ended.
     std::optional<std::string> ended() const {
-        for (auto told = log_.rbegin(); told != log_.rend() && told->what != "started"; ++told)
-            if (told->what.starts_with("completed")) return told->what.substr(std::string{"completed "}.size());
+        for (auto entry = log_.rbegin(); entry != log_.rend() && entry->what != "started"; ++entry)
+            if (entry->what.starts_with("completed")) return entry->what.substr(std::string{"completed "}.size());
         return {};
     }
 
@@ -86,24 +86,24 @@ public:
     Afterwards afterwards() const { return last_afterwards_; }
     std::string const& reason() const { return last_reason_; }
 
-    std::vector<Told> const& log() const { return log_; }
+    std::vector<LogEntry> const& log() const { return log_; }
     std::vector<std::string> words() const {
         std::vector<std::string> all;
-        for (auto const& told : log_) all.push_back(told.what);
+        for (auto const& entry : log_) all.push_back(entry.what);
         return all;
     }
-    std::vector<Told> events(std::string_view type) const {
-        std::vector<Told> found;
-        for (auto const& told : log_)
-            if (told.what == type) found.push_back(told);
+    std::vector<LogEntry> events(std::string_view type) const {
+        std::vector<LogEntry> found;
+        for (auto const& entry : log_)
+            if (entry.what == type) found.push_back(entry);
         return found;
     }
     void forget() { log_.clear(); }
-    // Otherwise only the last command may complete.
+    // By default, only the last command may complete.
     void allow_any_command() { any_command_ = true; }
 
-    void halted() override { tell("halted", {}); }
-    void started(CommandHandle) override { tell("started", {}); }
+    void halted() override { record("halted", {}); }
+    void started(CommandHandle) override { record("started", {}); }
     void completed(CommandHandle command, CompletedStatus status, Results results, Afterwards afterwards,
                    std::string reason) override {
         if (!any_command_) {
@@ -113,11 +113,11 @@ public:
         last_afterwards_ = afterwards;
         last_reason_ = std::move(reason);
         runs_ = afterwards == Afterwards::active;
-        tell("completed " + std::string{to_text(status)} + (runs_ ? ", active" : ""), {});
+        record("completed " + std::string{to_text(status)} + (runs_ ? ", active" : ""), {});
     }
-    void event(std::string_view type, Results results) override { tell(std::string{type}, std::move(results)); }
+    void event(std::string_view type, Results results) override { record(std::string{type}, std::move(results)); }
     void error(ErrorType, std::string text, Report report) override {
-        tell((report == Report::once ? "error, once: " : "error ") + text, {});
+        record((report == Report::once ? "error, once: " : "error ") + text, {});
     }
 
 private:
@@ -130,7 +130,7 @@ private:
         component_->reconcile(all, arrived);
         return all;
     }
-    void tell(std::string what, Results results) { log_.push_back({std::move(what), std::move(results), world_now_()}); }
+    void record(std::string what, Results results) { log_.push_back({std::move(what), std::move(results), world_now_()}); }
 
     std::unique_ptr<Component> component_;
     std::function<Instant()> now_;
@@ -142,11 +142,11 @@ private:
     Results last_results_;
     std::string last_reason_;
     Afterwards last_afterwards_ = Afterwards::as_before;
-    std::vector<Told> log_;
+    std::vector<LogEntry> log_;
 };
 
-// 12 m by 8 m. The robot stands at (2, 4) and looks along x, to the entrance at (11, 4); a wall closes the upper right corner
-// off.
+// 12 m by 8 m. The robot stands at (2, 4) and looks along x, to the entrance at (11, 4). A wall closes off the upper right
+// corner.
 inline FloorPlan reception() {
     FloorPlan plan;
     plan.name = "reception";
@@ -190,7 +190,7 @@ inline std::shared_ptr<xml::Schemas const> schemas() {
     return compiled;
 }
 
-// The profiles inside the program.
+// The profiles of the basic components.
 inline std::vector<ComponentProfile> own_profiles() {
     std::vector<ComponentProfile> profiles;
     for (auto const& [name, text] : files::profiles())
@@ -204,17 +204,17 @@ inline ComponentProfile shipped_profile(std::string const& file) {
     return xml::read_component_profile(schemas(), file, {std::istreambuf_iterator<char>{in}, {}});
 }
 
-// An identifier that has a code only.
+// An identifier with only a code.
 inline Identifier coded(std::string code) {
     return {.code = std::move(code), .authority = {}, .codebook_ref = {}, .version = {}};
 }
 
-// A list of numbers as it is written: "1000 90".
+// A list of numbers: "1000 90".
 inline Parameter integers(std::string name, std::string numbers) {
     return {std::move(name), coded("int[]"), {std::move(numbers)}};
 }
 
-// A visitor's doings, in order.
+// Parts of a visitor's role.
 inline Whereabouts at(double x, double y) { return {Point{x, y}}; }
 inline Whereabouts at(std::string name) { return {std::move(name)}; }
 template <class Doing>
@@ -273,7 +273,7 @@ public:
     void run(Seconds seconds) {
         for (auto const end = hall().now() + world_time(seconds); hall().now() < end;) step();
     }
-    // Whether it came about.
+    // Returns whether the condition became true within `at_most`.
     bool run_until(std::function<bool()> const& come_about, Seconds at_most = 60) {
         for (auto const end = hall().now() + world_time(at_most); hall().now() < end;) {
             if (come_about()) return true;
@@ -281,7 +281,7 @@ public:
         }
         return come_about();
     }
-    // How the component's last `start` ended, waited for.
+    // Waits for the outcome of the component's last `start`.
     std::string outcome(std::string const& ref, Seconds at_most = 60) {
         run_until([&] { return (*this)[ref].ended().has_value(); }, at_most);
         return (*this)[ref].ended().value_or("not ended");
@@ -301,7 +301,7 @@ private:
     std::map<std::string, std::unique_ptr<Operated>, std::less<>> operated_;
 };
 
-// What a test reads out of results.
+// Readers of results.
 inline std::string value(Results const& results, std::string_view name) {
     auto const* parameter = find(results.parameters, name);
     return parameter == nullptr || parameter->values.empty() ? "none" : parameter->values.front();

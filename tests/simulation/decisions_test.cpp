@@ -1,4 +1,4 @@
-// Decisions 27 and 28 by number, where robots keep them.
+// Tests of decisions 27 and 28 for robots.
 #include <gmock/gmock.h>
 
 #include "simulation/component_stage.hpp"
@@ -19,16 +19,16 @@ TEST(Decision27, PositionsAreMillimetresAndDegreesInANamedFrame) {
     EXPECT_EQ(stage.outcome("navigation"), "OK");
     EXPECT_NEAR(stage.robot().position.x(), 5, 0.1);
     EXPECT_NEAR(to_degrees(stage.robot().heading), 90, 5) << "counter-clockwise";
-    auto const told = stage["system_information"].query("robot_position");
-    auto const text = value(told, "position_data");
+    auto const reported = stage["system_information"].query("robot_position");
+    auto const text = value(reported, "position_data");
     EXPECT_THAT(text, MatchesRegex("[0-9.]+, [0-9.]+, [0-9.]+"));
     EXPECT_NEAR(std::stod(text), 5000, 150);
-    EXPECT_EQ(codebook_of(told, "position_data"), frame);
-    ASSERT_EQ(told.located.size(), 1U);
-    EXPECT_EQ(told.located[0].crs, frame);
-    EXPECT_NEAR(told.located[0].position[1], 3000, 150);
-    EXPECT_NEAR(told.located[0].orientation.at(2), 90, 5);
-    EXPECT_TRUE(std::holds_alternative<Located::Covariance>(told.located[0].certainty));
+    EXPECT_EQ(codebook_of(reported, "position_data"), frame);
+    ASSERT_EQ(reported.located.size(), 1U);
+    EXPECT_EQ(reported.located[0].crs, frame);
+    EXPECT_NEAR(reported.located[0].position[1], 3000, 150);
+    EXPECT_NEAR(reported.located[0].orientation.at(2), 90, 5);
+    EXPECT_TRUE(std::holds_alternative<Located::Covariance>(reported.located[0].certainty));
 }
 
 TEST(Decision28, LanguagesAreThoseOfIso639) {

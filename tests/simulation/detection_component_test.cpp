@@ -10,16 +10,16 @@ using testing::ElementsAre;
 
 std::vector<std::string> numbers(Operated const& component, std::string_view event_type) {
     std::vector<std::string> all;
-    for (auto const& told : component.events(event_type)) all.push_back(value(told.results, "number"));
+    for (auto const& event : component.events(event_type)) all.push_back(value(event.results, "number"));
     return all;
 }
 
-// Comes in after three seconds, stays for some, and leaves.
+// Enters after three seconds, stays for a while, and leaves.
 std::vector<Role> one_visitor() {
     return {visitor("guest", {does(Walk{at(6, 4)}), does(Face{at("robot")}), does(Wait{5}), does(Leave{})}, 3)};
 }
 
-TEST(Detection, TellsTheFirstNumberAlsoWhenNobodyIsThere) {
+TEST(Detection, ReportsTheFirstNumberEvenIfItIsZero) {
     Stage stage;
     stage["person_detection"].start();
     EXPECT_THAT(stage["person_detection"].words(), ElementsAre("completed OK, active"));
@@ -28,7 +28,7 @@ TEST(Detection, TellsTheFirstNumberAlsoWhenNobodyIsThere) {
     EXPECT_THAT(numbers(stage["person_detection"], "person_detected"), ElementsAre("0"));
 }
 
-TEST(Detection, TellsWhenTheNumberChanges) {
+TEST(Detection, ReportsChangesOfTheNumber) {
     Stage stage{one_visitor()};
     stage["person_detection"].start();
     stage.run(40);
@@ -44,7 +44,7 @@ TEST(Detection, HasTheTimeOfTheStep) {
     EXPECT_EQ(value(events[0].results, "timestamp"), to_text(stage.now().utc));
 }
 
-TEST(Detection, TellsAnewAfterAnotherStart) {
+TEST(Detection, ReportsAgainAfterANewStart) {
     Stage stage;
     auto& detection = stage["person_detection"];
     detection.start();
@@ -64,7 +64,7 @@ TEST(Detection, IsSilentWhenStopped) {
     EXPECT_THAT(numbers(detection, "person_detected"), ElementsAre("0"));
 }
 
-TEST(Detection, TellsAfterResumeWhatChangedMeanwhile) {
+TEST(Detection, ReportsAfterResumeAChangeDuringSuspension) {
     Stage stage{one_visitor()};
     auto& detection = stage["person_detection"];
     detection.start();
@@ -77,7 +77,7 @@ TEST(Detection, TellsAfterResumeWhatChangedMeanwhile) {
     EXPECT_THAT(numbers(detection, "person_detected"), ElementsAre("0", "1"));
 }
 
-TEST(Detection, TellsNothingAfterResumeWhenNothingChanged) {
+TEST(Detection, ReportsNothingAfterResumeWithoutAChange) {
     Stage stage;
     auto& detection = stage["person_detection"];
     detection.start();
@@ -89,7 +89,7 @@ TEST(Detection, TellsNothingAfterResumeWhenNothingChanged) {
     EXPECT_THAT(numbers(detection, "person_detected"), ElementsAre("0"));
 }
 
-TEST(Detection, OfFacesCountsThoseTurnedToTheRobot) {
+TEST(Detection, OfFacesCountsFacesTurnedToTheRobot) {
     Stage stage{{visitor("guest",
                          {does(Walk{at(5, 4)}), does(Face{at("robot")}), does(Wait{3}), does(Face{at(11, 4)}), does(Wait{30})})}};
     stage["face_detection"].start();
@@ -103,7 +103,7 @@ TEST(Detection, OfFacesCountsThoseTurnedToTheRobot) {
     EXPECT_EQ(numbers(stage["person_detection"], "person_detected").back(), "1");
 }
 
-TEST(Detection, OfSoundsCountsThoseWhoSpeakNow) {
+TEST(Detection, OfSoundsCountsCurrentSpeakers) {
     Stage stage{{visitor("guest", {does(Walk{at(6, 4)}), does(Say{"en", "Good morning, is anybody here?"}), does(Wait{30})})}};
     stage["sound_detection"].start();
     stage.run(20);

@@ -7,7 +7,7 @@
 namespace rois::simulation {
 namespace {
 
-// Somebody who stands at a point for a long time.
+// A person who stands at a point for a long time.
 Role standing_at(Point const& p) { return tanaka({{Walk{{p}}, {}}, {Wait{3'600}, {}}}); }
 
 TEST(Drive, GoesToAPositionAndTurnsAsWanted) {
@@ -47,7 +47,7 @@ TEST(Drive, KeepsItsLimits) {
         return over(state(hall, robot1, *go));
     }));
     EXPECT_EQ(state(hall, robot1, *go), MotionState::arrived);
-    EXPECT_GT(fastest, 0.85) << "it uses what it has";
+    EXPECT_GT(fastest, 0.85) << "uses the full speed";
 }
 
 TEST(Drive, ATargetInAWallIsUnreachableAndTheRobotStays) {
@@ -71,13 +71,13 @@ TEST(Drive, HasOneOwnerAtATime) {
     ASSERT_TRUE(second);
     EXPECT_EQ(state(hall, robot1, *first), MotionState::ended);
     drive.stop(*first);
-    EXPECT_EQ(drive.owner(), "navigation") << "an old motion stops nothing";
+    EXPECT_EQ(drive.owner(), "navigation") << "stop() ignores an old motion";
     drive.stop(*second);
     EXPECT_EQ(drive.owner(), "");
     EXPECT_TRUE(drive.begin("move", Line{0.5, 0}));
 }
 
-// How far it rolls when this is done to it at full speed. It stands within 0.3 s.
+// How far the robot rolls if it is stopped like this at full speed. Fails unless it stands within 0.3 s.
 Metres rolls_after(std::function<void(Drive&, MotionId)> const& stopped) {
     Hall hall{plain_hall(), nobody(), 1};
     Drive& drive = hall.drive(robot1);
@@ -159,7 +159,7 @@ TEST(Drive, ALineIsATurnAndThenADistance) {
     EXPECT_NEAR(to_degrees(turned), -270, 0.5);
 }
 
-TEST(Drive, ALineIntoAWallIsNotEvenBegun) {
+TEST(Drive, ALineIntoAWallIsNotBegun) {
     Hall hall{plain_hall(), nobody(), 1};
     auto const line = hall.drive(robot1).begin("move", Line{-1.8, 0});
     run(hall, 1);
@@ -204,7 +204,7 @@ TEST(Drive, ACurveThroughAWallIsNotBegun) {
     EXPECT_EQ(hall.robot(robot1).pose.position, Point(2, 4));
 }
 
-TEST(Drive, MotionsTakeTheTimeThatIsAskedFor) {
+TEST(Drive, MotionsTakeTheRequestedTime) {
     for (Motion const& motion : {Motion{Line{2, from_degrees(90), 12.0}}, Motion{Line{0, from_degrees(90), 8.0}},
                                  Motion{Curve{1, from_degrees(90), 10.0}}, Motion{Curve{0, from_degrees(90), 6.0}}}) {
         Hall hall{plain_hall(), nobody(), 1};
@@ -220,7 +220,7 @@ TEST(Drive, MotionsTakeTheTimeThatIsAskedFor) {
     }
 }
 
-TEST(Drive, StopsBeforeSomebodyAndGoesOnWhenTheyHaveGone) {
+TEST(Drive, StopsBeforeAPersonAndDrivesOnWhenTheyHaveLeft) {
     Role role = tanaka({{Walk{{Point{6, 4}}}, {}}, {Ignore{}, {}}, {Wait{40}, {}}, {Leave{}, {}}});
     Hall hall{plain_hall(), only(role), 1};
     ASSERT_TRUE(runs_until(hall, 20, [&] { return !hall.people().empty() && hall.people()[0].pose.position.x() < 6.2; }));
@@ -233,7 +233,7 @@ TEST(Drive, StopsBeforeSomebodyAndGoesOnWhenTheyHaveGone) {
     EXPECT_NEAR(hall.robot(robot1).pose.position.x(), 8, 0.03);
 }
 
-TEST(Drive, GoesAroundSomebodyWhoStandsInTheWay) {
+TEST(Drive, DrivesAroundAPersonWhoStandsInTheWay) {
     Hall hall{plain_hall(), only(standing_at(Point{5, 4})), 1};
     run(hall, 10);
     auto const go = hall.drive(robot1).begin("navigation", GoTo{{{Point{8, 4}, {}}}});
@@ -246,7 +246,7 @@ TEST(Drive, GoesAroundSomebodyWhoStandsInTheWay) {
     EXPECT_GT(nearest, 0.28 + person_radius);
 }
 
-TEST(Drive, ATargetWhereSomebodyStandsIsReachedAtAPoliteDistanceFacingThem) {
+TEST(Drive, AnOccupiedTargetIsReachedAtAPoliteDistanceFacingTheOccupant) {
     Hall hall{plain_hall(), only(standing_at(Point{6, 5})), 1};
     run(hall, 10);
     auto const go = hall.drive(robot1).begin("navigation", GoTo{{{Point{6.1, 4.95}, 0}}});
@@ -257,7 +257,7 @@ TEST(Drive, ATargetWhereSomebodyStandsIsReachedAtAPoliteDistanceFacingThem) {
     EXPECT_NEAR(bearing(hall.robot(robot1).pose, person.pose.position), 0, from_degrees(5));
 }
 
-TEST(Drive, FollowsSomebodyAtADistance) {
+TEST(Drive, FollowsAPersonAtADistance) {
     Role role = tanaka({{Walk{{Point{5, 4}}}, {}}, {Wait{20}, {}}, {Walk{{Point{5, 1}}}, {}}, {Wait{20}, {}}, {Leave{}, {}}});
     Hall hall{plain_hall(), only(role), 1};
     run(hall, 6);
@@ -277,7 +277,7 @@ TEST(Drive, FollowsSomebodyAtADistance) {
     ASSERT_TRUE(runs_until(hall, 60, [&] { return hall.person(whom)->pose.position.y() < 1.3; })) << "the visitor goes on";
     watch(10);
     EXPECT_NEAR(distance(hall.person(whom)->pose.position, hall.robot(robot1).pose.position), 1.2, 0.27);
-    EXPECT_EQ(state(hall, robot1, *follow), MotionState::moving) << "following is never done by itself";
+    EXPECT_EQ(state(hall, robot1, *follow), MotionState::moving) << "following never ends by itself";
     EXPECT_GT(nearest, 0.9);
     ASSERT_TRUE(runs_until(hall, 120, [&] { return over(state(hall, robot1, *follow)); }));
     EXPECT_EQ(state(hall, robot1, *follow), MotionState::lost) << "the visitor has left";

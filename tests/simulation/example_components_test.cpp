@@ -1,4 +1,4 @@
-// Components that users bring the profile of: the examples of Annex C, and the stand-in.
+// Components of user-defined profiles: the examples of Annex C, and the stand-in.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ constexpr std::string_view drinks =
 
 Parameter grammar(std::string_view document = drinks) { return text("grammar", std::string{document}); }
 
-TEST(SrgsSpeechRecognition, TellsAllThatMayHaveBeenSaid) {
+TEST(SrgsSpeechRecognition, ReportsAllHypotheses) {
     Stage stage{{says("en", "A coffee, please!")}};
     auto& recognition = stage.add("srgs_speech_recognition.xml");
     recognition.start({grammar()});
@@ -50,7 +50,7 @@ TEST(SrgsSpeechRecognition, TellsAllThatMayHaveBeenSaid) {
     EXPECT_NEAR(results.located[0].position[0], 4000, 1000);
 }
 
-TEST(SrgsSpeechRecognition, IsSilentAboutWhatTheGrammarHasNot) {
+TEST(SrgsSpeechRecognition, IgnoresSpeechThatIsNotInTheGrammar) {
     Stage stage{{says("en", "Where is the exit?")}};
     auto& recognition = stage.add("srgs_speech_recognition.xml");
     recognition.start({grammar()});
@@ -59,7 +59,7 @@ TEST(SrgsSpeechRecognition, IsSilentAboutWhatTheGrammarHasNot) {
     EXPECT_THAT(recognition.events("speech_recognized"), IsEmpty());
 }
 
-TEST(SrgsSpeechRecognition, ListensInTheLanguagesAndAtThePlaceThatItIsTold) {
+TEST(SrgsSpeechRecognition, ObeysLanguagesAndPositionOfSound) {
     Stage stage{{says("de", "A coffee please")}};
     auto& recognition = stage.add("srgs_speech_recognition.xml");
     recognition.start({grammar()});
@@ -77,7 +77,7 @@ TEST(SrgsSpeechRecognition, ListensInTheLanguagesAndAtThePlaceThatItIsTold) {
     EXPECT_THAT(turned_away.words(), ElementsAre("completed OK, active"));
 }
 
-TEST(SrgsSpeechRecognition, TakesAGrammarInADataUri) {
+TEST(SrgsSpeechRecognition, AcceptsAGrammarInADataUri) {
     Stage stage{{says("en", "yes")}};
     auto& recognition = stage.add("srgs_speech_recognition.xml");
     recognition.start(
@@ -87,7 +87,7 @@ TEST(SrgsSpeechRecognition, TakesAGrammarInADataUri) {
     EXPECT_THAT(recognition.events("speech_recognized"), SizeIs(1));
 }
 
-TEST(SrgsSpeechRecognition, RefusesWhatItCannotListenFor) {
+TEST(SrgsSpeechRecognition, RefusesInvalidParameters) {
     Stage stage;
     auto& recognition = stage.add("srgs_speech_recognition.xml");
     auto const refusal = [&](ParameterList const& parameters) {
@@ -108,7 +108,7 @@ TEST(SrgsSpeechRecognition, RefusesWhatItCannotListenFor) {
         << "the grammar may come later";
 }
 
-TEST(GenderIdentification, TellsTheCodeOfEverybodyOnce) {
+TEST(GenderIdentification, ReportsTheCodeOfEachPersonOnce) {
     auto woman = at_the_robot("suzuki");
     woman.gender = Gender::female;
     Stage stage{{woman, visitor("guest", {does(Walk{at(4, 5)}), does(Face{at("robot")}), does(Wait{1000})}, 4)}};
@@ -120,12 +120,12 @@ TEST(GenderIdentification, TellsTheCodeOfEverybodyOnce) {
     EXPECT_THAT(values(events[0].results, "person_ref"), ElementsAre("person-1"));
     EXPECT_EQ(value(events[0].results, "person_gender_code"), "2");
     EXPECT_EQ(codebook_of(events[0].results, "person_gender_code"), "urn:iso:std:iso:5218");
-    EXPECT_EQ(value(events[1].results, "person_gender_code"), "0") << "nothing is known of the guest";
+    EXPECT_EQ(value(events[1].results, "person_gender_code"), "0") << "the guest's gender is unknown";
     ASSERT_THAT(events[0].results.located, SizeIs(1));
     EXPECT_EQ(events[0].results.located[0].ref, "person-1");
 }
 
-TEST(AgeRecognition, TellsBetweenWhichYearsSomebodyIs) {
+TEST(AgeRecognition, ReportsTheLimitsOfTheAge) {
     auto visitor_of_52 = at_the_robot("tanaka");
     visitor_of_52.age = 52;
     Stage stage{{visitor_of_52}};
@@ -143,7 +143,7 @@ TEST(AgeRecognition, TellsBetweenWhichYearsSomebodyIs) {
     EXPECT_EQ(value(recognition.events("person_age_recognized").at(1).results, "lower_age_limit"), std::to_string(lower));
 }
 
-TEST(AgeRecognition, SaysNothingOfThoseWithoutAge) {
+TEST(AgeRecognition, IgnoresPeopleWithoutAge) {
     Stage stage{{at_the_robot("tanaka")}};
     auto& recognition = stage.add("person_age_recognition.xml");
     recognition.start();
@@ -180,13 +180,13 @@ struct Wheelchair : testing::Test {
     void brake(bool on) { wheelchair.perform("brake", {boolean("status", on)}); }
     std::string wc() { return value(wheelchair.query("wc_status_change"), "wc_status"); }
 
-    // "running false false running": wc_status, brakes, pause, navigation.
+    // Returns "running false false running": wc_status, brakes, pause, navigation.
     static std::string words(Results const& state) {
         return value(state, "wc_status") + " " + value(state, "brake_status") + " " + value(state, "pause_status") + " " +
                value(state, "nav_status");
     }
     std::string state() { return words(wheelchair.query("wc_status_change")); }
-    std::vector<std::string> told() {
+    std::vector<std::string> reported() {
         std::vector<std::string> all;
         for (auto const& event : wheelchair.events("wc_status_change")) all.push_back(words(event.results));
         wheelchair.forget();
@@ -194,7 +194,7 @@ struct Wheelchair : testing::Test {
     }
 };
 
-TEST_F(Wheelchair, GoesToItsTargetAndTellsEachChangeOfItsState) {
+TEST_F(Wheelchair, GoesToItsTargetAndReportsEachChangeOfItsState) {
     EXPECT_EQ(state(), "stopped false false stopped");
     EXPECT_EQ(value(wheelchair.query("wc_status_change"), "position"), "2000.0, 4000.0");
     wheelchair.start({target("5000, 4000")});
@@ -203,7 +203,7 @@ TEST_F(Wheelchair, GoesToItsTargetAndTellsEachChangeOfItsState) {
     auto const position = value(wheelchair.query("wc_status_change"), "position");
     EXPECT_NEAR(to_double(position.substr(0, position.find(','))).value_or(0), 5000, 60);
     stage.run(1);
-    EXPECT_THAT(told(), ElementsAre("running false false running", "stopped false false stopped"));
+    EXPECT_THAT(reported(), ElementsAre("running false false running", "stopped false false stopped"));
 }
 
 TEST_F(Wheelchair, BrakesStopItAndHoldItUntilTheyAreOff) {
@@ -216,7 +216,7 @@ TEST_F(Wheelchair, BrakesStopItAndHoldItUntilTheyAreOff) {
     EXPECT_EQ(state(), "brakes true false running");
     ASSERT_TRUE(stage.run_until([&] { return wheelchair.ended().has_value(); }, 3));
     EXPECT_EQ(wheelchair.ended(), "OK");
-    EXPECT_EQ(stage.robot_state().twist.linear, 0) << "it completes when the wheelchair stands";
+    EXPECT_EQ(stage.robot_state().twist.linear, 0) << "completes when the wheelchair stands";
     auto const held = stage.robot().position;
     EXPECT_EQ(wheelchair.component().status(), ComponentStatus::warning);
     stage.run(10);
@@ -226,12 +226,13 @@ TEST_F(Wheelchair, BrakesStopItAndHoldItUntilTheyAreOff) {
     EXPECT_EQ(state(), "running false false running");
     ASSERT_TRUE(stage.run_until([&] { return stage.robot().position.x() > 8.9; }));
     stage.run(3);
-    EXPECT_THAT(told(), ElementsAre("brakes true false running", "running false false running", "stopped false false stopped"));
+    EXPECT_THAT(reported(),
+                ElementsAre("brakes true false running", "running false false running", "stopped false false stopped"));
 }
 
-TEST_F(Wheelchair, BrakesHoldItWhicheverComponentDrivesIt) {
+TEST_F(Wheelchair, BrakesHoldItForAllComponents) {
     brake(true);
-    EXPECT_EQ(wheelchair.ended(), "OK") << "it stood already";
+    EXPECT_EQ(wheelchair.ended(), "OK") << "stands already";
     stage["move"].start({integers("line", "1000 0")});
     stage.run(5);
     EXPECT_EQ(stage.robot().position, Point(2, 4));
@@ -247,7 +248,7 @@ TEST_F(Wheelchair, BrakesHoldItWhicheverComponentDrivesIt) {
     EXPECT_EQ(stage.outcome("move"), "OK");
 }
 
-TEST_F(Wheelchair, BrakesThatArePutOffTooSoonWereNotCompleted) {
+TEST_F(Wheelchair, BrakeIsAbortedWhenTheBrakesAreReleasedTooSoon) {
     wheelchair.start({target("9000, 4000")});
     stage.run(3);
     wheelchair.forget();
@@ -257,7 +258,7 @@ TEST_F(Wheelchair, BrakesThatArePutOffTooSoonWereNotCompleted) {
     EXPECT_THAT(wheelchair.words(), ElementsAre("started", "completed ABORT", "started", "completed OK"));
 }
 
-TEST_F(Wheelchair, TellsThatItIsPaused) {
+TEST_F(Wheelchair, ReportsThatItIsPaused) {
     wheelchair.start({target("9000, 4000")});
     stage.run(2);
     wheelchair.suspend();
@@ -269,7 +270,7 @@ TEST_F(Wheelchair, TellsThatItIsPaused) {
     EXPECT_EQ(state(), "stopped false false stopped");
 }
 
-TEST_F(Wheelchair, TellsOfMotionsOfOtherComponents) {
+TEST_F(Wheelchair, ReportsMotionsOfOtherComponents) {
     stage["move"].start({integers("line", "2000 0")});
     stage.run(1);
     EXPECT_EQ(state(), "running false false running");
@@ -277,7 +278,7 @@ TEST_F(Wheelchair, TellsOfMotionsOfOtherComponents) {
     EXPECT_EQ(state(), "paused false true running");
 }
 
-TEST_F(Wheelchair, TellsThatNoWayLeadsToItsTarget) {
+TEST_F(Wheelchair, ReportsThatNoWayLeadsToItsTarget) {
     for (auto const* driver : {"wheelchair_robot", "navigation"})
         for (auto const* nowhere : {"11000, 7000", "-5000, 0", "100000, 0"}) {  // behind walls, outside
             wheelchair.forget();
@@ -285,7 +286,7 @@ TEST_F(Wheelchair, TellsThatNoWayLeadsToItsTarget) {
             EXPECT_EQ(stage.outcome(driver), "ERROR");
             stage.run(2);
             EXPECT_EQ(state(), "path_error false false stopped") << driver << " to " << nowhere;
-            auto const events = told();
+            auto const events = reported();
             ASSERT_FALSE(events.empty()) << driver << " to " << nowhere;
             EXPECT_EQ(events.back(), "path_error false false stopped") << driver << " to " << nowhere;
             stage[driver].start({target("3000, 4000")});
@@ -306,7 +307,7 @@ TEST_F(Wheelchair, KeepsItsPathErrorUntilTheNextMotionOfAnyComponent) {
     EXPECT_EQ(wc(), "stopped");
 }
 
-TEST(WheelchairAmongPeople, TellsOfAnObstacle) {
+TEST(WheelchairAmongPeople, ReportsAnObstacle) {
     Stage stage{{visitor("guest", {does(Walk{at(5, 4)}), does(Wait{1000})})}};
     auto& wheelchair = stage.add("wheelchair_robot.xml");
     stage.run(12);
@@ -314,7 +315,7 @@ TEST(WheelchairAmongPeople, TellsOfAnObstacle) {
     EXPECT_TRUE(stage.run_until([&] { return value(wheelchair.query("wc_status_change"), "wc_status") == "obstacle"; }));
 }
 
-TEST_F(Wheelchair, KeepsToItsPreferredSpeed) {
+TEST_F(Wheelchair, ObeysItsPreferredSpeed) {
     auto const fastest = [&] {
         double most = 0;
         stage.run_until([&] {
@@ -326,7 +327,7 @@ TEST_F(Wheelchair, KeepsToItsPreferredSpeed) {
     wheelchair.start({target("6000, 4000"), number("preferred_max_speed", "300")});
     EXPECT_NEAR(fastest(), 0.3, 0.001);
     wheelchair.start({target("2000, 4000"), number("preferred_max_speed", "99999")});
-    EXPECT_NEAR(fastest(), 0.9, 0.001) << "no faster than the wheels can";
+    EXPECT_NEAR(fastest(), 0.9, 0.001) << "not faster than the robot's limit";
     wheelchair.set_parameter({number("preferred_max_speed", "200.5")});
     stage["move"].start({integers("line", "1000 0")});
     double most = 0;
@@ -334,7 +335,7 @@ TEST_F(Wheelchair, KeepsToItsPreferredSpeed) {
         stage.step();
         most = std::max(most, std::abs(stage.robot_state().twist.linear));
     }
-    EXPECT_NEAR(most, 0.2005, 0.001) << "whichever component drives it";
+    EXPECT_NEAR(most, 0.2005, 0.001) << "for motions of all components";
 }
 
 TEST_F(Wheelchair, GoesToThePlaceOfItsTag) {
@@ -344,7 +345,7 @@ TEST_F(Wheelchair, GoesToThePlaceOfItsTag) {
     EXPECT_EQ(value(wheelchair.events("reached_target").at(0).results, "target"), "desk");
 }
 
-TEST_F(Wheelchair, RefusesWhatItCannotKeepTo) {
+TEST_F(Wheelchair, RefusesInvalidParameters) {
     auto const refusal = [&](ParameterList const& parameters) {
         return wheelchair.refusal("start", parameters).value_or("fine");
     };
@@ -358,12 +359,12 @@ TEST_F(Wheelchair, RefusesWhatItCannotKeepTo) {
     EXPECT_EQ(refusal({target("desk"), number("preferred_max_speed", "0.5"), text("behaviour_tag", "exit")}), "fine");
 }
 
-TEST(Adapter, IsThatOfABasicComponentWhichTheProfileIncludes) {
+TEST(Adapter, ComesFromAnIncludedBasicComponent) {
     Stage stage{{at_the_robot("tanaka")}};
     auto& monitor = stage.add("person_monitor.xml");
     monitor.start();
     stage.run(20);
-    EXPECT_THAT(monitor.events("person_detected"), SizeIs(2)) << "nobody, then one";
+    EXPECT_THAT(monitor.events("person_detected"), SizeIs(2)) << "zero, then one";
     EXPECT_EQ(monitor.component().description().ref.code, "person_monitor");
     EXPECT_EQ(monitor.component().description().ref.codebook_ref, "urn:x-rois:def:component:RoISGateway::PersonMonitor");
 }
@@ -375,33 +376,33 @@ protected:
     Adapters adapters_{simulation_, nullptr, schemas()};
 };
 
-TEST_F(AdaptersOf, EachRobotMakeAComponent) {
+TEST_F(AdaptersOf, EachRobotMakeOneComponent) {
     std::vector<std::string> refs;
     for (auto const& component : adapters_.components(shipped_profile("wheelchair_robot.xml"), own_profiles()))
         refs.push_back(component->description().ref.code);
     EXPECT_THAT(refs, ElementsAre("wheelchair_robot", "robot2.wheelchair_robot"));
 }
 
-TEST_F(AdaptersOf, NothingAreNone) {
+TEST_F(AdaptersOf, AProfileWithoutAdapterMakeNoComponents) {
     ComponentProfile profile;
     profile.object.identifier = "urn:lamp";
     EXPECT_THAT(adapters_.components(profile, {}), IsEmpty());
     profile.object.meta_data = "urn:x-rois:def:adapter:simulation::lamp";
     EXPECT_THAT([&] { adapters_.components(profile, {}); },
-                testing::ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("no adapter 'lamp'"), HasSubstr("stand_in"))));
+                testing::ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("unknown adapter 'lamp'"), HasSubstr("stand_in"))));
 }
 
-TEST_F(AdaptersOf, WhatStreamsNeedMedia) {
+TEST_F(AdaptersOf, StreamingComponentsNeedMedia) {
     ComponentProfile profile;
     profile.object.identifier = "urn:baby_phone";
     profile.object.meta_data = "urn:x-rois:def:adapter:simulation::audio_streaming";
     EXPECT_THAT([&] { adapters_.components(profile, {}); },
-                testing::ThrowsMessage<std::runtime_error>(HasSubstr("no adapter 'audio_streaming'")));
+                testing::ThrowsMessage<std::runtime_error>(HasSubstr("unknown adapter 'audio_streaming'")));
     Adapters const with_media{simulation_, std::make_shared<FakeMedia>(), schemas()};
     EXPECT_THAT(with_media.components(profile, {}), SizeIs(2));
 }
 
-TEST(ComponentName, IsThatOfTheProfileOrOfItsUrn) {
+TEST(ComponentName, ComesFromTheProfileOrItsUrn) {
     ComponentProfile profile;
     profile.object.identifier = "urn:x-rois:def:component:ATR::PersonMonitor2";
     EXPECT_EQ(component_name(profile), "person_monitor2");

@@ -1,4 +1,4 @@
-// Media that are served to nobody: a test says who receives.
+// Media without real receivers: tests report reception.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace rois::simulation::stage {
 
 class FakeMedia final : public media::Media {
 public:
-    // Something that was offered, as it is now.
+    // The current state of an outlet.
     struct Offered {
         std::string address;
         media::Content content;
@@ -28,7 +28,7 @@ public:
 
     std::optional<std::string> rtp_refusal(std::string_view target) const override {
         if (target.starts_with("rtp://127.0.0.1:")) return {};
-        return "not to there";
+        return "this target is not allowed";
     }
 
     std::unique_ptr<media::Outlet> send(media::Tone const& tone, std::string_view target, media::Flow flow) override {

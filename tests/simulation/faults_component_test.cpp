@@ -1,4 +1,4 @@
-// Components that are not well, as a scenario says.
+// Components with faults of a scenario.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using testing::ElementsAre;
 using testing::UnorderedElementsAreArray;
 
 struct Faults : testing::Test {
-    static constexpr auto failure = "it has failed, as the scenario says";
+    static constexpr auto failure = "the component has failed: a fault of the scenario";
 
     static Stage unwell(std::string component, Fault::Kind kind, Seconds from = 0, std::optional<Seconds> until = {}) {
         return Stage{{}, reception(), {{std::move(component), kind, from, until}}};
@@ -37,24 +37,24 @@ TEST_F(Faults, OfASilentComponentLeaveItsQueriesWithoutAnswer) {
     EXPECT_TRUE(stage["system_information"].component().query("robot_position", stage.now()).empty());
 }
 
-TEST_F(Faults, OfASilentComponentAreToldByItsQueries) {
+TEST_F(Faults, OfASilentComponentAreReportedByItsQueries) {
     auto stage = unwell("system_information", Fault::Kind::silent, 0, 0.5);
     stage.step();
     auto& information = stage["system_information"];
     information.component().query("robot_position", stage.now());
-    EXPECT_THAT(information.words(), ElementsAre("error, once: it answers no query"));
+    EXPECT_THAT(information.words(), ElementsAre("error, once: the component does not answer queries: a fault of the scenario"));
     stage.run(1);
     EXPECT_FALSE(information.component().query("robot_position", stage.now()).empty());
-    EXPECT_THAT(information.words(), ElementsAre("error, once: it answers no query"));
+    EXPECT_THAT(information.words(), ElementsAre("error, once: the component does not answer queries: a fault of the scenario"));
 }
 
-TEST_F(Faults, OfAComplainingComponentAreToldOnceAndItWorks) {
+TEST_F(Faults, OfAComplainingComponentAreReportedOnceAndItWorks) {
     auto stage = unwell("speech_synthesis", Fault::Kind::complaining, 0.1, 0.5);
     stage.step();
     EXPECT_EQ(stage["speech_synthesis"].component().status(), ComponentStatus::ready);
     stage.run(0.3);
     EXPECT_EQ(stage["speech_synthesis"].component().status(), ComponentStatus::warning);
-    EXPECT_THAT(stage["speech_synthesis"].words(), ElementsAre("error it complains, as the scenario says"));
+    EXPECT_THAT(stage["speech_synthesis"].words(), ElementsAre("error the component complains: a fault of the scenario"));
     stage["speech_synthesis"].start(speech());
     EXPECT_EQ(stage.outcome("speech_synthesis"), "OK");
     EXPECT_EQ(stage["speech_synthesis"].component().status(), ComponentStatus::ready);
@@ -62,15 +62,15 @@ TEST_F(Faults, OfAComplainingComponentAreToldOnceAndItWorks) {
 
 TEST_F(Faults, OfAComplainingSystemInformationAreTheStatusOfTheEngine) {
     auto stage = unwell("system_information", Fault::Kind::complaining, 0.1, 0.5);
-    auto const told = [&] {
+    auto const reported = [&] {
         return value(stage["system_information"].component().query("engine_status", stage.now()).at(0), "status");
     };
     stage.step();
-    EXPECT_EQ(told(), "READY");
+    EXPECT_EQ(reported(), "READY");
     stage.run(0.3);
-    EXPECT_EQ(told(), "WARNING");
+    EXPECT_EQ(reported(), "WARNING");
     stage.run(0.3);
-    EXPECT_EQ(told(), "READY");
+    EXPECT_EQ(reported(), "READY");
 }
 
 TEST_F(Faults, LetAnUnstoppableComponentGoOnAndConfirmNoHalt) {
@@ -85,7 +85,7 @@ TEST_F(Faults, LetAnUnstoppableComponentGoOnAndConfirmNoHalt) {
     EXPECT_FALSE(stage.robot_state().speaking);
 }
 
-TEST_F(Faults, LetASilentComponentGoOnWithWhatItDoes) {
+TEST_F(Faults, LetASilentComponentContinueItsWork) {
     auto stage = unwell("speech_synthesis", Fault::Kind::silent, 0.1);
     stage["speech_synthesis"].start(speech());
     EXPECT_EQ(stage.outcome("speech_synthesis"), "OK");
@@ -106,7 +106,7 @@ TEST_F(Faults, OfAFailedComponentAreItsStatusAndItsExceptions) {
     EXPECT_NO_THROW(component.halt(stage.now()));
 }
 
-TEST_F(Faults, EndWhatAComponentDoesWhenItFails) {
+TEST_F(Faults, EndTheWorkOfAComponentWhenItFails) {
     auto stage = unwell("speech_synthesis", Fault::Kind::failed, 0.1);
     stage["speech_synthesis"].start(speech());
     stage.run(1);
@@ -114,7 +114,7 @@ TEST_F(Faults, EndWhatAComponentDoesWhenItFails) {
     EXPECT_FALSE(stage.robot_state().speaking);
 }
 
-TEST_F(Faults, AreToldOnceAndPass) {
+TEST_F(Faults, AreReportedOnceAndPass) {
     auto stage = unwell("speech_synthesis", Fault::Kind::failed, 0.1, 0.5);
     stage.run(1);
     EXPECT_THAT(stage["speech_synthesis"].words(), ElementsAre(std::string{"error "} + failure));
@@ -129,13 +129,13 @@ TEST_F(Faults, DoNotMoveTheRobot) {
     EXPECT_EQ(stage["navigation"].component().location(), stage["move"].component().location());
 }
 
-TEST_F(Faults, ConcernNoOtherComponent) {
+TEST_F(Faults, DoNotAffectOtherComponents) {
     auto stage = unwell("navigation", Fault::Kind::failed);
     stage.step();
     EXPECT_EQ(stage["move"].component().status(), ComponentStatus::ready);
 }
 
-TEST_F(Faults, AreKnownByTheRefsOfAllComponents) {
+TEST_F(Faults, AcceptTheRefsOfAllComponents) {
     Stage stage{{}, reception_with_two_robots()};
     EXPECT_THAT(component_refs(reception_with_two_robots()), UnorderedElementsAreArray(stage.refs()));
     auto const with_a_lamp = component_refs(reception_with_two_robots(), {"lamp"});
@@ -143,7 +143,7 @@ TEST_F(Faults, AreKnownByTheRefsOfAllComponents) {
     EXPECT_EQ(with_a_lamp.size(), 36u);
 }
 
-TEST_F(Faults, ConcernComponentsOfUsersToo) {
+TEST_F(Faults, AffectUserDefinedComponentsToo) {
     auto stage = unwell("person_age_recognition", Fault::Kind::failed);
     stage.add("person_age_recognition.xml");
     stage.step();

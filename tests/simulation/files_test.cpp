@@ -23,7 +23,7 @@ std::string const robots = "<robot name=\"robot1\" x=\"2000\" y=\"4000\"/>\n";
 
 FloorPlan read_plan(std::string text) { return read_floor_plan(schemas(), "hall.xml", std::move(text)); }
 
-// What is wrong with a document, as the user is told.
+// The error message for an invalid document.
 template <class Read>
 std::string complaint(Read read) {
     try {
@@ -52,13 +52,12 @@ TEST(FloorPlanFile, IsReadIntoMetresAndRadians) {
     EXPECT_NEAR(robot.start.heading, from_degrees(-90), 1e-12);
     EXPECT_DOUBLE_EQ(robot.radius, 0.3);
     EXPECT_NEAR(robot.max_turn_rate, from_degrees(45), 1e-12);
-    EXPECT_DOUBLE_EQ(robot.max_speed, RobotPlan{}.max_speed) << "what is left out is as usual";
+    EXPECT_DOUBLE_EQ(robot.max_speed, RobotPlan{}.max_speed) << "missing attributes have defaults";
     EXPECT_DOUBLE_EQ(robot.sensors.faces.range, 4);
     EXPECT_NEAR(robot.sensors.faces.turned_within, from_degrees(30), 1e-12);
 }
 
-// The robot's map begins at (9000, 1000), turned by 90 degrees: (2000, 3000) of the hall is 2000 along its x axis and 7000 along
-// its y axis, which leads to the left of the hall.
+// The robot's map has the origin (9000, 1000) and is turned by 90 degrees: (2000, 3000) of the hall is (2000, 7000) in the map.
 TEST(FloorPlanFile, HasTheFramesOfRobots) {
     auto const robot = [](std::string const& frame) {
         return "<robot name=\"robot1\" x=\"2000\" y=\"4000\"><frame crs=\"" + frame +
@@ -75,7 +74,7 @@ TEST(FloorPlanFile, HasTheFramesOfRobots) {
     frames.change(origin, plan.crs);
     EXPECT_EQ(std::get<Located::Covariance>(origin.certainty).rows, (std::vector<double>{400, 0, 0, 0, 400, 0, 0, 0, 0.25}));
     EXPECT_THAT(complaint([&] { read_plan(plan_text(places, robot("URN:x-rois:def:crs:simulation::hall"))); }),
-                testing::AllOf(StartsWith("hall.xml:6:1:"), HasSubstr("a second frame named URN:x-rois")));
+                testing::AllOf(StartsWith("hall.xml:6:1:"), HasSubstr("duplicate frame name 'URN:x-rois")));
     EXPECT_THAT(complaint([&] { read_plan(plan_text(places, robot(""))); }), StartsWith("hall.xml:6:"));
 }
 
@@ -93,21 +92,21 @@ TEST(FloorPlanFile, HasAreasForConditions) {
     EXPECT_EQ(area_of("desk"), (Geometry{.crs = plan.crs, .low = {5'000, 6'500, 0}, .high = {9'000, 7'500, 0}, .dimensions = 2}));
     EXPECT_EQ(area_of("entrance"),
               (Geometry{.crs = plan.crs, .low = {8'000, 3'000, 0}, .high = {10'000, 5'000, 0}, .dimensions = 2}))
-        << "2 m by 2 m when nothing is said";
-    EXPECT_EQ(area_of(plan.name).low, (std::array<double, 3>{0, 0, 0})) << "the hall is a place, too";
+        << "the default is 2 m by 2 m";
+    EXPECT_EQ(area_of(plan.name).low, (std::array<double, 3>{0, 0, 0})) << "the hall is also a place";
     EXPECT_EQ(known.find("attic"), nullptr);
 }
 
-TEST(FloorPlanFile, SaysWhereItIsWrong) {
+TEST(FloorPlanFile, ReportsThePlaceOfAnError) {
     EXPECT_THAT(complaint([] { read_plan("<floor_plan"); }), StartsWith("hall.xml:1:"));
     EXPECT_THAT(complaint([] { read_plan(plan_text(places, "<robot name=\"robot1\" x=\"two\" y=\"4000\"/>")); }),
                 StartsWith("hall.xml:6:"));
     EXPECT_THAT(complaint([] { read_plan(plan_text(places + "<place name=\"desk\" x=\"6000\" y=\"7000\"/>", robots)); }),
-                AllOf(StartsWith("hall.xml:6:1:"), HasSubstr("second place named desk")));
+                AllOf(StartsWith("hall.xml:6:1:"), HasSubstr("duplicate place name 'desk'")));
     EXPECT_THAT(complaint([] { read_plan(plan_text(places, "<robot name=\"robot1\" x=\"5100\" y=\"4000\"/>\n")); }),
                 AllOf(StartsWith("hall.xml:6:1:"), HasSubstr("too near to a wall")));
     EXPECT_THAT(complaint([] { read_plan(plan_text("<place name=\"desk\" x=\"7000\" y=\"7000\"/>", robots)); }),
-                AllOf(StartsWith("hall.xml:1:1:"), HasSubstr("no place named entrance")));
+                AllOf(StartsWith("hall.xml:1:1:"), HasSubstr("the place 'entrance' is missing")));
 }
 
 TEST(ScenarioFile, IsReadWithAllItsActions) {
@@ -136,13 +135,13 @@ TEST(ScenarioFile, IsReadWithAllItsActions) {
     EXPECT_TRUE(role.answers[1].once);
     ASSERT_EQ(role.actions.size(), 9u);
     EXPECT_EQ(std::get<std::string>(std::get<Walk>(role.actions[0].what).to.at), "desk");
-    EXPECT_EQ(std::get<Say>(role.actions[2].what).language, "ja") << "the person's own";
+    EXPECT_EQ(std::get<Say>(role.actions[2].what).language, "ja") << "the person's language";
     EXPECT_EQ(role.actions[2].at, 8.0);
     EXPECT_EQ(std::get<Point>(std::get<Walk>(role.actions[7].what).to.at), Point(6.5, 2));
     EXPECT_TRUE(std::holds_alternative<Leave>(role.actions[8].what));
 }
 
-TEST(ScenarioFile, MaySayWhoPeopleAre) {
+TEST(ScenarioFile, ReadsGenderAndAge) {
     auto const scenario = [](std::string const& people) {
         return read_scenario(schemas(), "day.xml",
                              "<scenario xmlns=\"urn:x-rois:simulation:hall:1\" name=\"s\">\n" + people + "</scenario>",
@@ -163,7 +162,7 @@ TEST(ScenarioFile, MaySayWhoPeopleAre) {
         EXPECT_THAT(complaint([&] { scenario(person); }), StartsWith("day.xml:2:1: ")) << person;
 }
 
-TEST(ScenarioFile, SaysWhereItIsWrong) {
+TEST(ScenarioFile, ReportsThePlaceOfAnError) {
     auto day = [](std::string const& inside) {
         return "<scenario xmlns=\"urn:x-rois:simulation:hall:1\" name=\"day\" round=\"60\">\n<person id=\"a\">\n" + inside +
                "\n</person>\n</scenario>";
@@ -173,7 +172,8 @@ TEST(ScenarioFile, SaysWhereItIsWrong) {
     EXPECT_THAT(complaint_of_scenario(day("<gesture id=\"yawn\"/>")), AllOf(StartsWith("day.xml:3:1:"), HasSubstr("wave")));
     EXPECT_THAT(complaint_of_scenario(day("<say language=\"English\">Hi</say>")),
                 AllOf(StartsWith("day.xml:3:1:"), HasSubstr("639-1")));
-    EXPECT_THAT(complaint_of_scenario(day("<answer>Hi</answer>")), AllOf(StartsWith("day.xml:3:1:"), HasSubstr("one of 'to'")));
+    EXPECT_THAT(complaint_of_scenario(day("<answer>Hi</answer>")),
+                AllOf(StartsWith("day.xml:3:1:"), HasSubstr("either 'to' or 'reaction'")));
     for (auto const* code : {"51", "0", "wave", "09"})
         EXPECT_THAT(complaint_of_scenario(day("<answer reaction=\"" + std::string{code} + "\">Hi</answer>")),
                     AllOf(StartsWith("day.xml:3:1:"), HasSubstr("'" + std::string{code} + "'"), HasSubstr("1 to 50")));
@@ -181,13 +181,13 @@ TEST(ScenarioFile, SaysWhereItIsWrong) {
     EXPECT_THAT(complaint_of_scenario(day("<dance/>")), StartsWith("day.xml:3:"));
     EXPECT_THAT(complaint_of_scenario(day("<wait seconds=\"-1\"/>")), StartsWith("day.xml:3:"));
     EXPECT_THAT(complaint_of_scenario(day("</person>\n<person id=\"a\">")),
-                AllOf(StartsWith("day.xml:4:1:"), HasSubstr("second person")));
+                AllOf(StartsWith("day.xml:4:1:"), HasSubstr("duplicate person id")));
     EXPECT_THAT(complaint_of_scenario(day("</person>\n<person id=\"b\" enters=\"70\">")),
                 AllOf(StartsWith("day.xml:4:1:"), HasSubstr("round")));
-    EXPECT_THAT(complaint_of_scenario(plan_text(places, robots)), HasSubstr("no scenario"));
+    EXPECT_THAT(complaint_of_scenario(plan_text(places, robots)), HasSubstr("not a scenario"));
 }
 
-TEST(ScenarioFile, FaultsAreOfComponentsThatAreThere) {
+TEST(ScenarioFile, RefusesFaultsOfUnknownComponents) {
     auto unwell = [](std::string const& fault) {
         return "<scenario xmlns=\"urn:x-rois:simulation:hall:1\" name=\"day\">\n" + fault + "\n</scenario>";
     };

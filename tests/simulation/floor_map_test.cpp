@@ -1,4 +1,4 @@
-// The floor plan as others draw it, and its document.
+// The floor map and its document.
 #include "simulation/floor_map.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace rois::simulation {
 namespace {
 
-// "place name=desk x=9500 ...", a line for each element; the document has to be as its schema says.
+// Validates the document and returns one line for each element: "place name=desk x=9500 ...".
 std::string lines(xml::Element const& element) {
     auto line = std::string{element.name()};
     for (auto const& attribute : element.attributes()) line += " " + std::string{attribute.name} + "=" + attribute.value;
@@ -29,17 +29,18 @@ TEST(FloorMapDocument, OfTheHallWithTwoRobotsIsTheSample) {
               lines(std::string{std::istreambuf_iterator<char>{sample}, {}}));
 }
 
-TEST(FloorMapDocument, IsInMillimetresAndDegreesWhateverTheNumbers) {
+TEST(FloorMapDocument, IsInMillimetresAndDegrees) {
     FloorPlan plan = plain_hall();
     plan.name = "<\"5 o'clock\" & later>";
     plan.bounds.low = Point{-0.0001234, 0.28};
     plan.places[0].pose.heading = from_degrees(270);
     plan.robots[0].radius = 1.0 / 3;
-    auto const told = lines(xml::encode(floor_map(plan)));
-    EXPECT_NE(told.find("floor_map name=<\"5 o'clock\" & later> "), told.npos) << told;
-    EXPECT_NE(told.find("\nbounds x=-0.123 y=280 width=10000.123 depth=7720\n"), told.npos) << told;
-    EXPECT_NE(told.find("\nplace name=entrance x=9000 y=4000 heading=-90 width=2000 depth=2000\n"), told.npos) << told;
-    EXPECT_NE(told.find("\nrobot name=robot1 radius=333.333\n"), told.npos) << told;
+    auto const reported = lines(xml::encode(floor_map(plan)));
+    EXPECT_NE(reported.find("floor_map name=<\"5 o'clock\" & later> "), reported.npos) << reported;
+    EXPECT_NE(reported.find("\nbounds x=-0.123 y=280 width=10000.123 depth=7720\n"), reported.npos) << reported;
+    EXPECT_NE(reported.find("\nplace name=entrance x=9000 y=4000 heading=-90 width=2000 depth=2000\n"), reported.npos)
+        << reported;
+    EXPECT_NE(reported.find("\nrobot name=robot1 radius=333.333\n"), reported.npos) << reported;
 }
 
 }  // namespace

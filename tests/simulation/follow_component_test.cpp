@@ -32,7 +32,7 @@ TEST(Follow, KeepsItsDistanceUntilItIsStopped) {
     EXPECT_THAT(stage["follow"].words(), ElementsAre("started"));
 }
 
-TEST(Follow, TakesThePermanentIdOfWhomTheRobotHasIdentified) {
+TEST(Follow, AcceptsThePermanentIdOfAnIdentifiedPerson) {
     Stage stage{{known(visitor(
         "tanaka", {does(Walk{at(4, 4)}), does(Face{at("robot")}), does(Wait{10}), does(Walk{at(8, 2)}), does(Wait{1000})}))}};
     stage["person_identification"].start();
@@ -45,7 +45,7 @@ TEST(Follow, TakesThePermanentIdOfWhomTheRobotHasIdentified) {
     EXPECT_NEAR(distance(stage.robot().position, target), 1.0, 0.1);
 }
 
-TEST(Follow, TakesAnotherRobot) {
+TEST(Follow, AcceptsAnotherRobot) {
     Stage stage{{}, reception_with_two_robots()};
     stage["follow"].start({whom("robot2"), integer("distance", 1000)});
     stage["robot2.navigation"].start({texts("target_position", {"7000, 4000"})});
@@ -54,7 +54,7 @@ TEST(Follow, TakesAnotherRobot) {
     EXPECT_NEAR(distance(stage.robot(0).position, stage.robot(1).position), 1.0, 0.4);
 }
 
-TEST(Follow, WaitsForAKnownTargetThatIsNotThereYet) {
+TEST(Follow, WaitsForAKnownTargetThatIsNotInTheHallYet) {
     Stage stage{{known(visitor("tanaka", {does(Walk{at(4, 4)}), does(Face{at("robot")}), does(Wait{1000})}, 10))}};
     stage.step();
     auto& follow = stage["follow"];
@@ -63,7 +63,7 @@ TEST(Follow, WaitsForAKnownTargetThatIsNotThereYet) {
     stage.run(9);
     EXPECT_THAT(follow.words(), ElementsAre("started"));
     EXPECT_EQ(follow.component().status(), ComponentStatus::warning);
-    EXPECT_EQ(distance(stage.robot().position, start), 0) << "it stands";
+    EXPECT_EQ(distance(stage.robot().position, start), 0) << "the robot stands";
     stage["move"].start({integers("line", "500 0")});
     EXPECT_EQ(stage["move"].ended(), "OUT_OF_RESOURCES") << "and keeps the wheels";
     stage.run(30);
@@ -72,19 +72,19 @@ TEST(Follow, WaitsForAKnownTargetThatIsNotThereYet) {
     EXPECT_NEAR(distance(stage.robot().position, stage.hall().people().front().pose.position), 1.0, 0.25);
 }
 
-TEST(Follow, FailsWhenNobodyKnowsItsTarget) {
-    for (auto const* nobody : {"ghost", "person-1", "person-99", "person-", "stranger-1"}) {
+TEST(Follow, FailsIfItsTargetIsUnknown) {
+    for (auto const* unknown : {"ghost", "person-1", "person-99", "person-", "stranger-1"}) {
         Stage stage;
         stage.step();
         auto& follow = stage["follow"];
-        follow.start({whom(nobody), integer("distance", 1000)});
+        follow.start({whom(unknown), integer("distance", 1000)});
         stage.run(4.9);
-        EXPECT_THAT(follow.words(), ElementsAre("started")) << nobody;
-        EXPECT_EQ(follow.component().status(), ComponentStatus::warning) << nobody;
+        EXPECT_THAT(follow.words(), ElementsAre("started")) << unknown;
+        EXPECT_EQ(follow.component().status(), ComponentStatus::warning) << unknown;
         stage.run(0.2);
-        EXPECT_EQ(follow.ended(), "ERROR") << nobody;
-        EXPECT_THAT(follow.reason(), AllOf(HasSubstr("'target_object_ref'"), HasSubstr(nobody), HasSubstr("is unknown")));
-        EXPECT_EQ(follow.component().status(), ComponentStatus::ready) << nobody;
+        EXPECT_EQ(follow.ended(), "ERROR") << unknown;
+        EXPECT_THAT(follow.reason(), AllOf(HasSubstr("'target_object_ref'"), HasSubstr(unknown), HasSubstr("is unknown")));
+        EXPECT_EQ(follow.component().status(), ComponentStatus::ready) << unknown;
         stage["move"].start({integers("line", "500 0")});
         EXPECT_EQ(stage.outcome("move"), "OK") << "the wheels are free again";
     }
@@ -97,7 +97,7 @@ TEST(Follow, FailsWhenItsTargetDoesNotComeBack) {
     follow.start({whom("person-1"), integer("distance", 1000)});
     ASSERT_TRUE(stage.run_until([&] { return stage.hall().people().empty(); }, 120));
     stage.run(29);
-    EXPECT_THAT(follow.words(), ElementsAre("started")) << "for a while it waits";
+    EXPECT_THAT(follow.words(), ElementsAre("started")) << "waits for a while";
     EXPECT_EQ(follow.component().status(), ComponentStatus::warning);
     stage.run(2);
     EXPECT_EQ(follow.ended(), "ERROR");
@@ -117,7 +117,7 @@ TEST(Follow, DoesNotGiveUpWhileSuspended) {
     EXPECT_EQ(stage["follow"].ended(), "ERROR");
 }
 
-// Decision 31: "robot2" is a robot, and nobody's temporary name.
+// Decision 31: "robot2" is the name of a robot, not a temporary name.
 TEST(Follow, LooksForItsTargetInTheCodebookOnly) {
     Stage stage{{}, reception_with_two_robots()};
     auto const follow = [&](std::string_view codebook) {
@@ -125,7 +125,7 @@ TEST(Follow, LooksForItsTargetInTheCodebookOnly) {
         stage.step();
         return stage["follow"].component().status();
     };
-    EXPECT_EQ(follow(codebook::track), ComponentStatus::warning) << "it waits for such a track";
+    EXPECT_EQ(follow(codebook::track), ComponentStatus::warning) << "waits for a track of this name";
     EXPECT_EQ(follow(codebook::robot), ComponentStatus::ready);
     EXPECT_EQ(follow(codebook::visitor), ComponentStatus::warning);
     EXPECT_EQ(follow(codebook::entity), ComponentStatus::ready);
@@ -139,10 +139,10 @@ TEST(Follow, KeepsItsTimeLimitWhileItWaits) {
     EXPECT_EQ(stage["follow"].reason(), "'person-9' has not been seen within time_limit, 3000 ms");
 }
 
-TEST(Follow, GoesOnWithAPermanentIdThatIsIdentifiedAnew) {
+TEST(Follow, ContinuesWhenAPermanentIdIsIdentifiedAgain) {
     FloorPlan plan = reception();
     plan.robots[0].sensors.people.range = plan.robots[0].sensors.faces.range = plan.robots[0].sensors.sound.range = 2.5;
-    // Walks away while the robot is held.
+    // The target walks away while the robot is held.
     Stage stage{{known(visitor("tanaka", {does(Walk{at(4, 4)}), does(Face{at("robot")}), does(Wait{5}), does(Ignore{}),
                                           does(Walk{at(10, 2)}), does(Wait{20}), does(Walk{at(4, 4)}), does(Face{at("robot")}),
                                           does(Wait{1000})}))},
@@ -186,7 +186,7 @@ TEST(Follow, StandsStillWhileSuspended) {
     EXPECT_THAT(stage["follow"].words(), ElementsAre("started"));
 }
 
-TEST(Follow, RefusesWhatIsMissingOrMakesNoSense) {
+TEST(Follow, RefusesMissingAndInvalidParameters) {
     Stage stage;
     auto& follow = stage["follow"];
     EXPECT_THAT(follow.refusal("start", {integer("distance", 1000)}).value_or(""), HasSubstr("target_object_ref"));

@@ -21,7 +21,7 @@ TEST(Pose, BearingIsRelativeToTheHeading) {
     EXPECT_NEAR(bearing(north, Point{2, 1}), from_degrees(-90), 1e-12);
 }
 
-TEST(Pose, AFrameTakesWhatIsAheadOfABodyIntoTheHall) {
+TEST(Pose, AFrameConvertsFromTheBodyToTheHall) {
     Point const ahead = frame({Point{2, 3}, from_degrees(90)}) * Point{1, 0};
     EXPECT_NEAR(ahead.x(), 2, 1e-12);
     EXPECT_NEAR(ahead.y(), 4, 1e-12);
@@ -67,7 +67,7 @@ TEST(WireUnits, TargetsHaveAHeadingOrNot) {
     EXPECT_FALSE(place->heading);
 }
 
-TEST(WireUnits, WhatIsNoPositionIsRefused) {
+TEST(WireUnits, InvalidPositionsAreRejected) {
     for (auto text : {"", "1", "1, 2, 3, 4", "1, two", "1,, 2", "nan, 1", "1, inf", "1, 2,", "desk", "1e400, 0"})
         EXPECT_FALSE(target_from_wire(text)) << text;
 }
@@ -84,7 +84,7 @@ TEST(WireUnits, CovarianceIsInMillimetresAndDegrees) {
     EXPECT_EQ(rows[8], 32.828) << "0.01 of its square";
 }
 
-// The numbers that the standard prescribes for its engine, and what ours are made of them.
+// The numbers that the standard prescribes for its engine, and the numbers of Random made from them.
 TEST(RandomNumbers, AreTheSameEverywhere) {
     Random random{5489};
     for (int i = 0; i < 9'999; ++i) random.uniform();

@@ -7,7 +7,7 @@
 namespace rois::simulation {
 namespace {
 
-// The shipped day, in which robots have something to do.
+// The shipped day, with busy robots.
 void set_to_work(Hall& hall) {
     for (Robot const& robot : hall.robots()) {
         hall.drive(robot.id).begin("navigation",
@@ -70,9 +70,9 @@ TEST(FloorPlan, WallsBlockSightAndDesksDoNot) {
     EXPECT_TRUE(plan.in_sight(Point{6, 2}, Point{8, 2}));
 }
 
-// Over twenty minutes of the shipped day, with robots that go to and fro among the people.
+// More than twenty minutes of the shipped day, with robots that drive to and fro among the people.
 class LongRun : public testing::TestWithParam<char const*> {};
-TEST_P(LongRun, NobodyIsEverInAWallOrTouchesAnother) {
+TEST_P(LongRun, PeopleAndRobotsNeverTouchWallsOrEachOther) {
     FloorPlan const plan = shipped_plan(GetParam());
     Hall hall{plan, reception_day(plan), 11};
     Random random{3};

@@ -14,7 +14,7 @@ Role at_the_robot(std::string id) {
     return visitor(std::move(id), {does(Walk{at(4, 4)}), does(Face{at("robot")}), does(Wait{1000})});
 }
 
-TEST(Identification, TellsThePermanentIdOfAKnownVisitorOnce) {
+TEST(Identification, ReportsThePermanentIdOfAKnownVisitorOnce) {
     Stage stage{{known(at_the_robot("tanaka"))}};
     stage["person_identification"].start();
     stage.run(30);
@@ -25,7 +25,7 @@ TEST(Identification, TellsThePermanentIdOfAKnownVisitorOnce) {
     EXPECT_NE(value(events[0].results, "timestamp"), "none");
 }
 
-TEST(Identification, SaysWhereTheVisitorIs) {
+TEST(Identification, ReportsThePositionOfTheVisitor) {
     Stage stage{{known(at_the_robot("tanaka"))}};
     stage.run(15);
     stage["person_identification"].start();
@@ -43,7 +43,7 @@ TEST(Identification, SaysWhereTheVisitorIs) {
     EXPECT_EQ(entity.certainty, localized[0].results.located.at(0).certainty);
 }
 
-TEST(Identification, IsSilentAboutStrangersAndThoseFarAway) {
+TEST(Identification, IgnoresStrangersAndDistantVisitors) {
     Stage stage{
         {at_the_robot("stranger"), known(visitor("suzuki", {does(Walk{at(9, 4)}), does(Face{at("robot")}), does(Wait{1000})}))}};
     stage["person_identification"].start();
@@ -51,7 +51,7 @@ TEST(Identification, IsSilentAboutStrangersAndThoseFarAway) {
     EXPECT_THAT(stage["person_identification"].events("person_identified"), IsEmpty());
 }
 
-TEST(Identification, TellsAnewOfAVisitorWhoComesAgain) {
+TEST(Identification, ReportsAReturningVisitorAgain) {
     auto const visit = [](Seconds enters) {
         return known(visitor("tanaka", {does(Walk{at(4, 4)}), does(Face{at("robot")}), does(Wait{3}), does(Leave{})}, enters));
     };
@@ -61,7 +61,7 @@ TEST(Identification, TellsAnewOfAVisitorWhoComesAgain) {
     EXPECT_THAT(stage["person_identification"].events("person_identified"), SizeIs(2));
 }
 
-TEST(Identification, TellsAfterResumeWhoCameMeanwhile) {
+TEST(Identification, ReportsAfterResumeAnArrivalDuringSuspension) {
     Stage stage{{known(at_the_robot("tanaka"))}};
     auto& identification = stage["person_identification"];
     identification.start();

@@ -29,7 +29,7 @@ Stage& settled(Stage& stage) {
     return stage;
 }
 
-TEST(Localization, TellsWhereAPersonStandsInMillimetres) {
+TEST(Localization, ReportsThePositionOfAPersonInMillimetres) {
     Stage stage{{standing()}};
     settled(stage)["person_localization"].start();
     stage.step();
@@ -46,7 +46,7 @@ TEST(Localization, TellsWhereAPersonStandsInMillimetres) {
     EXPECT_NEAR(point->position.y(), 4, 0.3);
 }
 
-TEST(Localization, CompletesEachPositionWithItsCertainty) {
+TEST(Localization, ReportsTheCovarianceOfEachPosition) {
     Stage stage{{standing()}};
     settled(stage)["person_localization"].start();
     stage.step();
@@ -68,21 +68,21 @@ TEST(Localization, CompletesEachPositionWithItsCertainty) {
     EXPECT_THAT(covariance[8], DoubleNear(8.0 * 8.0, 0.01));  // in degrees
 }
 
-TEST(Localization, TellsNothingWhileNobodyIsThere) {
+TEST(Localization, ReportsNothingInAnEmptyHall) {
     Stage stage;
     stage["person_localization"].start();
     stage.run(5);
     EXPECT_THAT(stage["person_localization"].words(), ElementsAre("completed OK, active"));
 }
 
-TEST(Localization, TellsThoseWhoStandStillOnce) {
+TEST(Localization, ReportsAStandingPersonOnce) {
     Stage stage{{standing()}};
     settled(stage)["person_localization"].start();
     stage.run(60);
     EXPECT_THAT(stage["person_localization"].events("person_localized"), SizeIs(1));
 }
 
-TEST(Localization, TellsAFewTimesASecondOfThoseWhoWalk) {
+TEST(Localization, ReportsAWalkingPersonAFewTimesASecond) {
     Stage stage{{visitor("guest", {does(Walk{at(4, 4)}), does(Wait{1000})})}};
     stage["person_localization"].start();
     stage.run(5);
@@ -90,7 +90,7 @@ TEST(Localization, TellsAFewTimesASecondOfThoseWhoWalk) {
     EXPECT_THAT(events.size(), AllOf(Ge(10U), Le(21U)));
 }
 
-TEST(Localization, HasAnIntervalAtLeast) {
+TEST(Localization, ObeysMinimumInterval) {
     Stage stage{{visitor("guest", {does(Walk{at(4, 4)}), does(Wait{1000})})}};
     stage["person_localization"].start({integer("minimum_interval", 1000)});
     stage.run(6);
@@ -99,7 +99,7 @@ TEST(Localization, HasAnIntervalAtLeast) {
     for (std::size_t i = 1; i < events.size(); ++i) EXPECT_GE(events[i].at - events[i - 1].at, WorldTime{1000});
 }
 
-// The shortest time between two events of a kind about somebody who comes up and talks at length.
+// The shortest time between two events about a person who approaches and talks at length.
 WorldTime shortest_gap(std::string const& kind, std::int64_t minimum_interval) {
     std::string words;
     for (int i = 0; i < 20; ++i) words += "Good morning. ";
@@ -114,22 +114,22 @@ WorldTime shortest_gap(std::string const& kind, std::int64_t minimum_interval) {
     return shortest;
 }
 
-TEST(Localization, OfEachKindHasAnIntervalAtLeast) {
+TEST(Localization, OfEachKindObeysMinimumInterval) {
     for (auto const& [kind, interval] : {std::pair{"person", 1000}, {"face", 1000}, {"sound", 3000}}) {
         EXPECT_LT(shortest_gap(kind, 0), WorldTime{interval}) << kind;
         EXPECT_GE(shortest_gap(kind, interval), WorldTime{interval}) << kind;
     }
 }
 
-TEST(Localization, HasAThresholdOfMovement) {
+TEST(Localization, ObeysDetectionThreshold) {
     Stage stage{{visitor("guest", {does(Walk{at(4, 4)}), does(Wait{1000})})}};
     stage["person_localization"].start({integer("minimum_interval", 0), integer("detection_threshold", 2000)});
     stage.run(15);
     auto const events = stage["person_localization"].events("person_localized");
-    EXPECT_THAT(events.size(), AllOf(Ge(3U), Le(4U)));  // 7 m of way: the first, and one each 2 m
+    EXPECT_THAT(events.size(), AllOf(Ge(3U), Le(4U)));  // on a way of 7 m: the first, and one each 2 m
 }
 
-TEST(Localization, ObeysNewParametersAtOnce) {
+TEST(Localization, AppliesNewParametersAtOnce) {
     Stage stage{{visitor("guest", {does(Walk{at(3, 4)}), does(Walk{at(10, 4)}), does(Walk{at(3, 4)}), does(Wait{1000})})}};
     auto& localization = stage["person_localization"];
     localization.start({integer("detection_threshold", 5000)});
@@ -141,7 +141,7 @@ TEST(Localization, ObeysNewParametersAtOnce) {
     EXPECT_GE(localization.events("person_localized").size(), 8U);
 }
 
-TEST(Localization, IsSilentWhileSuspendedAndThenTellsWhoHasMoved) {
+TEST(Localization, ReportsMovementDuringSuspensionAfterResume) {
     Stage stage{{visitor("guest", {does(Walk{at(4, 4)}), does(Wait{1000})})}};
     auto& localization = stage["person_localization"];
     localization.start();
@@ -169,7 +169,7 @@ TEST(Localization, RefusesAThresholdBelowTheNoiseOfItsSensor) {
         auto& localization = stage[std::string{kind} + "_localization"];
         for (auto const* command : {"set_parameter", "start"}) {
             EXPECT_THAT(localization.refusal(command, {integer("detection_threshold", lowest - 1)}).value_or("fine"),
-                        HasSubstr("the lowest that works, " + std::to_string(lowest) + " mm"))
+                        HasSubstr("the minimum of " + std::to_string(lowest) + " mm"))
                 << kind;
             EXPECT_TRUE(localization.refusal(command, {integer("detection_threshold", 0)})) << kind;
             EXPECT_FALSE(localization.refusal(command, {integer("detection_threshold", lowest)})) << kind;
@@ -177,7 +177,7 @@ TEST(Localization, RefusesAThresholdBelowTheNoiseOfItsSensor) {
     }
 }
 
-TEST(Localization, ItsLowestThresholdIsThatOfItsRobot) {
+TEST(Localization, ItsLowestThresholdDependsOnTheRobotsSensor) {
     FloorPlan plan = reception_with_two_robots();
     plan.robots[1].sensors.people.sigma = 0.2;
     Stage stage{{}, plan};
@@ -186,7 +186,7 @@ TEST(Localization, ItsLowestThresholdIsThatOfItsRobot) {
     EXPECT_FALSE(stage["robot2.person_localization"].refusal("start", {integer("detection_threshold", 500)}));
 }
 
-// Events about somebody who comes up and then talks and waves where they stand: while they come, and in a minute afterwards.
+// Number of events about a person while they approach, and in one minute while they stand, talk and wave.
 std::pair<std::size_t, std::size_t> events_by_default(std::string const& kind, ParameterList const& parameters = {}) {
     std::string words;
     for (int i = 0; i < 100; ++i) words += "Good morning. ";
@@ -199,17 +199,17 @@ std::pair<std::size_t, std::size_t> events_by_default(std::string const& kind, P
     return {coming, localization.events(kind + "_localized").size() - coming};
 }
 
-TEST(Localization, TellsEnoughAndNotTooMuchWithItsDefaults) {
+TEST(Localization, ReportsEnoughAndNotTooMuchWithItsDefaults) {
     for (auto const* kind : {"person", "face", "sound"}) {
         auto const [coming, standing] = events_by_default(kind);
         EXPECT_GE(coming, 1U) << kind;
         EXPECT_LE(coming, 60U) << kind << ": at most each 250 ms";
-        EXPECT_LE(standing, 2U) << kind << ": who stands has not moved";
+        EXPECT_LE(standing, 2U) << kind << ": a standing person does not move";
     }
     EXPECT_GE(events_by_default("person").first, 10U) << "7 m of way";
 }
 
-TEST(Localization, TellsNoNoiseAtItsLowestThreshold) {
+TEST(Localization, ReportsNoNoiseAtItsLowestThreshold) {
     for (auto const& [kind, lowest] : {std::pair{"person", 125}, {"face", 75}, {"sound", 625}})
         EXPECT_LE(events_by_default(kind, {integer("detection_threshold", lowest), integer("minimum_interval", 0)}).second, 3U)
             << kind;

@@ -14,7 +14,7 @@ using testing::HasSubstr;
 Parameter line(std::string numbers) { return integers("line", std::move(numbers)); }
 Parameter curve(std::string numbers) { return integers("curve", std::move(numbers)); }
 
-// The world's time that a motion takes.
+// The duration of a motion in world time.
 Seconds duration(ParameterList const& parameters) {
     Stage stage;
     stage["move"].start(parameters);
@@ -22,7 +22,7 @@ Seconds duration(ParameterList const& parameters) {
     return in_seconds(stage.hall().now());
 }
 
-// From (6, 4), looking 30 degrees to the left of x: where a motion ends, told in the robot's frame before it.
+// A motion from (6, 4) with heading 30 degrees: its end in the robot's frame before the motion.
 struct MotionCase {
     Parameter motion;
     double ahead, left;  // mm
@@ -32,7 +32,7 @@ void PrintTo(MotionCase const& motion, std::ostream* out) { *out << motion.motio
 
 class MoveEnds : public testing::TestWithParam<MotionCase> {};
 
-TEST_P(MoveEnds, WhereItsProfileSays) {
+TEST_P(MoveEnds, AtThePoseThatItsProfileDescribes) {
     FloorPlan plan = reception();
     plan.robots[0].start = {Point{6, 4}, from_degrees(30)};
     Stage stage{{}, plan};
@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(SmallCurve, MoveEnds,
                                          MotionCase{curve("100 6"), 10.5, 0.5, 6}, MotionCase{curve("-100 -6"), -10.5, 0.5, -6},
                                          MotionCase{curve("1000 1"), 17.5, 0.2, 1}, MotionCase{curve("0 -1"), 0, 0, -1}));
 
-// How far the robot goes while it moves, in mm.
+// The length of the robot's path, in mm.
 double way(Parameter const& motion) {
     Stage stage;
     stage["move"].start({motion});
@@ -83,7 +83,7 @@ double way(Parameter const& motion) {
     return sum;
 }
 
-TEST(Move, DrivesAnArcOfTheLengthThatItsProfileSays) {
+TEST(Move, DrivesAnArcOfTheLengthThatItsProfileDescribes) {
     EXPECT_NEAR(way(curve("1000 90")), 1571, 20);
     EXPECT_NEAR(way(curve("-1000 -90")), 1571, 20);
     EXPECT_NEAR(way(curve("500 -720")), 6283, 40);
@@ -111,7 +111,7 @@ TEST(Move, StaysWhereAWallIsInTheDirectionOfTheLine) {
 }
 
 TEST(Move, IsRejectedAtOnceWhenItsEndIsTooNearAWall) {
-    Stage stage;  // the robot can go back 1720 mm before it touches the wall, and keeps 15 mm free
+    Stage stage;  // 1720 mm behind the robot are free; it keeps 15 mm to the wall
     auto const outcome = [&](Parameter const& motion) {
         auto const begun = stage.hall().now();
         stage["move"].start({motion});
@@ -133,21 +133,21 @@ TEST(Move, IsRejectedAtOnceWhenItsEndIsTooNearAWall) {
     EXPECT_EQ(outcome(curve("10 90")), "OK");
 }
 
-TEST(Move, TakesTheTimeThatIsGiven) {
+TEST(Move, TakesTheGivenTime) {
     EXPECT_LT(duration({line("1000 0")}), 4);
     EXPECT_NEAR(duration({line("1000 0"), integer("time", 8000)}), 8, 0.5);
     EXPECT_NEAR(duration({curve("1000 90"), integer("time", 9000)}), 9, 0.5);
-    EXPECT_GT(duration({line("1000 0"), integer("time", 1)}), 1);  // no faster than the wheels can
+    EXPECT_GT(duration({line("1000 0"), integer("time", 1)}), 1);  // not faster than the robot's limits
 }
 
-TEST(Move, TakesTheTimeThatIsGivenForASmallOrSlowMotion) {
+TEST(Move, TakesTheGivenTimeForASmallOrSlowMotion) {
     EXPECT_NEAR(duration({line("5 0"), integer("time", 5000)}), 5, 0.3);
-    EXPECT_NEAR(duration({line("50 0"), integer("time", 30'000)}), 30, 0.3) << "1.7 mm/s is not standing still";
+    EXPECT_NEAR(duration({line("50 0"), integer("time", 30'000)}), 30, 0.3) << "1.7 mm/s does not count as standing";
     EXPECT_NEAR(duration({curve("10 90"), integer("time", 10'000)}), 10, 0.3);
     EXPECT_NEAR(duration({curve("1000 3"), integer("time", 30'000)}), 30, 0.3);
 }
 
-TEST(Move, DrivesTheMotionThatCameLast) {
+TEST(Move, DrivesTheLastMotion) {
     Stage stage;
     auto& move = stage["move"];
     move.set_parameter({line("1000 0")});
@@ -157,25 +157,25 @@ TEST(Move, DrivesTheMotionThatCameLast) {
     EXPECT_EQ(find(move.stored(), "curve"), nullptr);
 }
 
-TEST(Move, RefusesWhatIsNoMotion) {
+TEST(Move, RefusesInvalidMotions) {
     Stage stage;
     auto& move = stage["move"];
     EXPECT_THAT(move.refusal("start", {}).value_or(""), HasSubstr("mandatory"));
-    EXPECT_THAT(move.refusal("set_parameter", {line("1000 0"), curve("1000 90")}).value_or(""), HasSubstr("not both"));
+    EXPECT_THAT(move.refusal("set_parameter", {line("1000 0"), curve("1000 90")}).value_or(""), HasSubstr("set only one"));
     EXPECT_THAT(move.refusal("set_parameter", {line("1000")}).value_or(""), HasSubstr("two numbers"));
     EXPECT_THAT(move.refusal("set_parameter", {curve("1000 90 3")}).value_or(""), HasSubstr("two numbers"));
     EXPECT_TRUE(move.refusal("set_parameter", {integer("time", -1)}));
     EXPECT_FALSE(move.refusal("start", {line("0 0")}));
 }
 
-TEST(Move, FailsWhenItIsBlockedForGood) {
+TEST(Move, FailsWhenAWallBlocksIt) {
     Stage stage;
     stage["move"].start({line("-5000 0")});  // the wall is 2 m behind
     EXPECT_EQ(stage.outcome("move"), "ERROR");
     EXPECT_GT(stage.robot().position.x(), 0.2);
 }
 
-TEST(Move, FailsWhenSomebodyStaysInTheWay) {
+TEST(Move, FailsWhenAPersonStaysInTheWay) {
     Stage stage{{visitor("guest", {does(Walk{at(5, 4)}), does(Wait{1000})})}};
     stage.run(12);
     stage["move"].start({line("6000 0")});
@@ -189,7 +189,7 @@ TEST(Move, FailsWhenSomebodyStaysInTheWay) {
     EXPECT_EQ(stage["move"].component().status(), ComponentStatus::ready);
 }
 
-TEST(Move, GoesOnWhereItWasHeld) {
+TEST(Move, ResumesWhereItWasSuspended) {
     Stage stage;
     stage["move"].start({line("2000 0")});
     stage.run(1);

@@ -13,7 +13,7 @@ using testing::SizeIs;
 
 Parameter to(std::vector<std::string> targets) { return texts("target_position", std::move(targets)); }
 
-TEST(Navigation, GoesToAPositionAndTellsBeforeItCompletes) {
+TEST(Navigation, ReportsTheReachedTargetBeforeItCompletes) {
     Stage stage;
     stage["navigation"].start({to({"5000, 4000, 90"})});
     EXPECT_EQ(stage.outcome("navigation"), "OK");
@@ -40,7 +40,7 @@ TEST(Navigation, VisitsItsTargetsInOrder) {
     EXPECT_NEAR(distance(stage.robot().position, Point{2, 4}), 0, 0.1);
 }
 
-TEST(Navigation, RefusesWhatIsNoPosition) {
+TEST(Navigation, RefusesInvalidPositions) {
     Stage stage;
     auto& navigation = stage["navigation"];
     for (auto target : {"the moon", "1, 2, 3, 4", "1", "", "nan, 1", "inf, 2"})
@@ -56,7 +56,7 @@ TEST(Navigation, RefusesOtherPoliciesAndLimits) {
     Stage stage;
     auto& navigation = stage["navigation"];
     EXPECT_THAT(navigation.component().description().positions, ElementsAre("target_position"))
-        << "other frames are the engine's business";
+        << "the engine converts other frames";
     EXPECT_TRUE(navigation.refusal("set_parameter", {text("routing_policy", "scenery")}));
     EXPECT_FALSE(navigation.refusal("set_parameter", {text("routing_policy", "distance")}));
     EXPECT_TRUE(navigation.refusal("set_parameter", {integer("time_limit", -1)}));
@@ -87,9 +87,9 @@ TEST(Navigation, FailsWhenTheTargetIsWithinAWall) {
     EXPECT_EQ(stage.outcome("navigation"), "ERROR");
 }
 
-TEST(Navigation, FailsWhenSomebodyStaysInTheWay) {
+TEST(Navigation, FailsWhenAPersonStaysInTheWay) {
     FloorPlan plan = reception();
-    plan.walls = {{Point{6, 0}, Point{6, 3.5}}, {Point{6, 4.5}, Point{6, 8}}};  // a door, and somebody who stands in it
+    plan.walls = {{Point{6, 0}, Point{6, 3.5}}, {Point{6, 4.5}, Point{6, 8}}};  // a door, and a person who stands in it
     Stage stage{{visitor("guest", {does(Walk{at(6, 4)}), does(Wait{1000})})}, plan};
     stage.run(12);
     auto const begun = stage.hall().now();
@@ -102,7 +102,7 @@ TEST(Navigation, FailsWhenSomebodyStaysInTheWay) {
         },
         120);
     EXPECT_EQ(stage["navigation"].ended(), "ERROR");
-    EXPECT_EQ(stage["navigation"].reason(), "somebody is in the way and does not move");
+    EXPECT_EQ(stage["navigation"].reason(), "a person or robot is in the way");
     EXPECT_GE(stage.hall().now() - begun, WorldTime{30'000});
     EXPECT_TRUE(warned);
     EXPECT_LT(stage.robot().position.x(), 6);
@@ -113,7 +113,7 @@ TEST(Navigation, KeepsItsTimeLimit) {
     Stage stage;
     stage["navigation"].start({to({"11000, 4000"}), integer("time_limit", 2000)});
     EXPECT_EQ(stage.outcome("navigation"), "TIMEOUT");
-    EXPECT_EQ(stage["navigation"].reason(), "not there within time_limit, 2000 ms");
+    EXPECT_EQ(stage["navigation"].reason(), "target not reached within time_limit, 2000 ms");
     EXPECT_NEAR(in_seconds(stage.hall().now()), 2, 0.05);
     EXPECT_LT(stage.robot().position.x(), 5);
     auto const stood = (stage.run(2), stage.robot().position);
@@ -121,12 +121,12 @@ TEST(Navigation, KeepsItsTimeLimit) {
     EXPECT_EQ(distance(stood, stage.robot().position), 0);
 }
 
-TEST(Navigation, ItsTimeLimitIsThatOfAllTargetsTogether) {
+TEST(Navigation, ItsTimeLimitAppliesToAllTargetsTogether) {
     Stage stage;
     stage["navigation"].start({to({"4000, 4000", "2000, 4000", "4000, 4000", "2000, 4000"}), integer("time_limit", 10'000)});
     EXPECT_EQ(stage.outcome("navigation"), "TIMEOUT");
     EXPECT_NEAR(in_seconds(stage.hall().now()), 10, 0.05);
-    EXPECT_GE(stage["navigation"].events("reached_target").size(), 1U) << "one target alone is reached in time";
+    EXPECT_GE(stage["navigation"].events("reached_target").size(), 1U) << "at least one target is reached in time";
 }
 
 TEST(Navigation, HasNoTimeLimitWhenItIsZero) {
@@ -154,8 +154,8 @@ TEST(Navigation, ConfirmsAHaltWhenTheRobotStands) {
     stage["navigation"].start({to({"10000, 4000"})});
     stage.run(2);
     EXPECT_EQ(stage["navigation"].stop(), Halted::not_yet);
-    EXPECT_EQ(stage["navigation"].stop(), Halted::not_yet) << "also when it is told again";
-    EXPECT_EQ(stage["move"].stop(), Halted::not_yet) << "the wheels are those of all";
+    EXPECT_EQ(stage["navigation"].stop(), Halted::not_yet) << "also after a second stop";
+    EXPECT_EQ(stage["move"].stop(), Halted::not_yet) << "all components share the drive";
     auto const is_confirmed = [&](auto ref) { return !stage[ref].events("halted").empty(); };
     ASSERT_TRUE(stage.run_until([&] { return is_confirmed("navigation"); }, 0.4));
     EXPECT_TRUE(is_confirmed("move"));
@@ -163,17 +163,17 @@ TEST(Navigation, ConfirmsAHaltWhenTheRobotStands) {
     stage.run(5);
     EXPECT_EQ(distance(stood, stage.robot().position), 0);
     EXPECT_THAT(stage["navigation"].words(), ElementsAre("started", "halted"));
-    EXPECT_EQ(stage["navigation"].stop(), Halted::confirmed) << "it stands";
+    EXPECT_EQ(stage["navigation"].stop(), Halted::confirmed) << "the robot stands";
 }
 
-TEST(Navigation, ConfirmsAHaltAtOnceInAWorldThatStandsStill) {
+TEST(Navigation, ConfirmsAHaltAtOnceWhileNoTimePasses) {
     Stage stage{{}, reception(), {}, 0};
     stage["navigation"].start({to({"10000, 4000"})});
     stage.run(2);
     EXPECT_EQ(stage["navigation"].stop(), Halted::confirmed);
 }
 
-TEST(Navigation, TakesANewTargetWithANewStart) {
+TEST(Navigation, AcceptsANewTargetWithANewStart) {
     Stage stage;
     stage["navigation"].start({to({"10000, 4000"})});
     stage.run(2);
@@ -195,7 +195,7 @@ TEST(Wheels, ObeyOneComponentAtATime) {
     EXPECT_EQ(stage.outcome("move"), "OK");
 }
 
-TEST(Wheels, AreTheRobotsOwn) {
+TEST(Wheels, AreIndependentOfOtherRobots) {
     Stage stage{{}, reception_with_two_robots()};
     stage["navigation"].start({to({"6000, 4000"})});
     stage["robot2.move"].start({integers("line", "1000 0")});

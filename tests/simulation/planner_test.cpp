@@ -13,7 +13,7 @@ constexpr Agility robots{.speed = 0.9, .acceleration = 0.8, .turn_rate = 1.6, .t
 
 Planner planner_of(FloorPlan const& plan) { return {plan, radius, robots}; }
 
-// Every leg keeps the body off walls and desks.
+// Whether every leg keeps clear of walls and desks.
 void expect_free(FloorPlan const& plan, Point from, std::vector<Point> const& way) {
     for (Point const& corner : way) {
         EXPECT_TRUE(plan.can_go_straight(from, corner, radius - 0.01)) << from.transpose() << " to " << corner.transpose();
@@ -21,7 +21,7 @@ void expect_free(FloorPlan const& plan, Point from, std::vector<Point> const& wa
     }
 }
 
-TEST(Planner, GoesStraightWhereNothingIsInTheWay) {
+TEST(Planner, GoesStraightWithoutObstacles) {
     FloorPlan const plan = plain_hall();
     auto const way = planner_of(plan).way({Point{2, 4}, 0}, Point{8, 2}, RoutingPolicy::time);
     ASSERT_TRUE(way);
@@ -36,7 +36,7 @@ TEST(Planner, GoesThroughTheDoor) {
     EXPECT_EQ(way->back(), Point(8, 2));
     expect_free(plan, Point{2, 2}, *way);
     EXPECT_GT(length(Point{2, 2}, *way), 10);
-    EXPECT_LT(length(Point{2, 2}, *way), 11.5) << "the way is smoothed";
+    EXPECT_LT(length(Point{2, 2}, *way), 11.5) << "the path is smoothed";
 }
 
 TEST(Planner, FindsNoWayThroughWalls) {
@@ -59,7 +59,7 @@ TEST(Planner, FindsNoWayIntoADeskAWallOrOutOfTheHall) {
         EXPECT_FALSE(planner.way({Point{2, 2}, 0}, to, RoutingPolicy::time)) << to.transpose();
 }
 
-TEST(Planner, GoesAroundThoseWhoStandInTheWay) {
+TEST(Planner, GoesAroundObstacles) {
     FloorPlan const plan = plain_hall();
     std::vector<Disc> const somebody{{Point{5, 4}, 0.25}};
     auto const way = planner_of(plan).way({Point{2, 4}, 0}, Point{8, 4}, RoutingPolicy::time, somebody);
@@ -71,13 +71,13 @@ TEST(Planner, GoesAroundThoseWhoStandInTheWay) {
     }
 }
 
-TEST(Planner, LeavesAPlaceThatIsTooNearToSomebody) {
+TEST(Planner, LeavesAPlaceThatIsTooNearToAnObstacle) {
     FloorPlan const plan = plain_hall();
     std::vector<Disc> const beside{{Point{2.55, 4}, 0.25}};
     EXPECT_TRUE(planner_of(plan).way({Point{2, 4}, 0}, Point{8, 4}, RoutingPolicy::time, beside));
 }
 
-// From (1, 4) to (11, 4) a slalom between screens is shorter, the corridor above them needs fewer turns.
+// From (1, 4) to (11, 4), a slalom between screens is shorter; the corridor above them has fewer turns.
 FloorPlan slalom() {
     FloorPlan plan = plain_hall();
     plan.bounds = {Point{0, 0}, Point{12, 9}};
@@ -102,7 +102,7 @@ TEST(Planner, PolicyTimeSparesTurnsAndPolicyDistanceSparesMetres) {
     EXPECT_GT(length(from.position, *fastest), length(from.position, *shortest));
 }
 
-TEST(Planner, FindsRoomBesideSomebody) {
+TEST(Planner, FindsRoomBesideAnObstacle) {
     FloorPlan plan = plain_hall();
     plan.walls = {{Point{4.6, 0}, Point{4.6, 8}}};
     auto const planner = planner_of(plan);

@@ -28,7 +28,7 @@ TEST(Reaction, ShowsAReactionOfAnnexDForItsTime) {
     EXPECT_FALSE(stage.robot_state().showing);
 }
 
-TEST(Reaction, IsCalledByNameAsWell) {
+TEST(Reaction, AcceptsItsName) {
     Stage stage;
     stage["reaction"].start({reaction_ref("Bow the head")});
     stage.step();
@@ -36,7 +36,7 @@ TEST(Reaction, IsCalledByNameAsWell) {
     EXPECT_EQ(stage.robot_state().showing->reaction, "9");
 }
 
-TEST(Reaction, IsCalledByItsPlainNameAsWell) {
+TEST(Reaction, AcceptsItsGestureName) {
     EXPECT_EQ(reaction_code("bow"), "9");
     EXPECT_EQ(reaction_code("Nod"), "1");
     EXPECT_EQ(reaction_code(" clap "), "14");
@@ -47,7 +47,7 @@ TEST(Reaction, IsCalledByItsPlainNameAsWell) {
     EXPECT_EQ(stage.robot_state().showing->reaction, "9");
 }
 
-TEST(Reaction, RefusesWhatIsUnknown) {
+TEST(Reaction, RefusesUnknownReactions) {
     Stage stage;
     auto& reaction = stage["reaction"];
     for (auto code : {"0", "51", "-1", "dance", "9.5"})
@@ -72,7 +72,7 @@ TEST(Reaction, HasFiftyKinds) {
     EXPECT_THAT(codes, SizeIs(50));
 }
 
-TEST(Reaction, GoesOnWithWhatIsLeftAfterResume) {
+TEST(Reaction, ShowsTheRestAfterResume) {
     Stage stage;
     stage["reaction"].start({reaction_ref("15")});
     stage.run(1);

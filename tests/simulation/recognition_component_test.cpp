@@ -21,12 +21,12 @@ Role says(std::string language, std::string what, Point where = {4, 4}) {
 
 std::vector<std::string> recognized(Stage& stage) {
     std::vector<std::string> all;
-    for (auto const& told : stage["speech_recognition"].events("speech_recognized"))
-        for (auto const& text : values(told.results, "recognized_text")) all.push_back(text);
+    for (auto const& reported : stage["speech_recognition"].events("speech_recognized"))
+        for (auto const& text : values(reported.results, "recognized_text")) all.push_back(text);
     return all;
 }
 
-TEST(SpeechRecognition, TellsBeginningEndAndText) {
+TEST(SpeechRecognition, ReportsStartEndAndText) {
     Stage stage{{says("en", "Where is the meeting room?")}};
     stage["speech_recognition"].start();
     stage.run(20);
@@ -46,7 +46,7 @@ TEST(SpeechRecognition, UnderstandsItsLanguagesOnly) {
                 ElementsAre("completed OK, active", "speech_input_started", "speech_input_finished"));
 }
 
-TEST(SpeechRecognition, UnderstandsJapaneseAndEnglishUnlessToldOtherwise) {
+TEST(SpeechRecognition, UnderstandsJapaneseAndEnglishByDefault) {
     Stage stage{{says("ja", "こんにちは。")}};
     stage["speech_recognition"].start();
     stage.run(20);
@@ -69,7 +69,7 @@ TEST(SpeechRecognition, NamesTheLanguagesThatItCanRecognize) {
     EXPECT_THAT(find(readable, "recognizable_languages")->values, Contains("en"));
 }
 
-TEST(SpeechRecognition, HearsNobodyFarAway) {
+TEST(SpeechRecognition, IgnoresDistantSpeech) {
     FloorPlan plan = reception();
     plan.robots[0].sensors.sound.range = 3;
     Stage stage{{says("en", "Hello!", {9, 4})}, plan};
@@ -85,7 +85,7 @@ TEST(SpeechRecognition, ListensForTheGrammarsPhrases) {
     EXPECT_THAT(recognized(stage), ElementsAre("help"));
 }
 
-TEST(SpeechRecognition, DoesNotRecognizeWhatTheGrammarHasNot) {
+TEST(SpeechRecognition, IgnoresSpeechThatIsNotInTheGrammar) {
     Stage stage{{says("en", "Where is the meeting room?")}};
     stage["speech_recognition"].start({text("grammar", "yes | no | help")});
     stage.run(20);
@@ -101,7 +101,7 @@ TEST(SpeechRecognition, ChangesItsGrammarWhileItListens) {
     EXPECT_THAT(recognized(stage), ElementsAre("help"));
 }
 
-TEST(SpeechRecognition, RefusesGrammarsThatItCannotRead) {
+TEST(SpeechRecognition, RefusesInvalidGrammars) {
     Stage stage;
     auto& recognition = stage["speech_recognition"];
     EXPECT_TRUE(recognition.refusal("set_parameter", {text("grammar", "yes||no")}));
@@ -113,7 +113,7 @@ TEST(SpeechRecognition, RefusesGrammarsThatItCannotRead) {
     EXPECT_FALSE(recognition.refusal("set_parameter", {text("grammar", "default"), text("rule", "default")}));
 }
 
-TEST(SpeechRecognition, TellsAfterResumeThatTheSpeechHasEndedButNotWhatItMissed) {
+TEST(SpeechRecognition, ReportsTheEndOfSpeechAfterResumeButNotTheMissedText) {
     Stage stage{{says("en", "Where is the meeting room?")}};
     auto& recognition = stage["speech_recognition"];
     recognition.start();
@@ -126,7 +126,7 @@ TEST(SpeechRecognition, TellsAfterResumeThatTheSpeechHasEndedButNotWhatItMissed)
     EXPECT_THAT(recognition.words(), ElementsAre("completed OK, active", "speech_input_started", "speech_input_finished"));
 }
 
-TEST(SpeechRecognition, IsDeafWhileSuspended) {
+TEST(SpeechRecognition, IgnoresSpeechWhileSuspended) {
     Stage stage{{says("en", "Where is the meeting room?")}};
     auto& recognition = stage["speech_recognition"];
     recognition.start();
@@ -137,7 +137,7 @@ TEST(SpeechRecognition, IsDeafWhileSuspended) {
     EXPECT_THAT(recognition.words(), ElementsAre("completed OK, active"));
 }
 
-// Two robots in sight of each other: the first stands before the second, which looks along x.
+// Two robots in sight of each other: the first stands in front of the second, which looks along x.
 FloorPlan face_to_face() {
     FloorPlan plan = reception_with_two_robots();
     plan.robots[0].start = {Point{5, 6}, from_degrees(180)};
@@ -188,7 +188,7 @@ TEST(Grammar, HasRules) {
     EXPECT_EQ(match("yes\nno", "", "No"), "no");
 }
 
-TEST(GestureRecognition, TellsTheGestureById) {
+TEST(GestureRecognition, ReportsTheGestureById) {
     ASSERT_FALSE(gestures().empty());
     std::string const id{gestures().front()};
     Stage stage{{visitor("guest", {does(Walk{at(5, 4)}), does(Face{at("robot")}), does(Gesture{id}), does(Wait{1000})})}};
@@ -201,7 +201,7 @@ TEST(GestureRecognition, TellsTheGestureById) {
     EXPECT_NE(value(events[0].results, "timestamp"), "none");
 }
 
-TEST(GestureRecognition, SeesNobodyOutOfRangeNorWhileSuspended) {
+TEST(GestureRecognition, IgnoresGesturesOutOfRangeAndWhileSuspended) {
     std::string const id{gestures().front()};
     auto const gesturing = [&](double x, Seconds when) {
         return visitor("guest", {does(Walk{at(x, 4)}), does(Gesture{id}, when), does(Wait{1000})});
@@ -226,11 +226,11 @@ TEST(GestureRecognition, SeesReactionsOfOtherRobotsThatAreGestures) {
         EXPECT_EQ(stage.outcome("reaction"), "OK");
     }
     std::vector<std::string> seen;
-    for (auto const& told : stage["robot2.gesture_recognition"].events("gesture_recognized"))
-        seen.push_back(value(told.results, "gesture_ref"));
+    for (auto const& reported : stage["robot2.gesture_recognition"].events("gesture_recognized"))
+        seen.push_back(value(reported.results, "gesture_ref"));
     EXPECT_THAT(seen, ElementsAre("nod", "shake_head", "bow", "clap", "point", "raise_hand", "wave"));
     for (auto const& gesture : seen) EXPECT_THAT(gestures(), Contains(gesture));
-    EXPECT_THAT(stage["gesture_recognition"].words(), ElementsAre("completed OK, active")) << "not its own";
+    EXPECT_THAT(stage["gesture_recognition"].words(), ElementsAre("completed OK, active")) << "not the robot's own gesture";
 }
 
 TEST(GestureRecognition, NamesTheGesturesThatItCanRecognize) {

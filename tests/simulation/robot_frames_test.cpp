@@ -1,4 +1,4 @@
-// Robots that tell and take positions in a frame of their own.
+// Robots that report and accept positions in their own frame.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@ namespace {
 using testing::ElementsAre;
 using testing::SizeIs;
 
-// The second robot stands at (2000, 6000). Its map begins at (2000, 5000), turned to the left by 90 degrees: (x, y) of the hall
-// is (y - 5000, 2000 - x) in it.
+// The second robot stands at (2000, 6000). Its map has the origin (2000, 5000) and is turned to the left by 90 degrees: (x, y) of
+// the hall is (y - 5000, 2000 - x) in the map.
 FloorPlan with_map() {
     auto plan = reception_with_two_robots();
     plan.robots[1].frame = RobotFrame{.crs = "map", .origin = {Point{2, 5}, from_degrees(90)}};
@@ -32,14 +32,14 @@ Located sighting(FloorPlan plan, std::string& text) {
     return events.at(0).results.located.at(0);
 }
 
-TEST(RobotFrames, AreThatOfTheHallUnlessTheyHaveOne) {
+TEST(RobotFrames, DefaultToTheFrameOfTheHall) {
     Stage stage{{}, with_map()};
     EXPECT_EQ(stage["navigation"].component().description().crs, "");
     EXPECT_EQ(stage["robot2.navigation"].component().description().crs, "map");
     EXPECT_EQ(stage["navigation"].component().location()->crs, "urn:x-rois:def:crs:simulation::hall");
 }
 
-TEST(RobotFrames, TellWhereTheRobotIs) {
+TEST(RobotFrames, ApplyToTheRobotsPosition) {
     Stage stage{{}, with_map()};
     auto const here = *stage["robot2.navigation"].component().location();
     EXPECT_EQ(here.crs, "map");
@@ -47,7 +47,7 @@ TEST(RobotFrames, TellWhereTheRobotIs) {
     EXPECT_THAT(here.orientation, ElementsAre(0, 0, -90));
 }
 
-TEST(RobotFrames, TellWhatTheRobotSees) {
+TEST(RobotFrames, ApplyToSensedPositions) {
     std::string in_hall, in_map;
     auto const hall = sighting(reception_with_two_robots(), in_hall), map = sighting(with_map(), in_map);
     EXPECT_EQ(map.crs, "map");
@@ -62,7 +62,7 @@ TEST(RobotFrames, TellWhatTheRobotSees) {
 }
 
 // (2000, -1000) in the map is (2000 + 1000, 5000 + 2000) in the hall.
-TEST(RobotFrames, TakeTargets) {
+TEST(RobotFrames, ApplyToTargets) {
     Stage stage{{}, with_map()};
     auto& navigation = stage["robot2.navigation"];
     navigation.start({positions("target_position", {"2000, -1000, -90", "start"}, "map")});
@@ -71,7 +71,7 @@ TEST(RobotFrames, TakeTargets) {
     EXPECT_NEAR(stage.robot(1).heading, 0, 0.1);
     EXPECT_EQ(stage.outcome("robot2.navigation"), "OK");
     EXPECT_NEAR(distance(stage.robot(1).position, Point{2, 4}), 0, 1.1)
-        << "names of places are the same in all: before the robot there";
+        << "names of places are the same in all frames: in front of the robot there";
     auto const reached = navigation.events("reached_target");
     ASSERT_THAT(reached, SizeIs(2));
     EXPECT_EQ(value(reached[0].results, "target"), "2000, -1000, -90");

@@ -21,7 +21,7 @@ using testing::IsSupersetOf;
 using testing::SizeIs;
 using testing::UnorderedElementsAre;
 
-TEST(Robots, TheOnlyOneHasTheFifteenBasicComponents) {
+TEST(Robots, ASingleRobotHasTheFifteenBasicComponents) {
     auto const simulation = std::make_shared<Simulation>(reception(), Scenario{}, 1, 1.0);
     std::vector<std::string> refs;
     for (auto const& component : robot_components(simulation, nullptr, bare_profiles()))
@@ -30,10 +30,10 @@ TEST(Robots, TheOnlyOneHasTheFifteenBasicComponents) {
                                            "person_identification", "face_detection", "face_localization", "sound_detection",
                                            "sound_localization", "speech_recognition", "gesture_recognition", "speech_synthesis",
                                            "reaction", "navigation", "follow", "move"));
-    EXPECT_EQ(Stage{}["navigation"].component().description().engine, "robot") << "the first robot is a sub engine, too";
+    EXPECT_EQ(Stage{}["navigation"].component().description().engine, "robot") << "the first robot is also a sub engine";
 }
 
-TEST(Robots, StreamWithMedia) {
+TEST(Robots, HaveStreamingComponentsWithMedia) {
     EXPECT_THAT(Stage{}.refs(), AllOf(SizeIs(17), Contains("audio_streaming"), Contains("video_streaming")));
 }
 
@@ -45,7 +45,7 @@ TEST(Robots, AreSubEngines) {
     EXPECT_EQ(stage["navigation"].component().description().engine, "robot");
 }
 
-TEST(Robots, NeedTheProfilesOfTheirComponents) {
+TEST(Robots, FailWithoutTheProfilesOfTheirComponents) {
     auto simulation = std::make_shared<Simulation>(reception(), Scenario{}, 1, 1.0);
     auto profiles = bare_profiles();
     profiles.pop_back();
@@ -66,7 +66,7 @@ TEST(Robots, SeeTheSamePersonByTheSameName) {
     EXPECT_EQ(values(first[0].results, "person_ref"), values(second[0].results, "person_ref"));
 }
 
-TEST(Robots, SpeakAndReactEachForItself) {
+TEST(Robots, SpeakAndReactIndependently) {
     Stage stage{{}, reception_with_two_robots()};
     stage["speech_synthesis"].start({text("speech_text", "Good morning.")});
     stage["robot2.speech_synthesis"].start({text("speech_text", "Good evening to you all, ladies and gentlemen.")});
@@ -80,7 +80,7 @@ TEST(Robots, SpeakAndReactEachForItself) {
     EXPECT_EQ(stage.outcome("robot2.speech_synthesis"), "OK");
 }
 
-// With the project's own profiles, in a real engine.
+// Components in a real engine with the project's profiles.
 class Engaged : public testing::Test, private Outbox {
 protected:
     Engaged() {
@@ -134,7 +134,7 @@ protected:
     Instant now_{Steady{}, Utc{std::chrono::seconds{1'800'000'000}}};
 };
 
-TEST_F(Engaged, ComponentsTellWhatTheirProfilesPromise) {
+TEST_F(Engaged, ComponentsReportTheResultsOfTheirProfiles) {
     std::map<std::string, MessageProfile const*> promised;
     for (auto const& profile : profiles_)
         for (auto const& message : profile.messages)
@@ -158,10 +158,10 @@ TEST_F(Engaged, ComponentsTellWhatTheirProfilesPromise) {
         auto const& results = promised.at(event->event_type)->results;
         ASSERT_EQ(event->results->parameters.size(), results.size()) << event->event_type;
         for (auto const& result : results) {
-            auto const* told = find(event->results->parameters, result.name);
-            ASSERT_NE(told, nullptr) << event->event_type << " " << result.name;
-            EXPECT_TRUE(DataType::of(told->data_type_ref) == DataType::of(result.data_type_ref)) << result.name;
-            EXPECT_EQ(why_not(DataType::of(result.data_type_ref), told->values), std::nullopt) << result.name;
+            auto const* reported = find(event->results->parameters, result.name);
+            ASSERT_NE(reported, nullptr) << event->event_type << " " << result.name;
+            EXPECT_TRUE(DataType::of(reported->data_type_ref) == DataType::of(result.data_type_ref)) << result.name;
+            EXPECT_EQ(why_not(DataType::of(result.data_type_ref), reported->values), std::nullopt) << result.name;
         }
     }
     EXPECT_EQ(heard.size(), promised.size()) << testing::PrintToString(heard);
@@ -198,7 +198,7 @@ TEST_F(Engaged, ActionsStartWithTheDefaultsOfTheirProfiles) {
     EXPECT_EQ(ok, 3);
 }
 
-// Table 34: the one basic component without the methods of table 32.
+// Table 34: the only basic component without the methods of table 32.
 TEST_F(Engaged, SystemInformationHasNothingToStart) {
     run(std::chrono::seconds{1});
     EXPECT_EQ(std::get<Bind::Reply>(ask(Bind{coded("system_information")})).return_code, ReturnCode::ok);
@@ -211,7 +211,7 @@ TEST_F(Engaged, SystemInformationHasNothingToStart) {
     }
 }
 
-TEST_F(Engaged, AStoppedFollowHasDoneItsDuty) {
+TEST_F(Engaged, AStoppedFollowCompletesWithOk) {
     run(std::chrono::seconds{10});
     EXPECT_EQ(start("follow", {reference("target_object_ref", "person-1"), integer("distance", 1000)}), ReturnCode::ok);
     CommandUnit stop;

@@ -18,7 +18,7 @@ TEST(Routing, ALegIsSlowerWithStopsAtItsEnds) {
 TEST(Routing, BendsAreTakenOnTheWayAndSharpCornersOnTheSpot) {
     EXPECT_NEAR(corner_speed(0, robots), 0.9, 1e-9);
     EXPECT_NEAR(corner_speed(-sharpest_bend / 2, robots), 0.45, 1e-9);
-    EXPECT_GT(passing_speed(0.3, robots), corner_speed(0.3, robots)) << "a little before it";
+    EXPECT_GT(passing_speed(0.3, robots), corner_speed(0.3, robots)) << "passes before the corner itself";
     EXPECT_EQ(passing_speed(1.5, robots), 0);
     EXPECT_EQ(corner_duration(0.3, robots), 0);
     std::vector<Point> const straight{{4, 0}, {8, 0}}, sharp{{4, 0}, {4, 4}};
@@ -28,7 +28,7 @@ TEST(Routing, BendsAreTakenOnTheWayAndSharpCornersOnTheSpot) {
                 1e-9);
 }
 
-// What a robot really does between two places of the shipped hall, where nobody is in its way.
+// The real drive of a robot between two places of the shipped hall, without obstacles.
 struct Journey {
     Seconds took = 0;
     Metres gone = 0;
@@ -66,7 +66,7 @@ TEST(Routing, PolicyTimeIsTheFasterOneAndPolicyDistanceTheShorterOneInTheShipped
             saved += brief.took - fast.took;
         }
     }
-    EXPECT_GT(saved, 10) << "over all of them";
+    EXPECT_GT(saved, 10) << "seconds over all pairs";
 }
 
 }  // namespace

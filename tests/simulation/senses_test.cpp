@@ -8,19 +8,19 @@
 namespace rois::simulation {
 namespace {
 
-// Goes to a point, looks somewhere, and stays.
+// Walks to a point, looks to another one, and stays.
 Role staying(Point const& p, Whereabouts const& looks_at) {
     return tanaka({{Walk{{p}}, {}}, {Face{looks_at}, {}}, {Wait{3'600}, {}}});
 }
 
-// A hall in which tanaka has come to stay.
+// A hall with tanaka, who stays.
 std::unique_ptr<Hall> hall_with(FloorPlan const& plan, Role role) {
     auto hall = std::make_unique<Hall>(plan, only(std::move(role)), 1);
     run(*hall, 15);
     return hall;
 }
 
-TEST(PeopleSeen, AreThoseInRangeViewAndSight) {
+TEST(PeopleSeen, AreInRangeViewAndSight) {
     EXPECT_EQ(people_seen(*hall_with(plain_hall(), staying(Point{6, 4}, {"robot1"})), robot1).size(), 1u);
     FloorPlan short_sighted = plain_hall();
     short_sighted.robots[0].sensors.people.range = 3;
@@ -51,7 +51,7 @@ TEST(PeopleSeen, AreMeasuredWithTheStatedNoise) {
     EXPECT_NEAR(turned / count, stated(2, 2), stated(2, 2) * 0.15);
 }
 
-TEST(PeopleSeen, AreTheSameForAllWhoAskInAStep) {
+TEST(PeopleSeen, AreTheSameForAllCallsInAStep) {
     auto const hall = hall_with(plain_hall(), staying(Point{6, 4}, {"robot1"}));
     auto const one = people_seen(*hall, robot1), other = people_seen(*hall, robot1);
     EXPECT_EQ(one[0].pose.position, other[0].pose.position);
@@ -61,7 +61,7 @@ TEST(PeopleSeen, AreTheSameForAllWhoAskInAStep) {
 
 TEST(Tracks, KeepTheirNameWhileSeenAndALittleLonger) {
     FloorPlan plan = divided_hall();
-    // Crosses the robot's view behind the door, is hidden for a moment, then for long.
+    // Passes behind the door: is hidden from the robot for a moment, then for long.
     Role role = tanaka({{Walk{{Point{8, 7.3}}}, {}},
                         {Wait{4}, {}},
                         {Walk{{Point{6, 1}}}, {}},
@@ -78,13 +78,13 @@ TEST(Tracks, KeepTheirNameWhileSeenAndALittleLonger) {
     ASSERT_TRUE(runs_until(hall, 6, [&] { return !hall.track(who); }));
     EXPECT_FALSE(hall.find("person-1"));
     ASSERT_TRUE(runs_until(hall, 60, [&] { return hall.track(who).has_value(); }));
-    EXPECT_EQ(hall.track(who), "person-2") << "the same person, lost and found";
+    EXPECT_EQ(hall.track(who), "person-2") << "the same person after being lost";
 }
 
 TEST(Tracks, APermanentIdIsKnownForAsLongAsTheTemporaryName) {
     FloorPlan plan = divided_hall();
     plan.robots[0].start = {Point{4, 7}, 0};
-    // Is identified in the door, goes behind the robot's wall, and comes back with the back to the robot.
+    // Is identified in the door, goes behind the wall, and comes back facing away from the robot.
     Hall hall{plan,
               only(tanaka({{Walk{{Point{6, 7}}}, {}},
                            {Face{{"robot1"}}, {}},
@@ -103,7 +103,7 @@ TEST(Tracks, APermanentIdIsKnownForAsLongAsTheTemporaryName) {
     EXPECT_FALSE(hall.find("tanaka")) << "no sensor has seen them for long";
 }
 
-TEST(FacesSeen, AreThoseTurnedToTheRobot) {
+TEST(FacesSeen, AreTurnedToTheRobot) {
     auto const facing = hall_with(plain_hall(), staying(Point{5, 4}, {"robot1"}));
     auto const faces = faces_seen(*facing, robot1);
     ASSERT_EQ(faces.size(), 1u);
@@ -123,7 +123,7 @@ TEST(PeopleRecognized, AreNearAndTurnedToTheRobot) {
     EXPECT_EQ(near->find("tanaka"), near->find("person-1"));
     auto const far = hall_with(plain_hall(), staying(Point{6, 4}, {"robot1"}));
     EXPECT_TRUE(people_recognized(*far, robot1).empty());
-    EXPECT_FALSE(far->find("tanaka")) << "nobody has identified them";
+    EXPECT_FALSE(far->find("tanaka")) << "no robot has identified them";
     EXPECT_TRUE(people_recognized(*hall_with(plain_hall(), staying(Point{4, 4}, {Point{8, 4}})), robot1).empty());
 }
 
@@ -138,7 +138,7 @@ TEST(PeopleRecognized, StrangersStayStrangers) {
     EXPECT_FALSE(hall->find("tanaka"));
 }
 
-TEST(SoundsHeard, AreThoseWhoSpeakNowNearEnough) {
+TEST(SoundsHeard, AreCurrentSpeakersInRange) {
     Role role = tanaka({{Walk{{Point{7, 4}}}, {}},
                         {Say{"en", "A long speech about the weather in this town, which is fine."}, 10.0},
                         {Wait{99}, {}}});
@@ -154,7 +154,7 @@ TEST(SoundsHeard, AreThoseWhoSpeakNowNearEnough) {
     EXPECT_TRUE(sounds_heard(hall, robot1).empty());
 }
 
-TEST(SoundsHeard, HoldRobotsVoicesButNotOnesOwn) {
+TEST(SoundsHeard, IncludeOtherRobotsButNotTheRobotItself) {
     Hall hall{hall_with_two_robots(), nobody(), 1};
     hall.speak(robot2, {"Hello.", "en", 0.5, {}, {}, {}});
     auto const heard = sounds_heard(hall, robot1);

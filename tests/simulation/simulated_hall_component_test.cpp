@@ -1,4 +1,4 @@
-// The hall as a component: steered visitors, and a world that stands still.
+// The hall as a component: steered visitors, and time with speed 0.
 #include "simulation/simulated_hall.hpp"
 
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::MatchesRegex;
 
-// The component as the engine has it, in a world that the test moves.
+// Operates the component like the engine. The test advances the world.
 class Steerer final : public ComponentPort {
 public:
     explicit Steerer(double speed = 0, std::vector<Role> roles = {})
@@ -30,7 +30,7 @@ public:
         return xml::read_component_profile(schemas(), file, std::string{files::simulation().at(file)});
     }
 
-    // What the engine would have refused.
+    // Returns why the engine would refuse the command; empty if it accepts it.
     std::string refusal(std::string const& type, ParameterList const& arguments) {
         return component->refusal(type, arguments).value_or("");
     }
@@ -48,7 +48,7 @@ public:
     }
     std::uint64_t let_pass(int milliseconds) { return perform("let_pass", {integer("time", milliseconds)}); }
 
-    // As the engine's ticks do it, until there is nothing more to do.
+    // Advances like the engine's ticks until no requested time is left.
     void advance() {
         do {
             now_ = now_ + std::chrono::milliseconds{10};
@@ -56,7 +56,7 @@ public:
         } while (simulation->goes_on());
     }
 
-    // "OK", "ERROR there is no visitor ...", "goes on"
+    // Returns "OK", "ERROR visitor anna is not in the hall" or "goes on".
     std::string outcome(std::uint64_t command) const {
         auto const found = ended_.find(command);
         return found == ended_.end() ? "goes on" : found->second;
@@ -98,54 +98,59 @@ TEST(SimulatedHall, LetsTimePass) {
     Steerer steerer;
     steerer.advance();
     steerer.advance();
-    EXPECT_EQ(steerer.simulation->hall().now(), WorldTime{20}) << "the world has begun, and stands still";
+    EXPECT_EQ(steerer.simulation->hall().now(), WorldTime{20}) << "the first step has been made, and no other";
     auto const short_time = steerer.let_pass(100), long_time = steerer.let_pass(2'000);
     EXPECT_EQ(steerer.outcome(short_time), "goes on");
     while (steerer.simulation->hall().now() < WorldTime{120}) steerer.simulation->advance(Instant{});
     EXPECT_EQ(steerer.outcome(short_time), "OK");
-    EXPECT_EQ(steerer.outcome(long_time), "goes on") << "one after the other";
+    EXPECT_EQ(steerer.outcome(long_time), "goes on") << "requests are processed in order";
     steerer.advance();
     EXPECT_EQ(steerer.simulation->hall().now(), WorldTime{2'120});
     EXPECT_EQ(steerer.outcome(long_time), "OK");
 }
 
-TEST(SimulatedHall, LetsNoTimePassWhereItPassesByItself) {
+TEST(SimulatedHall, RefusesLetPassIfTimePassesByItself) {
     Steerer steerer{1};
-    EXPECT_THAT(steerer.refusal("let_pass", {integer("time", 100)}), HasSubstr("the world runs by itself"));
+    EXPECT_THAT(steerer.refusal("let_pass", {integer("time", 100)}), HasSubstr("let_pass needs --sim-speed 0"));
     steerer.enter("anna");
     steerer.advance();
-    EXPECT_THAT(values(steerer.visitors(), "visitor_ref"), ElementsAre("anna")) << "but visitors are steered";
+    EXPECT_THAT(values(steerer.visitors(), "visitor_ref"), ElementsAre("anna")) << "visitors can be steered";
 }
 
-TEST(SimulatedHall, RefusesWhatCannotBe) {
+TEST(SimulatedHall, RefusesInvalidArguments) {
     Steerer steerer;
     for (int const time : {0, -20, 30, 3'600'020})
-        EXPECT_THAT(steerer.refusal("let_pass", {integer("time", time)}), HasSubstr("a multiple of 20, 1 hour at most")) << time;
+        EXPECT_THAT(steerer.refusal("let_pass", {integer("time", time)}),
+                    HasSubstr("a multiple of 20 ms, more than 0 and at most 1 hour"))
+            << time;
     auto const anna = text("visitor_ref", "anna");
     for (auto const* name : {"", "an na", "an:na", "an.na", "robot"})
-        EXPECT_THAT(steerer.refusal("leave", {text("visitor_ref", name)}), HasSubstr("is no name for a visitor")) << name;
+        EXPECT_THAT(steerer.refusal("leave", {text("visitor_ref", name)}), HasSubstr("is not a valid visitor name")) << name;
     EXPECT_THAT(steerer.refusal("leave", {text("visitor_ref", std::string(65, 'a'))}), HasSubstr("64 bytes"));
-    EXPECT_THAT(steerer.refusal("enter", {anna, text("language", "jp")}), HasSubstr("'jp' is none of de, en"));
+    EXPECT_THAT(steerer.refusal("enter", {anna, text("language", "jp")}),
+                HasSubstr("'jp' is not supported; expected one of de, en"));
     EXPECT_THAT(steerer.refusal("enter", {anna, text("language", "")}), HasSubstr("'language'"));
-    EXPECT_EQ(steerer.refusal("say", {anna, text("text", "Hello"), text("language", "")}), "") << "theirs";
+    EXPECT_EQ(steerer.refusal("say", {anna, text("text", "Hello"), text("language", "")}), "") << "the visitor's language";
     EXPECT_THAT(steerer.refusal("say", {anna, text("text", " ")}), HasSubstr("'text' must have 1 to 16384 bytes"));
     EXPECT_THAT(steerer.refusal("say", {anna, text("text", "Hello"), text("language", "xx")}), HasSubstr("'xx'"));
-    EXPECT_THAT(steerer.refusal("gesture", {anna, text("gesture", "jump")}), HasSubstr("'jump' is none of wave, nod"));
+    EXPECT_THAT(steerer.refusal("gesture", {anna, text("gesture", "jump")}),
+                HasSubstr("'jump' is unknown; expected one of wave, nod"));
     auto const walk = [&](std::vector<std::string> to) { return steerer.refusal("walk", {anna, texts("target_position", to)}); };
-    EXPECT_THAT(walk({}), HasSubstr("one position or more"));
+    EXPECT_THAT(walk({}), HasSubstr("at least one position"));
     EXPECT_THAT(walk({"attic"}), HasSubstr("'attic' is neither"));
-    EXPECT_THAT(walk({"3000, 2000", "13000, 1000"}), HasSubstr("nobody can stand at '13000, 1000'"));
+    EXPECT_THAT(walk({"3000, 2000", "13000, 1000"}),
+                HasSubstr("'13000, 1000' is outside of the hall, in a wall or in furniture"));
     EXPECT_EQ(walk({"desk", "3000, 2000", "3000, 2000, 90"}), "");
 }
 
-TEST(SimulatedHall, TellsHowCommandsEnd) {
+TEST(SimulatedHall, ReportsHowCommandsEnd) {
     Steerer steerer;
     steerer.advance();
     auto const nobody = steerer.walk("anna", {"desk"});
-    EXPECT_EQ(steerer.outcome(nobody), "ERROR there is no visitor anna in the hall") << "at once";
+    EXPECT_EQ(steerer.outcome(nobody), "ERROR visitor anna is not in the hall") << "at once";
     auto const comes = steerer.enter("anna", true), too_early = steerer.walk("anna", {"desk"});
     EXPECT_EQ(steerer.outcome(comes), "goes on");
-    EXPECT_THAT(steerer.outcome(too_early), HasSubstr("ERROR there is no visitor anna"));
+    EXPECT_THAT(steerer.outcome(too_early), HasSubstr("ERROR visitor anna is not"));
     steerer.let_pass(20);
     steerer.advance();
     EXPECT_EQ(steerer.outcome(comes), "OK");
@@ -156,7 +161,7 @@ TEST(SimulatedHall, TellsHowCommandsEnd) {
     auto const waves = steerer.perform("gesture", {text("visitor_ref", "anna"), text("gesture", "wave")});
     steerer.let_pass(60'000);
     steerer.advance();
-    EXPECT_EQ(steerer.outcome(first), "ABORT") << "the second took its place";
+    EXPECT_EQ(steerer.outcome(first), "ABORT") << "replaced by the second";
     for (auto const command : {second, says, waves}) EXPECT_EQ(steerer.outcome(command), "OK");
     EXPECT_THAT(values(steerer.visitors(), "position_data"), ElementsAre(MatchesRegex("(29|30).., (19|20).., 90")));
 
@@ -167,7 +172,7 @@ TEST(SimulatedHall, TellsHowCommandsEnd) {
     EXPECT_THAT(values(steerer.visitors(), "visitor_ref"), IsEmpty());
 }
 
-TEST(SimulatedHall, KnowsWhoIsThereInTruth) {
+TEST(SimulatedHall, ListsAllVisitors) {
     Steerer steerer{0, {known(visitor("tanaka", {does(Wait{60})})), visitor("late", {does(Wait{60})}, 100)}};
     steerer.advance();
     steerer.let_pass(1'000);
@@ -184,7 +189,7 @@ TEST(SimulatedHall, KnowsWhoIsThereInTruth) {
     other.let_pass(20);
     other.advance();
     auto const all = other.visitors();
-    EXPECT_THAT(values(all, "visitor_ref"), ElementsAre("late", "anna")) << "in the order of their coming";
+    EXPECT_THAT(values(all, "visitor_ref"), ElementsAre("late", "anna")) << "in order of arrival";
     EXPECT_THAT(values(all, "position_data"), ElementsAre(testing::StartsWith("5"), "11000, 4000, 180"));
     EXPECT_EQ(codebook_of(all, "position_data"), "urn:x-rois:def:crs:simulation::hall");
     EXPECT_EQ(value(all, "known"), "false true");
@@ -192,8 +197,8 @@ TEST(SimulatedHall, KnowsWhoIsThereInTruth) {
     EXPECT_TRUE(other.component->query("weather", {}).empty());
 }
 
-// What ends its commands from outside (stop, release, the end of a session) ends them for the visitors, too.
-TEST(SimulatedHall, IsHalted) {
+// stop, release and the end of a session also end the visitors' orders.
+TEST(SimulatedHall, HaltEndsItsCommandsAndStopsTheVisitors) {
     Steerer steerer;
     steerer.advance();
     steerer.enter("anna");
@@ -201,16 +206,16 @@ TEST(SimulatedHall, IsHalted) {
     steerer.advance();
     auto const walks = steerer.walk("anna", {"desk"}), waits = steerer.let_pass(10'000);
     steerer.simulation->advance({});
-    EXPECT_EQ(steerer.simulation->hall().now(), WorldTime{60}) << "it goes on";
+    EXPECT_EQ(steerer.simulation->hall().now(), WorldTime{60}) << "time passes";
     EXPECT_EQ(steerer.component->halt({}), Halted::confirmed);
     steerer.advance();
     steerer.advance();
-    EXPECT_EQ(steerer.simulation->hall().now(), WorldTime{60}) << "it stands still";
+    EXPECT_EQ(steerer.simulation->hall().now(), WorldTime{60}) << "no time passes";
     steerer.let_pass(10'000);
     steerer.advance();
     EXPECT_THAT(values(steerer.visitors(), "position_data"), ElementsAre(testing::StartsWith("10")))
-        << "the visitor was on the way for a step, and stands there";
-    EXPECT_EQ(steerer.outcome(walks), "goes on") << "to be ended by whoever halts";
+        << "the visitor stopped after one step";
+    EXPECT_EQ(steerer.outcome(walks), "goes on") << "the engine ends it";
     EXPECT_EQ(steerer.outcome(waits), "goes on");
 }
 

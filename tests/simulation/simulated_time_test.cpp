@@ -13,7 +13,7 @@ using std::chrono::seconds;
 
 Instant const beginning{Steady{seconds{1'000}}, Utc{seconds{1'800'000'000}}};
 
-TEST(SimulatedTime, RunsAsFastAsItIsTold) {
+TEST(SimulatedTime, RunsAtTheGivenSpeed) {
     SimulatedTime time{20, WorldTime{20}};
     EXPECT_EQ(time.steps_due(beginning.steady), 0) << "the first call starts the clock";
     EXPECT_EQ(time.steps_due(beginning.steady + milliseconds{100}), 100);
@@ -37,22 +37,22 @@ TEST(SimulatedTime, AMachineThatSleptDoesNotCatchUp) {
     Steady const next_day = beginning.steady + std::chrono::hours{24};
     EXPECT_EQ(slow.steps_due(next_day), 150) << "three seconds";
     EXPECT_EQ(fast.steps_due(next_day), SimulatedTime::most_steps);
-    EXPECT_EQ(slow.steps_due(next_day + milliseconds{20}), 1) << "then it goes on as usual";
+    EXPECT_EQ(slow.steps_due(next_day + milliseconds{20}), 1) << "then normal again";
 }
 
-TEST(SimulatedTime, GoingBackIsNoTime) {
+TEST(SimulatedTime, ATimeInThePastCountsAsNoSteps) {
     SimulatedTime time{1, WorldTime{20}};
     time.steps_due(beginning.steady);
     EXPECT_EQ(time.steps_due(beginning.steady - seconds{5}), 0);
     EXPECT_EQ(time.steps_due(beginning.steady + milliseconds{20}), 1);
 }
 
-TEST(SimulatedTime, NeedsASpeed) {
+TEST(SimulatedTime, RefusesInvalidSpeeds) {
     for (double speed : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")})
         EXPECT_THROW((SimulatedTime{speed, WorldTime{20}}), std::invalid_argument);
 }
 
-// Writes down when it was told of steps.
+// Records the times of notified steps.
 class Witness : public Observer {
 public:
     explicit Witness(Hall const& hall) : hall_(hall) {}
@@ -65,7 +65,7 @@ private:
     Hall const& hall_;
 };
 
-TEST(Simulation, TellsItsObserversOfEveryStepAndWhenItWas) {
+TEST(Simulation, NotifiesItsObserversOfEveryStepAndItsTime) {
     Simulation simulation{plain_hall(), nobody(), 1, 2.0};
     Witness witness{simulation.hall()};
     simulation.join(witness);
@@ -84,7 +84,7 @@ TEST(Simulation, TellsItsObserversOfEveryStepAndWhenItWas) {
     EXPECT_EQ(simulation.hall().now(), WorldTime{100});
 }
 
-TEST(Simulation, TellsTheTimeWhateverItsSpeed) {
+TEST(Simulation, NotifiesOfRealTimeAtEverySpeed) {
     for (double speed : {0.01, 1.0, 20.0}) {
         Simulation simulation{plain_hall(), nobody(), 1, speed};
         Witness witness{simulation.hall()};
@@ -98,19 +98,19 @@ TEST(Simulation, TellsTheTimeWhateverItsSpeed) {
     }
 }
 
-TEST(Simulation, StandsStillButForWhatIsLetPass) {
+TEST(Simulation, AdvancesOnlyByLetPassAtSpeedZero) {
     Simulation simulation{plain_hall(), nobody(), 1, 0};
     Witness witness{simulation.hall()};
     simulation.join(witness);
     EXPECT_FALSE(simulation.runs_by_itself());
     for (int i = 0; i < 3; ++i) simulation.advance(beginning + seconds{i});
-    EXPECT_EQ(simulation.hall().now(), WorldTime{20}) << "it has begun";
+    EXPECT_EQ(simulation.hall().now(), WorldTime{20}) << "the first step";
     EXPECT_FALSE(simulation.goes_on());
     EXPECT_EQ(simulation.let_pass(WorldTime{40}), WorldTime{60});
     EXPECT_EQ(simulation.let_pass(WorldTime{20}), WorldTime{80});
     int steps = 0;
     for (; simulation.goes_on(); ++steps) simulation.advance(beginning + seconds{9});
-    EXPECT_EQ(steps, 3) << "one at a time";
+    EXPECT_EQ(steps, 3) << "one step for each call";
     EXPECT_EQ(simulation.hall().now(), WorldTime{80});
     EXPECT_EQ(witness.seen.back().second.utc, (beginning + seconds{9}).utc);
     simulation.let_pass(WorldTime{60});
@@ -118,10 +118,10 @@ TEST(Simulation, StandsStillButForWhatIsLetPass) {
     simulation.stand_still();
     simulation.advance(beginning + seconds{9});
     EXPECT_EQ(simulation.hall().now(), WorldTime{100});
-    EXPECT_EQ(simulation.let_pass(WorldTime{20}), WorldTime{120}) << "what was dropped does not count";
+    EXPECT_EQ(simulation.let_pass(WorldTime{20}), WorldTime{120}) << "cancelled time does not count";
 }
 
-TEST(Simulation, NeedsASpeedThatIsNone) { EXPECT_THROW((Simulation{plain_hall(), nobody(), 1, -1}), std::invalid_argument); }
+TEST(Simulation, RefusesInvalidSpeeds) { EXPECT_THROW((Simulation{plain_hall(), nobody(), 1, -1}), std::invalid_argument); }
 
 TEST(Simulation, GivesTheSameHistoryAtEveryFrameRate) {
     FloorPlan const plan = shipped_plan("reception-hall.xml");

@@ -14,12 +14,12 @@ using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// With what reads marked up speech.
+// With an xml::Platform, which SSML needs.
 struct SpeechStage : Stage {
     SpeechStage() { schemas(); }
 };
 
-// How long the robot speaks, in seconds of the world.
+// How long the robot speaks, in seconds of world time.
 Seconds duration(ParameterList const& parameters) {
     SpeechStage stage;
     stage.step();
@@ -41,7 +41,7 @@ TEST(SpeechSynthesis, TakesAsLongAsTheText) {
     EXPECT_LT(duration({text("speech_text", "Hello.")}), 2);
 }
 
-TEST(SpeechSynthesis, TellsThatItHasStarted) {
+TEST(SpeechSynthesis, ReportsStarted) {
     SpeechStage stage;
     stage["speech_synthesis"].start({text("speech_text", "Welcome.")});
     EXPECT_THAT(stage["speech_synthesis"].words(), ElementsAre("started"));
@@ -59,7 +59,7 @@ TEST(SpeechSynthesis, IsHeardInTheHall) {
     EXPECT_EQ(robot.speaking->language, "de");
 }
 
-TEST(SpeechSynthesis, VisitorsAnswer) {
+TEST(SpeechSynthesis, VisitorsAnswerIt) {
     Role guest = visitor("guest", {does(Walk{at(4, 4)}), does(Face{at("robot")}), does(Wait{1000})});
     Answer answer;
     answer.to = "help";
@@ -73,7 +73,7 @@ TEST(SpeechSynthesis, VisitorsAnswer) {
     EXPECT_TRUE(stage.run_until([&] { return !stage["speech_recognition"].events("speech_recognized").empty(); }, 20));
 }
 
-TEST(SpeechSynthesis, StandsStillWhileSuspended) {
+TEST(SpeechSynthesis, IsSilentWhileSuspended) {
     SpeechStage stage;
     std::string const words(60, 'a');
     stage["speech_synthesis"].start({text("speech_text", words)});
@@ -99,7 +99,7 @@ TEST(SpeechSynthesis, FallsSilentWhenStopped) {
     EXPECT_THAT(stage["speech_synthesis"].words(), ElementsAre("started"));
 }
 
-TEST(SpeechSynthesis, BeginsAnewWithANewStart) {
+TEST(SpeechSynthesis, StartsOverWithANewStart) {
     SpeechStage stage;
     stage["speech_synthesis"].start({text("speech_text", std::string(200, 'a'))});
     stage.run(1);
@@ -110,12 +110,12 @@ TEST(SpeechSynthesis, BeginsAnewWithANewStart) {
 TEST(SpeechSynthesis, NeedsAText) {
     EXPECT_THAT(refusal({}), HasSubstr("'speech_text' or 'SSML_text' is mandatory"));
     EXPECT_THAT(refusal({text("speech_text", "  ")}), HasSubstr("mandatory"));
-    EXPECT_THAT(refusal({text("SSML_text", "<speak/>")}), HasSubstr("nothing to say"));
+    EXPECT_THAT(refusal({text("SSML_text", "<speak/>")}), HasSubstr("no text to speak"));
     EXPECT_EQ(refusal({}, "set_parameter"), "fine");
     EXPECT_EQ(refusal({text("speech_text", "Hello")}), "fine");
 }
 
-TEST(SpeechSynthesis, SaysTheTextThatCameLast) {
+TEST(SpeechSynthesis, SpeaksTheLastText) {
     SpeechStage stage;
     auto& synthesis = stage["speech_synthesis"];
     synthesis.set_parameter({text("speech_text", "plain")});
@@ -123,10 +123,11 @@ TEST(SpeechSynthesis, SaysTheTextThatCameLast) {
     EXPECT_EQ(find(synthesis.stored(), "speech_text"), nullptr);
     synthesis.set_parameter({text("speech_text", "plain again")});
     EXPECT_EQ(find(synthesis.stored(), "SSML_text"), nullptr);
-    EXPECT_THAT(refusal({text("speech_text", "plain"), text("SSML_text", "<speak>marked up</speak>")}), HasSubstr("not both"));
+    EXPECT_THAT(refusal({text("speech_text", "plain"), text("SSML_text", "<speak>marked up</speak>")}),
+                HasSubstr("set only one"));
 }
 
-TEST(SpeechSynthesis, AnEmptyTextDropsTheOtherOneToo) {
+TEST(SpeechSynthesis, AnEmptyTextReplacesTheOtherOneToo) {
     SpeechStage stage;
     auto& synthesis = stage["speech_synthesis"];
     synthesis.set_parameter({text("SSML_text", "<speak>marked up</speak>")});
@@ -140,7 +141,7 @@ TEST(SpeechSynthesis, AnEmptyTextDropsTheOtherOneToo) {
     EXPECT_THAT(synthesis.refusal("start", {}).value_or("fine"), HasSubstr("mandatory"));
 }
 
-TEST(SpeechSynthesis, RefusesWhatItsVoiceCannotDo) {
+TEST(SpeechSynthesis, RefusesUnsupportedLanguagesAndVoices) {
     ParameterList const hello{text("speech_text", "Hello")};
     auto const with = [&](Parameter parameter) {
         ParameterList all = hello;
@@ -179,7 +180,7 @@ TEST(SpeechSynthesis, EachCharacterSpeaksAtItsOwnPaceAndIsHeard) {
         durations.insert(std::lround(seconds * 5));
     }
     EXPECT_THAT(characters(), ElementsAre("default", "female", "male", "child", "robot"));
-    EXPECT_EQ(durations.size(), characters().size()) << "they differ";
+    EXPECT_EQ(durations.size(), characters().size()) << "all different";
 }
 
 TEST(SpeechSynthesis, SpeaksSsmlWithItsCharacterWhereTheDocumentNamesNoVoice) {
@@ -214,16 +215,16 @@ TEST(SpeechSynthesis, HonoursPausesAndPaceOfSsml) {
     EXPECT_THAT(duration({text("SSML_text", "<speak><break time='2s'/></speak>")}), DoubleNear(2, 0.05));
 }
 
-TEST(SpeechSynthesis, NamesThePlaceOfAMistakeInSsml) {
+TEST(SpeechSynthesis, ReportsThePlaceOfAnErrorInSsml) {
     EXPECT_THAT(refusal({text("SSML_text", "<speak>\n  Hello <emphasis>you</speak>")}), HasSubstr("line 2, column 9: "));
     EXPECT_THAT(refusal({text("SSML_text", "<speak>Hello")}, "set_parameter"), HasSubstr("line 1, column 1: "));
     EXPECT_THAT(refusal({text("SSML_text", "<speak xml:lang='xx'>Hello</speak>")}),
                 HasSubstr("line 1, column 1: the language 'xx'"));
     EXPECT_THAT(refusal({text("SSML_text", "<speak>Hello,\n <lang xml:lang='tlh'>nuqneH</lang></speak>")}),
-                HasSubstr("line 2, column 2: the language 'tlh' cannot be synthesized; those that can are de, en,"));
+                HasSubstr("line 2, column 2: the language 'tlh' cannot be synthesized; expected one of de, en,"));
 }
 
-// Each passage is speech of its own, in its language, for its time; the action is done after the last one.
+// Each passage is separate speech with its language and duration. The action ends after the last one.
 TEST(SpeechSynthesis, SpeaksEachPassageInItsLanguage) {
     SpeechStage stage;
     stage.step();
@@ -246,7 +247,7 @@ TEST(SpeechSynthesis, SpeaksEachPassageInItsLanguage) {
     EXPECT_NEAR(sum, 10 * 0.065 + 4 * 0.15 + 2 + 13 * 0.065, 0.001);
 }
 
-TEST(SpeechSynthesis, SaysNoMoreWhenItIsStoppedWithinAPassage) {
+TEST(SpeechSynthesis, IsSilentWhenStoppedWithinAPassage) {
     SpeechStage stage;
     stage["speech_synthesis"].start(
         {text("SSML_text", "<speak><p xml:lang='en'>One two three.</p><p xml:lang='de'>Vier.</p></speak>")});
@@ -256,7 +257,7 @@ TEST(SpeechSynthesis, SaysNoMoreWhenItIsStoppedWithinAPassage) {
     for (auto const& happening : stage.hall().chronicle().since(0)) EXPECT_NE(happening.text, "Vier.");
 }
 
-TEST(SpeechSynthesis, HoldsWithinAPassage) {
+TEST(SpeechSynthesis, ResumesWithinAPassage) {
     SpeechStage stage;
     auto& synthesis = stage["speech_synthesis"];
     synthesis.start(

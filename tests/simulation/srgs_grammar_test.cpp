@@ -1,4 +1,4 @@
-// Grammars of W3C SRGS: what is read, what is refused, and what is understood with them.
+// Grammars of W3C SRGS: reading, errors and recognition.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ using testing::IsEmpty;
 using testing::SizeIs;
 using testing::StartsWith;
 
-// The rules, from line 2 on.
+// A grammar with these rules, from line 2 on.
 std::string grammar(std::string_view rules, std::string_view root = " root='top'") {
     std::string text{"<grammar xmlns='http://www.w3.org/2001/06/grammar' version='1.0' xml:lang='en-US'"};
     return text.append(root).append(">\n").append(rules).append("</grammar>");
@@ -38,7 +38,7 @@ std::vector<SrgsGrammar::Hypothesis> heard(std::string_view rules, std::string_v
     return read(rules).recognize("", speech, 5);
 }
 
-// The likeliest text; "nothing".
+// The most likely text, or "nothing".
 std::string understood(std::string_view rules, std::string_view speech) {
     auto const hypotheses = heard(rules, speech);
     return hypotheses.empty() ? "nothing" : hypotheses.front().text();
@@ -50,7 +50,7 @@ constexpr std::string_view order =
     "<rule id='drink' scope='public'><one-of><item><token>green tea</token><tag>tea</tag></item>"
     "<item>coffee<tag>coffee</tag></item></one-of></rule>";
 
-TEST(SrgsGrammar, HasEachQuoteClosed) {
+TEST(SrgsGrammar, RefusesQuotesThatDoNotEncloseAToken) {
     for (auto const* text : {"to \"new york", "to new york\"", "to new\"york", "\"", "<token>\"new york</token>"}) {
         auto const rule = "\n<rule id='top'>go " + std::string{text} + "</rule>";
         EXPECT_THAT(flaw(grammar(rule)), AllOf(StartsWith("grammar:3:"), HasSubstr("quote"))) << text;
@@ -59,7 +59,7 @@ TEST(SrgsGrammar, HasEachQuoteClosed) {
     EXPECT_EQ(understood("<rule id='top'>go to <token>\"new york\"</token></rule>", "go to New York"), "go to new york");
 }
 
-TEST(SrgsGrammar, UnderstandsWhatItsRulesAllow) {
+TEST(SrgsGrammar, RecognizesSpeechThatMatchesItsRules) {
     EXPECT_EQ(understood(order, "Please, bring me two coffee!"), "please bring me two coffee");
     EXPECT_EQ(understood(order, "bring me a Green Tea"), "bring me a green tea");
     EXPECT_EQ(understood(order, "bring me a"), "nothing");
@@ -68,7 +68,7 @@ TEST(SrgsGrammar, UnderstandsWhatItsRulesAllow) {
     EXPECT_EQ(understood(order, ""), "nothing");
 }
 
-TEST(SrgsGrammar, SaysWhatWasMeant) {
+TEST(SrgsGrammar, ReturnsTheTags) {
     auto const hypotheses = heard(order, "bring me two green tea");
     ASSERT_THAT(hypotheses, SizeIs(1));
     EXPECT_THAT(hypotheses[0].tags, ElementsAre("2", "tea"));
@@ -92,7 +92,7 @@ TEST(SrgsGrammar, ListensForTheActiveRule) {
     EXPECT_THAT(std::get<SrgsGrammar>(rootless).objection_to("").value_or(""), HasSubstr("no root rule"));
 }
 
-TEST(SrgsGrammar, RepeatsAsOftenAsItSays) {
+TEST(SrgsGrammar, ObeysTheBoundsOfRepeats) {
     auto const count = [](std::string const& repeat, std::string const& speech) {
         return understood("<rule id='top'><item repeat='" + repeat + "'>ha</item></rule>", speech);
     };
@@ -107,7 +107,7 @@ TEST(SrgsGrammar, RepeatsAsOftenAsItSays) {
     EXPECT_EQ(understood("<rule id='top'>oh <item repeat='0'>ha</item> dear</rule>", "oh dear"), "oh dear");
 }
 
-TEST(SrgsGrammar, KnowsTheSpecialRules) {
+TEST(SrgsGrammar, SupportsTheSpecialRules) {
     EXPECT_EQ(understood("<rule id='top'><ruleref special='GARBAGE'/> help <ruleref special='GARBAGE'/></rule>",
                          "could you help me there"),
               "help");
@@ -125,7 +125,7 @@ TEST(SrgsGrammar, FollowsRulesThatReferToThemselvesLater) {
     EXPECT_EQ(understood(list, "one and"), "nothing");
 }
 
-TEST(SrgsGrammar, TellsAllThatSoundsNearlyAlike) {
+TEST(SrgsGrammar, ReturnsAllSimilarHypotheses) {
     constexpr std::string_view rules =
         "<rule id='top'><one-of><item>kitten</item><item>mitten</item><item>sitting</item><item>elephant</item></one-of></rule>";
     auto const hypotheses = heard(rules, "kitten");
@@ -136,7 +136,7 @@ TEST(SrgsGrammar, TellsAllThatSoundsNearlyAlike) {
     EXPECT_NEAR(hypotheses[1].certainty, 5.0 / 6, 1e-9);
 }
 
-TEST(SrgsGrammar, PrefersWhatIsLikelier) {
+TEST(SrgsGrammar, PrefersMoreLikelyAlternatives) {
     constexpr std::string_view rules =
         "<rule id='top'><one-of><item weight='1'>mitten</item><item weight='4'>bitten</item><item "
         "weight='0'>litten</item></one-of>"
@@ -153,7 +153,7 @@ TEST(SrgsGrammar, UnderstandsJapaneseWithoutSpaces) {
     EXPECT_EQ(understood(rules, "お茶をください。"), "nothing");
 }
 
-TEST(SrgsGrammar, GivesUpOnWhatIsTooAmbiguous) {
+TEST(SrgsGrammar, GivesUpOnTooAmbiguousGrammars) {
     std::string rules{"<rule id='top'>"};
     for (int i = 0; i < 30; ++i) rules += "<ruleref special='GARBAGE'/>";
     std::string speech;
@@ -161,30 +161,30 @@ TEST(SrgsGrammar, GivesUpOnWhatIsTooAmbiguous) {
     EXPECT_EQ(understood(rules + "</rule>", speech), "nothing");
 }
 
-TEST(SrgsGrammar, IsRefusedWithItsPlace) {
+TEST(SrgsGrammar, ReportsThePlaceOfAnError) {
     EXPECT_THAT(flaw("<grammar"), StartsWith("grammar:1:1: the document ends inside a tag"));
     EXPECT_THAT(flaw(grammar("<rule id='a'/>\n<rule id='a'/>", "")), AllOf(StartsWith("grammar:3:1: "), HasSubstr("'a'")));
     EXPECT_THAT(flaw(grammar("<rule>x</rule>", "")), AllOf(StartsWith("grammar:2:1: "), HasSubstr("'id'")));
     EXPECT_THAT(flaw(grammar("<rule id='a'>\n<item repeat='often'>x</item></rule>", "")), StartsWith("grammar:3:1: "));
     EXPECT_THAT(flaw(grammar("<rule id='a'>\n<item repeat='3-2'>x</item></rule>", "")),
-                AllOf(StartsWith("grammar:3:1: "), HasSubstr("ends before it begins")));
+                AllOf(StartsWith("grammar:3:1: "), HasSubstr("has a maximum below its minimum")));
     EXPECT_THAT(flaw(grammar("<rule id='a'>\n<ruleref uri='#b'/></rule>", "")),
                 AllOf(StartsWith("grammar:3:1: "), HasSubstr("no rule 'b'")));
-    EXPECT_THAT(flaw(grammar("<rule id='a'>\n<ruleref uri='http://x/y#b'/></rule>", "")), HasSubstr("leads out of the grammar"));
-    EXPECT_THAT(flaw(grammar("<rule id='a'>\n<ruleref/></rule>", "")), HasSubstr("one of 'uri' and 'special'"));
+    EXPECT_THAT(flaw(grammar("<rule id='a'>\n<ruleref uri='http://x/y#b'/></rule>", "")), HasSubstr("unsupported uri"));
+    EXPECT_THAT(flaw(grammar("<rule id='a'>\n<ruleref/></rule>", "")), HasSubstr("either 'uri' or 'special'"));
     EXPECT_THAT(flaw(grammar("<rule id='a'>x</rule>", " root='b'")), AllOf(StartsWith("grammar:1:1: "), HasSubstr("'b'")));
     EXPECT_THAT(flaw(grammar("<rule id='a'>x</rule>", " mode='dtmf'")), StartsWith("grammar:1:1: "));
     for (std::string const reserved : {"NULL", "VOID", "GARBAGE"})
         EXPECT_THAT(flaw(grammar("<rule id='a'>x</rule>\n<rule id='" + reserved + "'>x</rule>", "")),
-                    AllOf(StartsWith("grammar:3:1: "), HasSubstr("'" + reserved + "' is that of a special rule")));
+                    AllOf(StartsWith("grammar:3:1: "), HasSubstr("'" + reserved + "' is reserved for a special rule")));
     for (std::string const reserved : {" NULL ", "&#9;VOID&#10;"})
-        EXPECT_THAT(flaw(grammar("<rule id='" + reserved + "'>x</rule>", "")), HasSubstr("is that of a special rule"));
-    EXPECT_THAT(flaw("<scenario xmlns='urn:x-rois:simulation:hall:1' name='x'/>"), HasSubstr("this is no grammar"));
+        EXPECT_THAT(flaw(grammar("<rule id='" + reserved + "'>x</rule>", "")), HasSubstr("is reserved for a special rule"));
+    EXPECT_THAT(flaw("<scenario xmlns='urn:x-rois:simulation:hall:1' name='x'/>"), HasSubstr("not an SRGS grammar"));
     EXPECT_THAT(flaw(grammar("<rule id='a'><one-of>\n<item weight='0'>x</item></one-of></rule>", "")), HasSubstr("the weight 0"));
 }
 
-// What the schema takes as a token may have blanks around it.
-TEST(SrgsGrammar, MayHaveBlanksAroundItsTokens) {
+// The schema allows spaces around a token.
+TEST(SrgsGrammar, AllowsSpacesAroundTokens) {
     EXPECT_THAT(
         understood("<rule id='top'><one-of><item>yes <ruleref special=' VOID '/></item><item>no</item></one-of></rule>", "yes"),
         understood("<rule id='top'><one-of><item>yes <ruleref special='VOID'/></item><item>no</item></one-of></rule>", "yes"));
@@ -204,17 +204,18 @@ TEST(SrgsGrammar, IsInALanguageThatCanBeRecognized) {
     EXPECT_EQ(in("ja-JP"), "it was read");
     EXPECT_EQ(in("EN-us"), "it was read");
     for (auto const* language : {"jp", "jp-JP", "tlh"})
-        EXPECT_THAT(in(language), AllOf(StartsWith("grammar:1:1: the language '"), HasSubstr("those that can are de, en,")));
+        EXPECT_THAT(in(language), AllOf(StartsWith("grammar:1:1: the language '"), HasSubstr("expected one of de, en,")));
 }
 
-TEST(SrgsGrammar, SkipsWhatIsNotForListening) {
+TEST(SrgsGrammar, IgnoresElementsThatAreIrrelevantForRecognition) {
     EXPECT_EQ(understood("<meta name='author' content='us'/><lexicon uri='http://example.org/names.pls' "
                          "type='application/pls+xml'/><metadata><r:RDF xmlns:r='http://www.w3.org/1999/02/22-rdf-syntax-ns#'>"
                          "<rule id='x'/></r:RDF></metadata><rule id='top'><ruleref uri='#more' type='application/srgs+xml'/>"
                          "</rule><rule id='more'>hello</rule>",
                          "hello"),
               "hello");
-    EXPECT_THAT(flaw(grammar("<rule id='a'>x</rule><lexicon uri='u'/>", "")), StartsWith("grammar:2:")) << "it comes first";
+    EXPECT_THAT(flaw(grammar("<rule id='a'>x</rule><lexicon uri='u'/>", "")), StartsWith("grammar:2:"))
+        << "must come before the rules";
     EXPECT_THAT(flaw(grammar("<rule id='a' xmlns:x='urn:foreign'><x:b/></rule>", "")), HasSubstr("unknown element 'x:b'"));
 }
 

@@ -1,4 +1,4 @@
-// What SSML means to the voice: words, languages, prosody and time (7.6.11).
+// The meaning of SSML: words, languages, prosody and durations (7.6.11).
 #include <gmock/gmock.h>
 
 #include "simulation/component_stage.hpp"
@@ -10,7 +10,7 @@ namespace {
 using testing::HasSubstr;
 
 std::vector<Passage> passages(std::string_view document) {
-    schemas();  // and with them the platform that reads XML
+    schemas();  // creates the xml::Platform
     auto const read = read_ssml(document);
     if (auto const* bad = std::get_if<BadSsml>(&read))
         return {{.text = bad->reason, .language = "bad", .duration = 0, .prosody = {}}};
@@ -24,7 +24,7 @@ std::string spoken(std::string_view document) {
     return all;
 }
 
-// In seconds, of ten letters a unit of usual pace.
+// Duration in units of ten letters at the default pace.
 Seconds units(std::string const& document) {
     Seconds sum = 0;
     for (auto const& passage : passages("<speak>" + document + "</speak>")) sum += passage.duration;
@@ -45,7 +45,7 @@ TEST(Ssml, IsReadWithoutItsTags) {
               "Said World Wide Web");
 }
 
-TEST(Ssml, SkipsWhatItDoesNotKnow) {
+TEST(Ssml, IgnoresUnknownElements) {
     EXPECT_EQ(spoken("<speak>At <say-as interpret-as='time'>2:30</say-as>, <prosody pitch='high' volume='loud'>Tanaka</prosody> "
                      "<warble>comes</warble>"
                      "<mark name='m'/><audio src='bell.wav'>(a bell)<desc>A bell.</desc></audio>.</speak>"),
@@ -53,10 +53,10 @@ TEST(Ssml, SkipsWhatItDoesNotKnow) {
     EXPECT_EQ(spoken("<s:speak xmlns:s='http://www.w3.org/2001/10/synthesis'><s:metadata><a>no</a></s:metadata><s:meta name='a' "
                      "content='b'/><s:lexicon uri='u'/>yes</s:speak>"),
               "yes");
-    EXPECT_EQ(spoken("<speak><w>bank</w><token>note</token></speak>"), "bank note") << "words of their own";
+    EXPECT_EQ(spoken("<speak><w>bank</w><token>note</token></speak>"), "bank note") << "separate words";
 }
 
-TEST(Ssml, HasElementsOfItsNamespaceAlone) {
+TEST(Ssml, IgnoresElementsOfOtherNamespaces) {
     auto const within = [](std::string const& document, std::string const& name_space) {
         return spoken("<speak" + name_space + " xmlns:x='urn:foreign'>" + document + "</speak>");
     };
@@ -68,7 +68,8 @@ TEST(Ssml, HasElementsOfItsNamespaceAlone) {
         EXPECT_EQ(within("<metadata xmlns='urn:foreign'>said</metadata>", name_space), "said");
         EXPECT_EQ(within("<desc>not said</desc>", name_space), "");
         EXPECT_EQ(within("a<x:p>b</x:p>", name_space), "ab");
-        EXPECT_EQ(within("<x:lang xml:lang='tlh'>b</x:lang>", name_space).substr(0, 4), "bad:") << "xml:lang is everybody's";
+        EXPECT_EQ(within("<x:lang xml:lang='tlh'>b</x:lang>", name_space).substr(0, 4), "bad:")
+            << "xml:lang is valid on all elements";
     }
     EXPECT_NEAR(units("<x:prosody xmlns:x='urn:foreign' rate='x-slow' duration='9s'>aaaaaaaaaa</x:prosody>"), 1, 1e-9);
     EXPECT_NEAR(units("<x:break xmlns:x='urn:foreign' time='2s'/>aaaaaaaaaa"), 1, 1e-9);
@@ -88,7 +89,7 @@ std::string voices(std::string const& document) {
 
 TEST(Ssml, ChoosesAVoiceByNameGenderAndAge) {
     EXPECT_EQ(voices("One <voice name='child'>two</voice> three"), "default: One | child: two | default: three");
-    EXPECT_EQ(voices("<voice name='Kyoko Hattori robot male'>one</voice>"), "robot: one") << "the first that there is";
+    EXPECT_EQ(voices("<voice name='Kyoko Hattori robot male'>one</voice>"), "robot: one") << "the first known one";
     EXPECT_EQ(voices("<voice gender='female'>one</voice><voice gender='male'>two</voice>"), "female: one | male: two");
     EXPECT_EQ(voices("<voice gender='female' age='7'>one</voice>"), "child: one");
     EXPECT_EQ(voices("<voice gender='female' age='30'>one</voice>"), "female: one");
@@ -96,20 +97,20 @@ TEST(Ssml, ChoosesAVoiceByNameGenderAndAge) {
     EXPECT_EQ(voices("<voice gender='male'>one <voice gender='neutral'>two</voice> three</voice>"),
               "male: one | default: two | male: three");
     EXPECT_EQ(voices("<voice gender='male'>one <voice name='Kyoko' age='old'>two</voice></voice>"), "male: one two")
-        << "keeps the voice where none matches";
+        << "keeps the voice if none matches";
     EXPECT_EQ(voices("<p name='child' gender='female'>one</p>"), "default: one");
     EXPECT_EQ(passages("<speak><voice name='child' xml:lang='ja'>one</voice></speak>").at(0).language, "ja");
 }
 
-TEST(Ssml, HasThePaceOfItsVoice) {
+TEST(Ssml, UsesThePaceOfTheVoice) {
     EXPECT_NEAR(units("<voice name='robot'>aaaaaaaaaa</voice>"), 1 / 0.8, 1e-9);
     EXPECT_NEAR(units("<prosody rate='50%'><voice name='robot'>aaaaaaaaaa</voice></prosody>"), 2 / 0.8, 1e-9);
     EXPECT_NEAR(units("<voice name='robot'>aaaaaaaaaa<break time='1s'/></voice>"), 1 / 0.8 + 1 / spoken_seconds("aaaaaaaaaa"),
                 1e-9)
-        << "a pause is as long as it says";
+        << "pauses are not scaled";
 }
 
-TEST(Ssml, HasALanguage) {
+TEST(Ssml, UsesXmlLang) {
     EXPECT_EQ(passages("<speak xml:lang=\"en-US\">Hi</speak>").at(0).language, "en");
     EXPECT_EQ(passages("<speak>Hi</speak>").at(0).language, "");
     EXPECT_EQ(spoken("<speak xml:lang='en'>One <s xml:lang='de'>Zwei</s><voice xml:lang='DE'>drei</voice> four</speak>"),
@@ -118,15 +119,15 @@ TEST(Ssml, HasALanguage) {
         << "silence has no language";
 }
 
-TEST(Ssml, FailsInALanguageAsItSays) {
+TEST(Ssml, HandlesUnsupportedLanguagesByOnlangfailure) {
     EXPECT_THAT(spoken("<speak>a<lang xml:lang='tlh'>b</lang></speak>"), HasSubstr("bad: line 1, column 9: the language 'tlh'"));
     EXPECT_THAT(spoken("<speak onlangfailure='changevoice'><p xml:lang='xx'>b</p></speak>"), HasSubstr("bad: "));
     EXPECT_EQ(spoken("<speak>a<lang xml:lang='tlh' onlangfailure='ignoretext'> b <em>c</em></lang> d</speak>"), "a d");
     EXPECT_EQ(spoken("<speak xml:lang='en' onlangfailure='ignorelang'>a<lang xml:lang='tlh'> b</lang></speak>"), "a b");
-    EXPECT_EQ(spoken("<speak>a<metadata xml:lang='tlh'>b</metadata></speak>"), "a") << "what is not spoken needs no voice";
+    EXPECT_EQ(spoken("<speak>a<metadata xml:lang='tlh'>b</metadata></speak>"), "a") << "unspoken text needs no language";
 }
 
-TEST(Ssml, HasItsTime) {
+TEST(Ssml, ComputesDurations) {
     std::string const ten(10, 'a');
     EXPECT_NEAR(units(ten + "<emphasis>" + ten + "</emphasis>"), 1 + 1 / 0.9, 1e-9);
     EXPECT_NEAR(units("<emphasis level='strong'>" + ten + "</emphasis>"), 1 / 0.8, 1e-9);
@@ -135,13 +136,13 @@ TEST(Ssml, HasItsTime) {
     EXPECT_NEAR(units("<prosody rate='200%'>" + ten + ten + "</prosody>" + ten), 2, 1e-9);
     EXPECT_NEAR(units(ten + "<prosody duration='6.5s'>" + ten + "<break time='100ms'/>" + ten + "</prosody>"), 11, 1e-9);
     EXPECT_NEAR(units("<prosody duration='soon'>" + ten + "</prosody>"), 1, 1e-9);
-    EXPECT_NEAR(units("<prosody duration='0s'>" + ten + "</prosody>"), 1, 1e-9) << "no time at all says nothing";
+    EXPECT_NEAR(units("<prosody duration='0s'>" + ten + "</prosody>"), 1, 1e-9) << "ignores a duration of 0";
     EXPECT_NEAR(units("<prosody duration='-1s'>" + ten + "</prosody>"), 1, 1e-9);
-    EXPECT_NEAR(units("a"), 0.5 / spoken_seconds(ten), 1e-9) << "no speech is shorter than half a second";
+    EXPECT_NEAR(units("a"), 0.5 / spoken_seconds(ten), 1e-9) << "speech takes at least half a second";
 }
 
-// SSML 1.1, 3.2.4: but for changes with a sign, rates are of the voice's default one.
-TEST(Ssml, HasRatesOfTheDefaultOne) {
+// SSML 1.1, 3.2.4: rates without a sign are relative to the voice's default rate.
+TEST(Ssml, RatesAreRelativeToTheDefault) {
     std::string const ten(10, 'a');
     auto const within_slow = [&](std::string const& rate) {
         return 2 / units("<prosody rate='50%'><prosody rate='" + rate + "'>" + ten + ten + "</prosody></prosody>");
@@ -157,7 +158,7 @@ TEST(Ssml, HasRatesOfTheDefaultOne) {
     EXPECT_NEAR(units("<emphasis level='strong'><prosody rate='slow'>" + ten + "</prosody></emphasis>"), 1 / 0.6, 1e-9);
 }
 
-TEST(Ssml, SaysHowTheVoiceSounds) {
+TEST(Ssml, ReadsPitchRangeContourAndVolume) {
     auto const sounds = [](std::string const& document) {
         std::string all;
         for (auto const& passage : passages("<speak>" + document + "</speak>"))
@@ -172,7 +173,7 @@ TEST(Ssml, SaysHowTheVoiceSounds) {
     EXPECT_EQ(sounds("<prosody contour='(0%,+20Hz) (40%,-10Hz)'>a</prosody>"), "a (contour (0%,+20Hz) (40%,-10Hz))");
     EXPECT_EQ(sounds("<prosody volume='loud'>a</prosody><prosody volume='loud'>b</prosody>"), "ab (volume loud)");
     EXPECT_EQ(sounds("<prosody pitch='purple' range='' contour='(0%,&#10;up)' volume='11 of 10'>a</prosody>"), "a ()");
-    EXPECT_EQ(sounds("<emphasis pitch='high'>a</emphasis>"), "a ()") << "prosody's attributes are prosody's";
+    EXPECT_EQ(sounds("<emphasis pitch='high'>a</emphasis>"), "a ()") << "only for prosody";
 }
 
 TEST(Ssml, BoundsPausesAndPace) {
@@ -228,7 +229,7 @@ TEST(Ssml, MustBeWellFormed) {
         EXPECT_THAT(spoken(document), HasSubstr("bad: line 1, column ")) << document;
 }
 
-TEST(Ssml, HasTheLimitsOfADocument) {
+TEST(Ssml, ObeysTheLimitsOfDocuments) {
     auto const nested = [](int depth) {
         std::string document = "<speak>";
         for (int i = 1; i < depth; ++i) document += "<emphasis>";

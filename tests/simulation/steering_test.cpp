@@ -1,4 +1,4 @@
-// People in the hall who do what they are told.
+// Steered visitors.
 #include "simulation/steering.hpp"
 
 #include <gmock/gmock.h>
@@ -10,7 +10,7 @@ namespace rois::simulation {
 namespace {
 
 using Kind = Happening::Kind;
-using State = Deed::State;
+using State = OrderStatus::State;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -23,11 +23,11 @@ Role called(std::string name) {
 
 Way to(Point const& where, std::optional<Radians> heading = {}) { return {{Target{where, heading}}}; }
 
-bool ends(Hall& hall, SharedDeed const& deed, Seconds at_most = 60) {
-    return runs_until(hall, at_most, [&] { return deed->state != State::goes_on; });
+bool ends(Hall& hall, SharedOrderStatus const& status, Seconds at_most = 60) {
+    return runs_until(hall, at_most, [&] { return status->state != State::running; });
 }
 
-// A hall with somebody in it who is steered, and nobody else.
+// A hall with one steered visitor.
 struct Steered : testing::Test {
     Hall hall{plain_hall(), nobody(), 1};
 
@@ -36,7 +36,7 @@ struct Steered : testing::Test {
         ASSERT_EQ(hall.people().size(), 1u);
     }
     Person const& anna() { return hall.people()[0]; }
-    std::vector<std::string> told(Kind kind) {
+    std::vector<std::string> reported(Kind kind) {
         std::vector<std::string> texts;
         for (Happening const& happening : hall.chronicle().since(0))
             if (happening.kind == kind) texts.push_back(happening.text + happening.language);
@@ -53,11 +53,11 @@ TEST_F(Steered, ComesInByTheEntranceAndStays) {
 }
 
 TEST_F(Steered, GoesFromOneTargetToTheNext) {
-    auto const deed = hall.steer("anna", Way{{Target{{7, 2}, {}}, Target{{5, 6}, from_degrees(-90)}}});
+    auto const status = hall.steer("anna", Way{{Target{{7, 2}, {}}, Target{{5, 6}, from_degrees(-90)}}});
     ASSERT_TRUE(runs_until(hall, 10, [&] { return distance(anna().pose.position, {7, 2}) < 0.1; }));
-    EXPECT_EQ(deed->state, State::goes_on);
-    ASSERT_TRUE(ends(hall, deed));
-    EXPECT_EQ(deed->state, State::done);
+    EXPECT_EQ(status->state, State::running);
+    ASSERT_TRUE(ends(hall, status));
+    EXPECT_EQ(status->state, State::done);
     EXPECT_LT(distance(anna().pose.position, {5, 6}), 0.1);
     run(hall, 1);
     EXPECT_NEAR(anna().pose.heading, from_degrees(-90), 0.01);
@@ -84,54 +84,54 @@ TEST_F(Steered, SpeaksAndGesturesWhileGoing) {
     ASSERT_TRUE(ends(hall, waves));
     EXPECT_EQ(first->state, State::done);
     EXPECT_EQ(waves->state, State::done);
-    EXPECT_EQ(goes->state, State::goes_on);
-    EXPECT_THAT(told(Kind::speech_finished), ElementsAre("Guten Tag.de", "Good day.en"))
-        << "in their language, if not in another";
-    EXPECT_THAT(told(Kind::gesture_made), ElementsAre("wave"));
+    EXPECT_EQ(goes->state, State::running);
+    EXPECT_THAT(reported(Kind::speech_finished), ElementsAre("Guten Tag.de", "Good day.en"))
+        << "the visitor's language is the default";
+    EXPECT_THAT(reported(Kind::gesture_made), ElementsAre("wave"));
 }
 
-TEST_F(Steered, LeavesAndLeavesWhatIsOpen) {
+TEST_F(Steered, LeavingFailsOpenOrders) {
     auto const words = hall.steer("anna", Say{"", std::string(1'000, 'a')});
     auto const leaves = hall.steer("anna", Leave{});
     ASSERT_TRUE(ends(hall, leaves));
     EXPECT_EQ(leaves->state, State::done);
     EXPECT_TRUE(hall.people().empty());
     EXPECT_EQ(words->state, State::failed);
-    EXPECT_EQ(words->why, "they have left");
-    EXPECT_EQ(hall.steer("anna", Leave{})->why, "there is no visitor anna in the hall");
-    ASSERT_TRUE(ends(hall, hall.let_in(called("anna")))) << "and may come again";
+    EXPECT_EQ(words->reason, "the visitor has left the hall");
+    EXPECT_EQ(hall.steer("anna", Leave{})->reason, "visitor anna is not in the hall");
+    ASSERT_TRUE(ends(hall, hall.let_in(called("anna")))) << "may enter again";
     EXPECT_EQ(hall.people().size(), 1u);
 }
 
-TEST_F(Steered, StandsStillWhenTold) {
+TEST_F(Steered, StandsStillAfterStopSteering) {
     auto const goes = hall.steer("anna", to({2, 7}));
     auto const words = hall.steer("anna", Say{"", "Guten Tag."}), more = hall.steer("anna", Say{"", "Na?"});
     auto const comes = hall.let_in(called("bob"));
     hall.step();
     hall.stop_steering();
-    for (auto const& deed : {goes, words, more}) EXPECT_EQ(deed->state, State::dropped);
+    for (auto const& status : {goes, words, more}) EXPECT_EQ(status->state, State::dropped);
     auto const here = anna().pose.position;
     run(hall, 20);
     EXPECT_EQ(anna().pose.position, here);
-    EXPECT_EQ(hall.people().size(), 1u) << "nobody who waited was let in";
-    EXPECT_EQ(comes->state, State::goes_on) << "nobody asks for it any more";
-    EXPECT_THAT(told(Kind::speech_finished), ElementsAre("Guten Tag.de")) << "what was begun";
+    EXPECT_EQ(hall.people().size(), 1u) << "waiting visitors do not enter";
+    EXPECT_EQ(comes->state, State::running) << "the order is dropped";
+    EXPECT_THAT(reported(Kind::speech_finished), ElementsAre("Guten Tag.de")) << "speech in progress continues";
     EXPECT_TRUE(ends(hall, hall.steer("anna", to({5, 5}))));
 }
 
-TEST_F(Steered, IsThereOnce) {
-    EXPECT_EQ(hall.let_in(called("anna"))->why, "anna is in the hall already");
+TEST_F(Steered, CannotEnterTwice) {
+    EXPECT_EQ(hall.let_in(called("anna"))->reason, "anna is in the hall already");
     auto const bob = hall.let_in(called("bob"));
-    EXPECT_EQ(hall.let_in(called("bob"))->why, "bob is in the hall already") << "as good as";
+    EXPECT_EQ(hall.let_in(called("bob"))->reason, "bob is in the hall already") << "waits already";
     run(hall, 5);
-    EXPECT_EQ(bob->state, State::goes_on) << "anna stands in the entrance";
+    EXPECT_EQ(bob->state, State::running) << "anna stands in the entrance";
     hall.steer("anna", to({5, 6}));
     ASSERT_TRUE(ends(hall, bob));
     EXPECT_EQ(bob->state, State::done);
     EXPECT_THAT(hall.people()[1].role, "bob");
 }
 
-// The door is a metre wide, and the robot stands in it.
+// The robot stands in the door, which is one metre wide.
 FloorPlan hall_with_blocked_door() {
     FloorPlan plan = plain_hall();
     plan.walls = {{Point{5, 0}, Point{5, 7}}};
@@ -140,19 +140,19 @@ FloorPlan hall_with_blocked_door() {
     return plan;
 }
 
-TEST(Steering, SaysThatSomebodyIsInTheWay) {
+TEST(Steering, FailsWhenAnObstacleStaysInTheWay) {
     Hall hall{hall_with_blocked_door(), nobody(), 1};
     ASSERT_TRUE(ends(hall, hall.let_in(called("anna"))));
     auto const goes = hall.steer("anna", to({2, 4}));
     ASSERT_TRUE(ends(hall, goes, 120));
     EXPECT_EQ(goes->state, State::failed);
-    EXPECT_EQ(goes->why, "somebody is in the way");
+    EXPECT_EQ(goes->reason, "a person or robot is in the way");
     auto const here = hall.people()[0].pose.position;
     run(hall, 5);
-    EXPECT_EQ(hall.people()[0].pose.position, here) << "they have given up";
+    EXPECT_EQ(hall.people()[0].pose.position, here) << "the visitor has stopped";
 }
 
-TEST(Steering, SaysThatThereIsNoWay) {
+TEST(Steering, FailsWithoutAWay) {
     FloorPlan plan = plain_hall();
     plan.walls = {{Point{5, 0}, Point{5, 8}}};
     plan.places[1].pose.position = Point{7, 7};
@@ -160,31 +160,31 @@ TEST(Steering, SaysThatThereIsNoWay) {
     ASSERT_TRUE(ends(hall, hall.let_in(called("anna"))));
     auto const goes = hall.steer("anna", to({2, 2}));
     ASSERT_TRUE(ends(hall, goes));
-    EXPECT_EQ(goes->why, "there is no way there");
+    EXPECT_EQ(goes->reason, "no way leads there");
 }
 
-TEST(Steering, IsNotForThoseOfTheScenario) {
+TEST(Steering, RefusesPeopleOfTheScenario) {
     Hall hall{plain_hall(), only(tanaka({{Wait{60}, {}}})), 1};
     run(hall, 1);
-    EXPECT_THAT(hall.steer("tanaka", Leave{})->why, HasSubstr("tanaka comes with the scenario"));
-    EXPECT_THAT(hall.let_in(called("tanaka"))->why, HasSubstr("already"));
+    EXPECT_THAT(hall.steer("tanaka", Leave{})->reason, HasSubstr("tanaka belongs to the scenario"));
+    EXPECT_THAT(hall.let_in(called("tanaka"))->reason, HasSubstr("already"));
 }
 
-TEST(Steering, WhoIsSteeredMayBeSomebodyOfTheScenarioBeforeTheyCome) {
+TEST(Steering, ASteeredVisitorMayHaveTheNameOfARoleThatHasNotEntered) {
     Role role = tanaka({{Wait{60}, {}}});
     role.enters = 5;
     Hall hall{plain_hall(), only(role), 1};
     ASSERT_TRUE(ends(hall, hall.let_in(called("tanaka"))));
     ASSERT_TRUE(ends(hall, hall.steer("tanaka", to({5, 6}))));
     run(hall, 10);
-    EXPECT_EQ(hall.people().size(), 1u) << "there is one Tanaka";
+    EXPECT_EQ(hall.people().size(), 1u) << "Tanaka enters only once";
     ASSERT_TRUE(ends(hall, hall.steer("tanaka", Leave{})));
     run(hall, 1);
-    ASSERT_EQ(hall.people().size(), 1u) << "now the other one comes";
+    ASSERT_EQ(hall.people().size(), 1u) << "now the scenario's Tanaka enters";
     EXPECT_FALSE(is_steered(hall.people()[0].id));
 }
 
-// Writes down who of the scenario comes when, with all that chance has made of them.
+// Records the arrivals of the scenario with all random values.
 struct Doorkeeper {
     Hall& hall;
     std::string written{};
@@ -205,7 +205,7 @@ struct Doorkeeper {
     }
 };
 
-TEST(Steering, LeavesTheScenarioAsItIs) {
+TEST(Steering, DoesNotChangeTheScenario) {
     FloorPlan const plan = shipped_plan("reception-hall.xml");
     Hall alone{plan, reception_day(plan), 9}, steered{plan, reception_day(plan), 9};
     Doorkeeper usual{alone}, other{steered};

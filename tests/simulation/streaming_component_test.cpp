@@ -19,8 +19,8 @@ Parameter encoding(std::string wanted) { return text("encoding_parameters", std:
 Parameter transport(std::string wanted) { return text("transport_parameters", std::move(wanted)); }
 ParameterList stream(std::string id) { return {text("stream_id", std::move(id))}; }
 
-// "audio_streaming-1 RUNNING"
-std::vector<std::string> told(Operated& component) {
+// Returns "audio_streaming-1 RUNNING".
+std::vector<std::string> reported(Operated& component) {
     std::vector<std::string> all;
     for (auto const& event : component.events("notify_stream_status"))
         all.push_back(value(event.results, "stream_id") + " " +
@@ -56,7 +56,7 @@ struct AudioStreaming : testing::Test {
     Operated& audio = stage["audio_streaming"];
 };
 
-TEST_F(AudioStreaming, SoundsLikeTheVoiceThatSpeaks) {
+TEST_F(AudioStreaming, HasThePitchOfTheSpeakingVoice) {
     connected();
     auto const& tone = std::get<media::Sound>(offered().content).tone;
     stage.step();
@@ -68,12 +68,12 @@ TEST_F(AudioStreaming, SoundsLikeTheVoiceThatSpeaks) {
         pitches.insert(tone.current_frequency());
         EXPECT_EQ(stage.outcome("speech_synthesis"), "OK");
         stage.step();
-        EXPECT_EQ(tone.current_frequency(), 440) << "when it has spoken";
+        EXPECT_EQ(tone.current_frequency(), 440) << "after the speech";
     }
     EXPECT_THAT(pitches, ElementsAre(90, 120, 165, 210, 300));
 }
 
-TEST_F(AudioStreaming, TellsWhatWasAgreedOn) {
+TEST_F(AudioStreaming, ReportsTheNegotiatedParameters) {
     auto const results = connected();
     EXPECT_EQ(value(results, "stream_id"), "audio_streaming-1");
     EXPECT_EQ(value(results, "encoding_parameters"), "audio/wav;rate=16000;channels=1");
@@ -81,10 +81,10 @@ TEST_F(AudioStreaming, TellsWhatWasAgreedOn) {
     auto const& sound = std::get<media::Sound>(offered().content);
     EXPECT_EQ(sound.tone.frequency, 440);
     EXPECT_EQ(sound.tone.rate, 16'000u);
-    EXPECT_THAT(told(audio), ElementsAre("audio_streaming-1 NOT_RUNNING"));
+    EXPECT_THAT(reported(audio), ElementsAre("audio_streaming-1 NOT_RUNNING"));
 }
 
-TEST_F(AudioStreaming, NegotiatesTheFirstThatFits) {
+TEST_F(AudioStreaming, NegotiatesTheFirstSupportedPair) {
     auto const agreed = [&](std::string encodings, std::string transports) {
         auto const results = connected({encoding(std::move(encodings)), transport(std::move(transports))});
         return value(results, "encoding_parameters") + " " + value(results, "transport_parameters");
@@ -97,62 +97,62 @@ TEST_F(AudioStreaming, NegotiatesTheFirstThatFits) {
     EXPECT_EQ(agreed("audio/wav", "rtp://192.0.2.1:5004, http"), "audio/wav;rate=16000;channels=1 http://media.test/5");
 }
 
-TEST_F(AudioStreaming, SaysWhatItHas) {
+TEST_F(AudioStreaming, ListsItsEncodingsAndTransports) {
     auto const readable = audio.component().readable_parameters();
     EXPECT_EQ(find(readable, "available_encodings")->values.front(), "audio/wav, audio/L16");
     EXPECT_EQ(find(readable, "available_transports")->values.front(), "http, rtp");
 }
 
-TEST_F(AudioStreaming, RefusesWhatItHasNot) {
+TEST_F(AudioStreaming, RefusesUnsupportedParameters) {
     auto const why = [&](std::string encodings, std::string transports = "") {
         return audio.refusal("set_parameter", {encoding(std::move(encodings)), transport(std::move(transports))})
             .value_or("fine");
     };
     EXPECT_THAT(why("audio/opus"),
-                HasSubstr("'encoding_parameters': 'audio/opus' is not available; there is audio/wav, audio/L16"));
+                HasSubstr("'encoding_parameters': 'audio/opus' is not supported; expected one of audio/wav, audio/L16"));
     EXPECT_THAT(why("audio/wav;rate=11025"), HasSubstr("rate must be one of 16000, 8000, 44100, 48000"));
     EXPECT_THAT(why("audio/wav;rate=fast"), HasSubstr("not 'fast'"));
     EXPECT_THAT(why("audio/wav;bits=8"), HasSubstr("'audio/wav' has no field 'bits'"));
     EXPECT_THAT(why("audio/wav;16000"), HasSubstr("name=value"));
     EXPECT_THAT(why("audio/wav,,audio/L16"), HasSubstr("empty"));
     EXPECT_THAT(why(std::string(2'000, 'x')), HasSubstr("1024"));
-    EXPECT_THAT(why("a,b,c,d,e,f,g,h,i,j,k,l,m,n,o,p,q"), HasSubstr("16 entries at most"));
-    EXPECT_THAT(why("", "smtp"), HasSubstr("'transport_parameters': 'smtp' is not available; there is http, rtp"));
+    EXPECT_THAT(why("a,b,c,d,e,f,g,h,i,j,k,l,m,n,o,p,q"), HasSubstr("more than 16 entries"));
+    EXPECT_THAT(why("", "smtp"), HasSubstr("'transport_parameters': 'smtp' is not supported; expected one of http, rtp"));
     EXPECT_THAT(why("", "rtp://192.0.2.1:5004"), HasSubstr("'transport_parameters': not to there"));
-    EXPECT_THAT(why("", "http://127.0.0.1:80/"), HasSubstr("'http' stands alone"));
+    EXPECT_THAT(why("", "http://127.0.0.1:80/"), HasSubstr("'http' takes no target"));
     EXPECT_THAT(why("", "http;port=80"), HasSubstr("no field 'port'"));
-    EXPECT_THAT(why("audio/wav", "rtp://127.0.0.1:5004"), HasSubstr("audio/wav is not sent by RTP; audio/L16 is"));
+    EXPECT_THAT(why("audio/wav", "rtp://127.0.0.1:5004"), HasSubstr("audio/wav cannot be sent by RTP: use audio/L16"));
     EXPECT_EQ(why("audio/wav", "http"), "fine");
 }
 
-TEST_F(AudioStreaming, TellsWhetherSomebodyReceives) {
+TEST_F(AudioStreaming, ReportsReception) {
     connected();
-    told(audio);
+    reported(audio);
     happens(media::Reception::begun);
     EXPECT_THAT(rows(audio), ElementsAre("audio_streaming-1 RUNNING"));
     happens(media::Reception::ended);
     EXPECT_THAT(rows(audio), ElementsAre("audio_streaming-1 NOT_RUNNING"));
-    EXPECT_THAT(told(audio), ElementsAre("audio_streaming-1 RUNNING", "audio_streaming-1 NOT_RUNNING"));
+    EXPECT_THAT(reported(audio), ElementsAre("audio_streaming-1 RUNNING", "audio_streaming-1 NOT_RUNNING"));
 }
 
-TEST_F(AudioStreaming, IsHeldAndGoesOn) {
+TEST_F(AudioStreaming, SuspendsAndResumesAStream) {
     connected();
     happens(media::Reception::begun);
-    told(audio);
+    reported(audio);
     audio.perform("suspend_stream", stream("audio_streaming-1"));
     EXPECT_EQ(audio.ended(), "OK");
     EXPECT_TRUE(offered().held);
-    EXPECT_TRUE(offered().open) << "whoever receives stays";
+    EXPECT_TRUE(offered().open) << "receivers stay";
     EXPECT_THAT(rows(audio), ElementsAre("audio_streaming-1 SUSPENDED"));
     audio.perform("suspend_stream", stream("audio_streaming-1"));
-    EXPECT_EQ(audio.ended(), "ERROR") << "it is held already";
+    EXPECT_EQ(audio.ended(), "ERROR") << "suspended already";
     audio.perform("resume_stream", stream("audio_streaming-1"));
     EXPECT_EQ(audio.ended(), "OK");
     EXPECT_FALSE(offered().held);
     EXPECT_THAT(rows(audio), ElementsAre("audio_streaming-1 RESUMED"));
     audio.perform("resume_stream", stream("audio_streaming-1"));
     EXPECT_EQ(audio.ended(), "ERROR");
-    EXPECT_THAT(told(audio), ElementsAre("audio_streaming-1 SUSPENDED", "audio_streaming-1 RESUMED"));
+    EXPECT_THAT(reported(audio), ElementsAre("audio_streaming-1 SUSPENDED", "audio_streaming-1 RESUMED"));
 }
 
 TEST_F(AudioStreaming, ResumesWithoutReceivers) {
@@ -161,31 +161,31 @@ TEST_F(AudioStreaming, ResumesWithoutReceivers) {
     happens(media::Reception::begun);
     happens(media::Reception::ended);
     EXPECT_THAT(rows(audio), ElementsAre("audio_streaming-1 SUSPENDED"));
-    told(audio);
+    reported(audio);
     audio.perform("resume_stream", stream("audio_streaming-1"));
-    EXPECT_THAT(told(audio), ElementsAre("audio_streaming-1 RESUMED", "audio_streaming-1 NOT_RUNNING"));
+    EXPECT_THAT(reported(audio), ElementsAre("audio_streaming-1 RESUMED", "audio_streaming-1 NOT_RUNNING"));
 }
 
 TEST_F(AudioStreaming, EndsWhenDisconnected) {
     connected();
     connected();
-    told(audio);
+    reported(audio);
     audio.perform("disconnect_stream", stream("audio_streaming-1"));
     EXPECT_FALSE(offered(0).open);
     EXPECT_TRUE(offered(1).open);
     EXPECT_EQ(audio.afterwards(), Afterwards::as_before);
-    EXPECT_THAT(told(audio), ElementsAre("audio_streaming-1 NOT_CONNECTED"));
+    EXPECT_THAT(reported(audio), ElementsAre("audio_streaming-1 NOT_CONNECTED"));
     EXPECT_THAT(rows(audio), ElementsAre("audio_streaming-2 NOT_RUNNING", "audio_streaming-1 NOT_CONNECTED"));
     audio.perform("disconnect_stream", stream("audio_streaming-2"));
-    EXPECT_EQ(audio.afterwards(), Afterwards::idle) << "nothing is connected any more";
+    EXPECT_EQ(audio.afterwards(), Afterwards::idle) << "no stream is connected";
     audio.perform("disconnect_stream", stream("audio_streaming-2"));
     EXPECT_EQ(audio.ended(), "ERROR");
 }
 
-TEST_F(AudioStreaming, RefusesAStreamThatThereIsNot) {
+TEST_F(AudioStreaming, RefusesUnknownStreams) {
     for (auto const* command : {"disconnect_stream", "suspend_stream", "resume_stream"})
         EXPECT_THAT(audio.component().refusal(command, stream("moon")),
-                    Optional(HasSubstr("no stream 'moon' is connected; there is none")));
+                    Optional(HasSubstr("stream 'moon' is not connected; connected: none")));
     connected();
     EXPECT_THAT(audio.component().refusal("suspend_stream", stream("moon")), Optional(HasSubstr("there is audio_streaming-1")));
     EXPECT_EQ(audio.component().refusal("suspend_stream", stream("audio_streaming-1")), std::nullopt);
@@ -195,12 +195,12 @@ TEST_F(AudioStreaming, RefusesAStreamThatThereIsNot) {
 TEST_F(AudioStreaming, StopClosesAllStreams) {
     connected();
     connected();
-    told(audio);
+    reported(audio);
     audio.stop();
     EXPECT_FALSE(offered(0).open || offered(1).open);
-    EXPECT_THAT(told(audio), ElementsAre("audio_streaming-1 NOT_CONNECTED", "audio_streaming-2 NOT_CONNECTED"));
+    EXPECT_THAT(reported(audio), ElementsAre("audio_streaming-1 NOT_CONNECTED", "audio_streaming-2 NOT_CONNECTED"));
     audio.stop();
-    EXPECT_THAT(told(audio), IsEmpty());
+    EXPECT_THAT(reported(audio), IsEmpty());
 }
 
 TEST_F(AudioStreaming, SuspendHoldsAllStreams) {
@@ -210,28 +210,28 @@ TEST_F(AudioStreaming, SuspendHoldsAllStreams) {
     audio.suspend();
     EXPECT_TRUE(offered(0).held && offered(1).held);
     audio.resume();
-    EXPECT_TRUE(offered(0).held) << "it was held by itself";
+    EXPECT_TRUE(offered(0).held) << "it was suspended before";
     EXPECT_FALSE(offered(1).held);
     audio.suspend();
     audio.perform("resume_stream", stream("audio_streaming-2"));
     EXPECT_FALSE(offered(1).held);
-    told(audio);
+    reported(audio);
     audio.resume();
-    EXPECT_THAT(told(audio), IsEmpty()) << "it goes on already";
+    EXPECT_THAT(reported(audio), IsEmpty()) << "it is running already";
 }
 
-TEST_F(AudioStreaming, WhatIsConnectedWhileAllAreSuspendedIsHeld) {
+TEST_F(AudioStreaming, AStreamThatConnectsWhileAllAreSuspendedIsSuspended) {
     connected();
     audio.suspend();
-    told(audio);
+    reported(audio);
     connected();
     EXPECT_TRUE(offered(1).held);
-    EXPECT_THAT(told(audio), ElementsAre("audio_streaming-2 SUSPENDED"));
+    EXPECT_THAT(reported(audio), ElementsAre("audio_streaming-2 SUSPENDED"));
     happens(media::Reception::begun, 1);
-    EXPECT_THAT(told(audio), IsEmpty());
+    EXPECT_THAT(reported(audio), IsEmpty());
     audio.resume();
     EXPECT_FALSE(offered(0).held || offered(1).held);
-    EXPECT_THAT(told(audio),
+    EXPECT_THAT(reported(audio),
                 ElementsAre("audio_streaming-1 RESUMED", "audio_streaming-1 NOT_RUNNING", "audio_streaming-2 RESUMED"));
     audio.suspend();
     audio.set_parameter({transport("rtp://127.0.0.1:5004")});
@@ -239,14 +239,15 @@ TEST_F(AudioStreaming, WhatIsConnectedWhileAllAreSuspendedIsHeld) {
     EXPECT_TRUE(offered(2).held);
     audio.stop();
     connected();
-    EXPECT_FALSE(offered(3).held) << "nothing is suspended any more";
+    EXPECT_FALSE(offered(3).held) << "no stream is suspended";
 }
 
 TEST_F(AudioStreaming, StartStartsNothing) {
     audio.start({encoding("audio/L16")});
     EXPECT_EQ(audio.ended(), "OK");
     EXPECT_THAT(rows(audio), ElementsAre(" NOT_CONNECTED"));
-    EXPECT_EQ(value(connected(), "encoding_parameters"), "audio/L16;rate=16000;channels=1") << "what it came with is stored";
+    EXPECT_EQ(value(connected(), "encoding_parameters"), "audio/L16;rate=16000;channels=1")
+        << "the parameters of start are stored";
 }
 
 TEST_F(AudioStreaming, HasEightStreamsAtMost) {
@@ -256,7 +257,7 @@ TEST_F(AudioStreaming, HasEightStreamsAtMost) {
     EXPECT_THAT(stage.media().all, SizeIs(8));
 }
 
-TEST_F(AudioStreaming, RemembersSixteenThatWere) {
+TEST_F(AudioStreaming, RemembersSixteenClosedStreams) {
     for (int i = 1; i <= 20; ++i) {
         connected();
         audio.perform("disconnect_stream", stream("audio_streaming-" + std::to_string(i)));
@@ -283,7 +284,7 @@ TEST(VideoStreaming, ShowsTheHall) {
     EXPECT_EQ(picture->height, 160);
 }
 
-TEST(VideoStreaming, IsOnePictureAtATimeWhenWanted) {
+TEST(VideoStreaming, SupportsSinglePictures) {
     Stage stage;
     stage.step();
     auto& video = stage["video_streaming"];

@@ -10,7 +10,7 @@ using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::SizeIs;
 
-TEST(SystemInformation, SaysWhereTheRobotIs) {
+TEST(SystemInformation, ReportsThePositionOfTheRobot) {
     Stage stage;
     stage.run(1);
     auto const results = stage["system_information"].query("robot_position");
@@ -29,7 +29,7 @@ TEST(SystemInformation, SaysWhereTheRobotIs) {
     EXPECT_THAT(covariance[8], DoubleNear(0.25, 0.001));
 }
 
-TEST(RobotComponents, AreWhereTheirRobotIs) {
+TEST(RobotComponents, HaveThePositionOfTheirRobot) {
     Stage stage{{}, reception_with_two_robots()};
     auto const here = stage["navigation"].component().location();
     ASSERT_TRUE(here);
@@ -42,7 +42,7 @@ TEST(RobotComponents, AreWhereTheirRobotIs) {
     EXPECT_EQ(there->position, (std::array<double, 3>{2'000, 6'000, 0}));
 }
 
-TEST(SystemInformation, SaysTheSameTwiceWithinAStep) {
+TEST(SystemInformation, ReportsTheSameTwiceWithinAStep) {
     Stage stage;
     stage.run(1);
     auto const first = stage["system_information"].query("robot_position");
@@ -51,7 +51,7 @@ TEST(SystemInformation, SaysTheSameTwiceWithinAStep) {
     EXPECT_EQ(first.located, second.located);
 }
 
-TEST(SystemInformation, SaysHowTheEngineIs) {
+TEST(SystemInformation, ReportsTheStatusOfTheEngine) {
     Stage stage;
     EXPECT_EQ(value(stage["system_information"].query("engine_status"), "status"), "UNINITIALIZED");
     stage.step();
@@ -62,7 +62,7 @@ TEST(SystemInformation, SaysHowTheEngineIs) {
     EXPECT_EQ(value(results, "operable_time"), to_text(begun));
 }
 
-TEST(SystemInformation, WarnsWhileSomebodyIsInTheWay) {
+TEST(SystemInformation, WarnsWhileTheRobotIsObstructed) {
     Stage stage{{visitor("guest", {does(Walk{at(5, 4)}), does(Wait{1000})})}};
     stage.run(12);
     stage["move"].start({integers("line", "6000 0")});
@@ -70,7 +70,7 @@ TEST(SystemInformation, WarnsWhileSomebodyIsInTheWay) {
         stage.run_until([&] { return value(stage["system_information"].query("engine_status"), "status") == "WARNING"; }, 20));
 }
 
-TEST(SystemInformation, KnowsNoOtherQuery) {
+TEST(SystemInformation, AnswersNoOtherQuery) {
     Stage stage;
     stage.step();
     EXPECT_THAT(stage["system_information"].rows("weather"), testing::IsEmpty());

@@ -20,7 +20,7 @@ std::string colour_at(FloorPlan const& plan, media::Picture const& picture, Poin
     return is(speaking_colour) ? "speaking" : "something else";
 }
 
-TEST(TopView, ShowsWhatIsBuilt) {
+TEST(TopView, ShowsWallsAndDesks) {
     auto const plan = shipped_plan("reception-hall.xml");
     auto const picture = top_view(plan, {}, 640);
     EXPECT_EQ(picture.width, 640);
@@ -42,19 +42,19 @@ TEST(TopView, HasNorthAbove) {
     EXPECT_EQ(pixel_of(plan, picture, {19.99, 11.99}).row, 0);
 }
 
-TEST(TopView, ShowsWhoIsThereAndWhereTheyLook) {
+TEST(TopView, ShowsFiguresAndTheirHeadings) {
     auto const plan = plain_hall();
     auto const picture =
         top_view(plan, {{{{Point{2, 4}, 0}, 0.3, robot_colour}, {{Point{6, 4}, from_degrees(90)}, 0.25, person_colour}}}, 1'000);
     EXPECT_EQ(colour_at(plan, picture, {2, 4}), "robot");
     EXPECT_EQ(colour_at(plan, picture, {2, 4.25}), "robot");
     EXPECT_EQ(colour_at(plan, picture, {2, 4.35}), "floor");
-    EXPECT_EQ(colour_at(plan, picture, {2.2, 4}), "wall") << "where it looks is marked";
+    EXPECT_EQ(colour_at(plan, picture, {2.2, 4}), "wall") << "its heading is marked";
     EXPECT_EQ(colour_at(plan, picture, {6, 4}), "person");
     EXPECT_EQ(colour_at(plan, picture, {6, 4.2}), "wall");
 }
 
-TEST(TopView, CutsWhatIsOutside) {
+TEST(TopView, CutsOffTheOutside) {
     auto const plan = plain_hall();
     auto const picture = top_view(plan, {{{{Point{0, 0}, 0}, 1.0, robot_colour}, {{Point{-5, 30}, 1}, 1.0, robot_colour}}}, 100);
     EXPECT_EQ(colour_at(plan, picture, {0.05, 0.5}), "robot");
@@ -79,7 +79,7 @@ TEST(TopView, SceneHasTheRobotsAndThePeopleOfTheHall) {
     EXPECT_EQ(scene.figures[1].colour.green, robot_colour.green);
 }
 
-TEST(TopView, CameraHasNoPictureBeforeItSaw) {
+TEST(TopView, CameraHasNoPictureBeforeTheFirstScene) {
     Camera camera{plain_hall()};
     EXPECT_FALSE(camera.picture(100));
     camera.see({});

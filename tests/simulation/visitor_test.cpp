@@ -7,7 +7,7 @@ namespace {
 
 using Kind = Happening::Kind;
 
-// The times of the happenings of a kind by people, with their texts.
+// The times and texts of people's happenings of one kind.
 std::vector<std::pair<Seconds, std::string>> of_people(Hall const& hall, Kind kind) {
     std::vector<std::pair<Seconds, std::string>> found;
     for (Happening const& happening : hall.chronicle().since(0))
@@ -49,7 +49,7 @@ TEST(Visitor, AnActionWaitsForItsTime) {
     EXPECT_NEAR(of_people(hall, Kind::speech_started)[0].first, 7.02, 0.03);
 }
 
-// Stands before the robot, looks at it, and says this when it speaks or bows.
+// Stands in front of the robot, looks at it, and gives this answer to its speech or bow.
 Role answering(std::vector<Answer> answers) {
     return tanaka({{Walk{{Point{4, 4}}}, {}}, {Face{{"robot1"}}, {}}, {Wait{60}, {}}}, std::move(answers));
 }
@@ -60,7 +60,7 @@ TEST(Visitor, AnswersWhatTheRobotSays) {
               1};
     run(hall, 10);
     hall.speak(robot1, {"What is your name?", "en", 0.5, {}, {}, {}});
-    EXPECT_TRUE(of_people(hall, Kind::speech_started).empty()) << "not before it has ended";
+    EXPECT_TRUE(of_people(hall, Kind::speech_started).empty()) << "not before the end of the speech";
     run(hall, 4);
     ASSERT_EQ(of_people(hall, Kind::speech_started).size(), 1u);
     EXPECT_EQ(of_people(hall, Kind::speech_started)[0].second, "I am Tanaka.");
@@ -99,7 +99,7 @@ TEST(Visitor, AnswersSpeechAndTheBowThatFollowsAtOnce) {
     ASSERT_EQ(of_people(hall, Kind::gesture_made).size(), 1u);
     EXPECT_GE(of_people(hall, Kind::gesture_made)[0].first, of_people(hall, Kind::speech_finished)[0].first);
     greet();
-    EXPECT_EQ(of_people(hall, Kind::speech_started).size(), 1u) << "once is once";
+    EXPECT_EQ(of_people(hall, Kind::speech_started).size(), 1u) << "`once` allows one answer";
     EXPECT_EQ(of_people(hall, Kind::gesture_made).size(), 1u);
 }
 
@@ -127,7 +127,7 @@ TEST(Visitor, DoesNotAnswerALowVoiceOrOneThatIsBrokenOff) {
     EXPECT_TRUE(of_people(hall, Kind::speech_started).empty());
 }
 
-TEST(Visitor, WhoIgnoresTheRobotDoesNotAnswer) {
+TEST(Visitor, DoesNotAnswerAnIgnoredRobot) {
     Role role = answering({{"*", "", "en", "Yes?", "", false}});
     role.actions.insert(role.actions.begin() + 2, {Ignore{}, {}});
     Hall hall{plain_hall(), only(role), 1};
@@ -173,7 +173,7 @@ TEST(Visitor, SharesAPlaceWithOthers) {
     for (Person const& person : hall.people()) EXPECT_LT(distance(person.pose.position, Point{5, 7}), 1.0);
 }
 
-TEST(Scenarios, ARoundBeginsAnewAndNobodyIsThereTwice) {
+TEST(Scenarios, RoundsRepeatWithoutDuplicatePeople) {
     Role brief = tanaka({{Wait{5}, {}}}), lasting = tanaka({{Walk{{"desk"}}, {}}, {Wait{150}, {}}});
     lasting.id = "suzuki";
     lasting.enters = 10;
@@ -196,7 +196,7 @@ TEST(Scenarios, StrangersComeWithinTheGaps) {
     Seconds before = 0;
     for (auto const& [at, text] : of_people(hall, Kind::entered)) {
         EXPECT_GE(at - before, 9.98);
-        EXPECT_LE(at - before, 21.5) << "the entrance may be taken for a moment";
+        EXPECT_LE(at - before, 21.5) << "the entrance may be occupied for a moment";
         before = at;
     }
     EXPECT_GT(of_people(hall, Kind::entered).size(), 25u);

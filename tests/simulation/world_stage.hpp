@@ -1,4 +1,4 @@
-// Halls for the tests of the world: small ones built here, and those that are shipped.
+// Halls for tests: small ones, and the shipped ones.
 #pragma once
 
 #include <cstdio>
@@ -13,8 +13,7 @@
 
 namespace rois::simulation {
 
-// 10 m by 8 m without an inner wall; people come in at (9, 4), the desk's place is (5, 7), and robot1 stands at (2, 4) and looks
-// along x.
+// 10 m by 8 m without inner walls. The entrance is at (9, 4), the desk at (5, 7). robot1 stands at (2, 4) and looks along x.
 inline FloorPlan plain_hall() {
     FloorPlan plan;
     plan.name = "plain";
@@ -27,7 +26,7 @@ inline FloorPlan plain_hall() {
     return plan;
 }
 
-// The plain hall, cut in two at x = 5 by a wall with a door from y = 6 to the upper edge.
+// The plain hall with a wall at x = 5, which has a door from y = 6 to the upper edge.
 inline FloorPlan divided_hall() {
     FloorPlan plan = plain_hall();
     plan.places[1].pose.position = Point{7, 7};
@@ -47,7 +46,7 @@ inline FloorPlan hall_with_two_robots() {
 
 inline Scenario nobody() { return {}; }
 
-// Somebody known who comes in at once and does this.
+// A known person who enters at once and does these actions.
 inline Role tanaka(std::vector<ScriptedAction> actions, std::vector<Answer> answers = {}) {
     Role role;
     role.id = "tanaka";
@@ -60,7 +59,7 @@ inline Role tanaka(std::vector<ScriptedAction> actions, std::vector<Answer> answ
 
 inline Scenario only(Role role) { return {"only one", {}, {std::move(role)}, {}, {}}; }
 
-// Steps the hall until the condition holds; false when it does not within so many seconds of its time.
+// Steps the hall until the condition holds. Returns false after `at_most` seconds of world time.
 template <class Condition>
 bool runs_until(Hall& hall, Seconds most, Condition condition) {
     for (WorldTime const end = hall.now() + world_time(most); hall.now() < end;) {
@@ -90,7 +89,7 @@ inline Scenario reception_day(FloorPlan const& plan) {
     return read_scenario(schemas(), "reception-day.xml", std::string{files::simulation().at("reception-day.xml")}, plan);
 }
 
-// All that can be observed, exactly.
+// The complete observable state, exactly.
 inline std::string observed(Hall const& hall) {
     std::string all;
     auto add = [&](double number) {

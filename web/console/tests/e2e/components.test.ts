@@ -57,7 +57,7 @@ describe('components', () => {
       await page.getByText('Required.').waitFor();
       await target.fill('nowhere');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await answer(page).getByText(/nowhere' is neither "x, y" nor .* one of the places/).first().waitFor();
+      await answer(page).getByText(/nowhere' is not a valid target: expected "x, y", .* one of the places/).first().waitFor();
       await expect.poll(() => is_in_view(answer(page).locator('p').first())).toBe(true);
       await target.fill('100000, 2000');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();

@@ -139,7 +139,7 @@ describe('sequences', () => {
         await box(page, 'follow').press('Delete');
         await panel(page).getByRole('button', { name: 'Run', exact: true }).click();
         await box(page, 'navigation').getByText('refused').waitFor();
-        await panel(page).locator('.sequence-form').getByText(/neither "x, y" nor/).waitFor();
+        await panel(page).locator('.sequence-form').getByText(/is not a valid target: expected "x, y"/).waitFor();
         await panel(page).getByLabel('target_position, item 1').fill('100000, 2000');
         await panel(page).getByRole('button', { name: 'Run', exact: true }).click();
         await hall.pass_until(page, box(page, 'navigation').getByText('ERROR'), 200);

@@ -86,9 +86,9 @@ describe('the hall', () => {
   test('reports why an order failed', async () => {
     const ordered = console.hall.walk('anna', 'desk');
     await settled();
-    world.answers.set('get_command_result', () => `<results>${result('status', 'string', 'ERROR')}${result('reason', 'string', 'there is no way there')}</results>`);
+    world.answers.set('get_command_result', () => `<results>${result('status', 'string', 'ERROR')}${result('reason', 'string', 'no way leads there')}</results>`);
     await completes('ERROR');
-    expect(await ordered).toEqual({ status: 'ERROR', reason: 'there is no way there' });
+    expect(await ordered).toEqual({ status: 'ERROR', reason: 'no way leads there' });
   });
 
   test('is polled while watched', async () => {

@@ -45,7 +45,7 @@ describe('steering', () => {
   test.each([
     ['OK', '', []],
     ['ABORT', '', []], // replaced by another order
-    ['ERROR', 'there is no way there', [['warning', 'anna could not: walking', 'there is no way there']]],
+    ['ERROR', 'no way leads there', [['warning', 'anna could not: walking', 'no way leads there']]],
   ])('reports failed orders: %s', async (status, reason, told) => {
     await steering_of(console).order('anna', 'walk', Promise.resolve({ status, reason }));
     expect(console.notices.list.value.map((one) => [one.severity, one.text, one.detail])).toEqual(told);
