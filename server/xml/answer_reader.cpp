@@ -74,6 +74,6 @@ AnswerReader::AnswerReader(AnswerReader&&) noexcept = default;
 
 std::optional<Heard> AnswerReader::read(std::string_view document) { return impl_->read(document); }
 
-std::optional<StopState> AnswerReader::read_stop_state(std::string_view document) { return kept_->read_stop_state(document); }
+std::optional<StopState> AnswerReader::read_stop_state(std::string_view document) { return impl_->read_stop_state(document); }
 
 }  // namespace rois::xml
