@@ -91,7 +91,9 @@ Reply Engine::Core::perform(Session& session, BindAny const& bind, Instant now) 
         return refused<BindAny::Reply>(ReturnCode::unsupported, "no component of this engine can match the condition");
     auto const [matches, held_of_group] = select_to_bind(selection, session);
     auto found = std::ranges::find_if(matches, &RegisteredComponent::is_free);
-    if (found == matches.end()) found = std::ranges::find(matches, &session, &RegisteredComponent::bound_to);
+    if (found == matches.end())
+        found = std::ranges::find_if(
+            matches, [&](auto const* match) { return match->bound_to == &session && !match->has_failed_to_halt(); });
     if (found == matches.end() && held_of_group != nullptr)
         return refused<BindAny::Reply>(ReturnCode::out_of_resources,
                                        "no robot can give all components of the group now; " + held(*held_of_group));

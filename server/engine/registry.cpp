@@ -426,8 +426,8 @@ Declarations const& Registry::results(MessageKind kind, std::string_view message
 
 Registry::Bound Registry::bind(RegisteredComponent& component, Session& session, Instant now) {
     if (component.bound_to != nullptr && component.bound_to != &session) return Bound::taken;
+    if (component.has_failed_to_halt()) return Bound::not_halted;
     if (component.bound_to == nullptr) {
-        if (component.has_failed_to_halt()) return Bound::not_halted;
         component.bound_anew();
         component.restore_defaults(now);  // what still runs for an ended session (on_session_end) left its own
     }

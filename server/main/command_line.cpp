@@ -31,7 +31,9 @@ constexpr auto examples =
     "Exit codes:\n"
     "  0  stopped by a signal, or what was asked for was done\n"
     "  1  could not start, is not healthy, or a profile was refused\n"
-    "  2  bad configuration";
+    "  2  bad configuration\n"
+    "  70 too many exceptions in a second; all components were halted\n"
+    "  71 stopped by a signal, but a component did not confirm that it stands still";
 
 struct Flags {
     std::string config;

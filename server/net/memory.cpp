@@ -9,7 +9,6 @@
 #include <charconv>
 #include <chrono>
 #include <cstdlib>
-#include <exception>
 #include <mutex>
 #include <new>
 #include <string_view>
@@ -23,7 +22,7 @@ namespace {
 
 constexpr std::size_t mib = std::size_t{1} << 20U;
 
-// A part of the reserve. It is large enough to be mapped, so any thread can use its address space once it is freed.
+// The memory of the reserve. It is large enough to be mapped, so any thread can use its address space once it is freed.
 class Block {
 public:
     explicit Block(std::size_t wanted) : wanted_{wanted} {}
@@ -53,11 +52,11 @@ private:
     void* memory_ = nullptr;
 };
 
-class Blocks {
+class Reserve {
 public:
-    static Blocks& instance() {
-        static Blocks blocks;
-        return blocks;
+    static Reserve& instance() {
+        static Reserve reserve;
+        return reserve;
     }
 
     void hold(MemoryBudget& budget) {
@@ -71,27 +70,24 @@ public:
     void forget() {
         std::lock_guard const lock{mutex_};
         budget_ = nullptr;
-        usual_.release();
-        last_.release();
+        block_.release();
     }
 
     void refill() {
         std::lock_guard const lock{mutex_};
         if (budget_ == nullptr) return;
-        bool const filled = last_.fill() && usual_.fill();
+        bool const filled = block_.fill();
         bool const calm = std::chrono::steady_clock::now() - released_ > std::chrono::seconds{1};
         if (filled && calm) budget_->set_exhausted(false);
     }
 
-    // The allocation is repeated if this returns. A destructor that runs while an exception unwinds the stack must not fail: that
-    // would end the process. The last block is for those. Asio needs memory there: it posts the end of a coroutine.
+    // The allocation is repeated if this returns.
     void release() {
         std::lock_guard const lock{mutex_};
         if (budget_ == nullptr) throw std::bad_alloc{};
         budget_->set_exhausted(true);
         released_ = std::chrono::steady_clock::now();
-        bool const unwinding = std::uncaught_exceptions() > 0;
-        if (usual_.release() || (unwinding && last_.release())) ++releases_;
+        if (block_.release()) ++releases_;
         thread_local unsigned tried = 0;  // with how many releases this thread has repeated an allocation
         if (std::exchange(tried, releases_) == releases_) throw std::bad_alloc{};
     }
@@ -99,8 +95,7 @@ public:
 private:
     std::mutex mutex_;                // guards the members below
     MemoryBudget* budget_ = nullptr;  // null: there is no reserve
-    Block usual_{8 * mib};
-    Block last_{2 * mib};
+    Block block_{8 * mib};
     unsigned releases_ = 0;
     Steady released_;  // when an allocation failed last
 };
@@ -137,15 +132,15 @@ void release_large_blocks_at_once() {
 void release_memory() { malloc_trim(0); }
 
 MemoryReserve::MemoryReserve(MemoryBudget& budget) {
-    Blocks::instance().hold(budget);
-    std::set_new_handler([] { Blocks::instance().release(); });
+    Reserve::instance().hold(budget);
+    std::set_new_handler([] { Reserve::instance().release(); });
 }
 
 MemoryReserve::~MemoryReserve() {
     std::set_new_handler(nullptr);
-    Blocks::instance().forget();
+    Reserve::instance().forget();
 }
 
-void MemoryReserve::refill() { Blocks::instance().refill(); }
+void MemoryReserve::refill() { Reserve::instance().refill(); }
 
 }  // namespace rois::net

@@ -19,7 +19,7 @@ void release_large_blocks_at_once();
 // The same for all that is free now; takes some milliseconds where much is.
 void release_memory();
 
-// Sets 10 MiB of address space aside for the time when the system gives no more memory; no physical memory is used. The first
+// Sets 8 MiB of address space aside for the time when the system gives no more memory; no physical memory is used. The first
 // allocation that fails (operator new) frees it and succeeds. The budget is then exhausted: what needs much memory is refused,
 // and unfinished documents are cut. One at a time; the budget must outlive it.
 class MemoryReserve {

@@ -147,11 +147,14 @@ TEST_P(TheApplication, StopsEverythingAndClears) {
 }
 
 TEST(StopForEverything, NamesTheComponentsThatHaveNotConfirmed) {
-    GatewayProcess const gateway{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--sim-speed", "0"}};
+    GatewayProcess gateway{
+        {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--sim-speed", "0", "--shutdown-timeout", "0.1"}};
     Settings settings;
     settings.url = gateway.url();
     EXPECT_THAT(stop_everything(settings).not_halted, ElementsAre("navigation"));
     EXPECT_THAT(clear_everything(settings).not_halted, ElementsAre("navigation"));
+    gateway.signal(SIGTERM);
+    EXPECT_EQ(gateway.wait().exit_code, 71);
 }
 
 TEST(StopForEverything, SaysWhyItFailed) {

@@ -126,6 +126,17 @@ TEST_F(Halting, ThatFailsLetsNobodyBind) {
     EXPECT_EQ(hall.bind("navigation"), ReturnCode::ok);
 }
 
+TEST_F(Halting, ThatFailsLetsNotEvenTheHolderBind) {
+    robot.throws_in = {"halt"};
+    desk.execute(named("stop", stop("navigation")));
+    EXPECT_EQ(desk.bind("navigation"), ReturnCode::error);
+    EXPECT_EQ(desk.bind_any(equal("component_ref", "navigation")), "OUT_OF_RESOURCES");
+    robot.throws_in = {};
+    world.advance(200ms);
+    EXPECT_EQ(desk.bind("navigation"), ReturnCode::ok);
+    EXPECT_EQ(desk.bind_any(equal("component_ref", "navigation")), "navigation");
+}
+
 TEST_F(Halting, IsConfirmedLater) {
     robot.halts_later = true;
     desk.execute(go("go"));

@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A gateway that has one MiB of address space left; its robot drives for an application.
+// A gateway that has little address space left, one MiB unless a test says otherwise; its robot drives for an application.
 class ExhaustedMemory : public testing::Test {
 protected:
     void SetUp() override {
@@ -28,8 +28,10 @@ protected:
         desk->call("connect");
         EXPECT_EQ(desk->call("bind", component_ref("navigation")).return_code(), "OK");
         drive();
-        gateway->limit_address_space(std::size_t{1} << 20U);
+        gateway->limit_address_space(mib_left() << 20U);
     }
+
+    virtual std::size_t mib_left() const { return 1; }
 
     void drive() {
         auto const go = client::sequence(
@@ -111,7 +113,30 @@ protected:
     int rounds = 0;
 };
 
+// A flood that uses up what is left within milliseconds.
+class SuddenlyExhaustedMemory : public ExhaustedMemory, public testing::WithParamInterface<std::size_t> {
+    std::size_t mib_left() const override { return GetParam(); }
+};
+
 }  // namespace
+
+TEST_P(SuddenlyExhaustedMemory, DoesNotEndTheProcess) {
+    auto const body =
+        "POST /rois HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/xml\r\nContent-Length: 1000000\r\n\r\n" +
+        std::string(900'000, ' ');
+    std::vector<std::thread> attackers;
+    for (int i = 0; i < 3; ++i) attackers.emplace_back([&] { flood(50, body); });
+    for (auto const end = std::chrono::steady_clock::now() + 1s; std::chrono::steady_clock::now() < end;) {
+        try {
+            HttpClient{*gateway}.say("POST /rois/stop HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n\r\n");
+        } catch (LineEnded const&) {
+        }
+    }
+    floods = false;
+    for (auto& attacker : attackers) attacker.join();
+    EXPECT_TRUE(opens_a_session());
+}
+INSTANTIATE_TEST_SUITE_P(WithMiBLeft, SuddenlyExhaustedMemory, testing::Values(2, 8, 16, 20, 24, 40));
 
 TEST_F(ExhaustedMemory, OfUnfinishedBodiesLeavesStopAndRelease) {
     expect_to_obey_during(
