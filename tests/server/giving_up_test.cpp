@@ -5,8 +5,10 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "client/vocabulary.hpp"
 #include "server/http_client.hpp"
@@ -14,6 +16,7 @@
 namespace rois::test {
 namespace {
 
+using namespace std::chrono_literals;
 using testing::HasSubstr;
 
 constexpr auto why = "too many exceptions in a second: all components were halted, and the gateway ends";
@@ -36,18 +39,22 @@ protected:
         EXPECT_EQ(going.return_code(), "OK");
     }
 
-    // Sends the signal to the thread with this name.
-    void fail(std::string const& thread, int signal) const {
+    // Sends the signal to the gateway's clock. Its thread has no name until it runs for the first time.
+    void fail_the_clock(int signal) const {
         auto const tasks = std::filesystem::path{"/proc"} / std::to_string(gateway->id()) / "task";
-        for (auto const& task : std::filesystem::directory_iterator{tasks}) {
-            std::ifstream in{task.path() / "comm"};
-            std::string name;
-            in >> name;
-            if (name != thread) continue;
-            EXPECT_EQ(syscall(SYS_tgkill, gateway->id(), std::stoi(task.path().filename()), signal), 0);
-            return;
+        for (auto const until = std::chrono::steady_clock::now() + 10s; std::chrono::steady_clock::now() < until;) {
+            for (auto const& task : std::filesystem::directory_iterator{tasks}) {
+                std::ifstream in{task.path() / "comm"};
+                std::string name;
+                in >> name;
+                if (name != "clock") continue;
+                EXPECT_EQ(syscall(SYS_tgkill, gateway->id(), std::stoi(task.path().filename()), signal), 0);
+                return;
+            }
+            std::this_thread::yield();
         }
-        ADD_FAILURE() << "there is no thread " << thread;
+        gateway->signal(SIGKILL);
+        ADD_FAILURE() << "there is no thread \"clock\"";
     }
 
     Ended wait() const {
@@ -62,7 +69,7 @@ protected:
 }  // namespace
 
 TEST_F(AGatewayThatFails, HaltsAllComponentsSaysWhyAndEndsWith70) {
-    fail("clock", SIGUSR2);
+    fail_the_clock(SIGUSR2);
     auto const ended = wait();
     EXPECT_EQ(ended.exit_code, 70);
     EXPECT_THAT(ended.error, HasSubstr("an exception was survived (tick): a fault that a test has made"));
@@ -71,7 +78,7 @@ TEST_F(AGatewayThatFails, HaltsAllComponentsSaysWhyAndEndsWith70) {
 }
 
 TEST_F(AGatewayThatFails, SaysWhyAlsoWithoutMemory) {
-    fail("clock", SIGUSR1);
+    fail_the_clock(SIGUSR1);
     auto const ended = wait();
     EXPECT_EQ(ended.exit_code, 70);
     EXPECT_THAT(ended.error, HasSubstr(why));

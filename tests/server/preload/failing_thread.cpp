@@ -1,11 +1,11 @@
-// Preloaded into the real gateway by a test: makes one of its threads fail. SIGUSR1: each operator new of the thread that gets
-// the signal fails. SIGUSR2: each pread of it throws, as nothing that the gateway calls should.
+// Preloaded into the real gateway by a test: makes one of its threads fail. SIGUSR1: each malloc of the thread that gets the
+// signal fails. SIGUSR2: each pread of it throws an exception, which no function that the gateway calls should do.
 #include <dlfcn.h>
 #include <signal.h>
 #include <unistd.h>
 
-#include <cstdlib>
-#include <new>
+#include <cerrno>
+#include <cstddef>
 #include <stdexcept>
 
 namespace {
@@ -24,16 +24,13 @@ namespace {
 
 }  // namespace
 
-void* operator new(std::size_t size) {
-    auto* const memory = without_memory != 0 ? nullptr : std::malloc(size == 0 ? 1 : size);
-    if (memory == nullptr) throw std::bad_alloc{};
-    return memory;
+extern "C" void* __libc_malloc(size_t size);
+
+extern "C" void* malloc(size_t size) {
+    if (without_memory == 0) return __libc_malloc(size);
+    errno = ENOMEM;
+    return nullptr;
 }
-void* operator new(std::size_t size, std::nothrow_t const&) noexcept {
-    return without_memory != 0 ? nullptr : std::malloc(size == 0 ? 1 : size);
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 extern "C" ssize_t pread(int file, void* into, size_t size, off_t at) {
     if (throws != 0) throw std::runtime_error{"a fault that a test has made"};
