@@ -5,6 +5,7 @@
 
 #include <array>
 #include <boost/asio/post.hpp>
+#include <new>
 #include <string>
 
 #include "net/http_answer.hpp"
@@ -73,20 +74,32 @@ void Listener::listen() { acceptor_.listen(); }
 Task<> Listener::accept() {
     auto const& memory = loop_.shared().gateway.memory();
     for (unsigned taken = 1; acceptor_.is_open(); ++taken) {
-        boost::system::error_code error;
-        auto socket = co_await acceptor_.async_accept(into(error));
-        if (error == asio::error::operation_aborted) continue;
-        if (!error) {
-            auto place = co_await this->place(socket);
-            if (place) serve(std::move(socket), std::move(*place));
-        } else {
-            spdlog::warn("cannot accept a connection: {}", error.message());
+        bool accepted = false;
+        try {
+            accepted = co_await accept_one();
+        } catch (std::bad_alloc const&) {
+            spdlog::warn("cannot accept a connection: the system gives the gateway no more memory");
         }
         bool const crowded = taken % most_without_memory == 0 && memory.exhausted();
-        if (!error && !crowded) continue;
+        if (accepted && !crowded) continue;
+        boost::system::error_code error;
         pause_.expires_after(between_tries);
         co_await pause_.async_wait(into(error));
     }
+}
+
+// False when the system gives no connection.
+Task<bool> Listener::accept_one() {
+    boost::system::error_code error;
+    auto socket = co_await acceptor_.async_accept(into(error));
+    if (error == asio::error::operation_aborted) co_return true;
+    if (error) {
+        spdlog::warn("cannot accept a connection: {}", error.message());
+        co_return false;
+    }
+    auto place = co_await this->place(socket);
+    if (place) serve(std::move(socket), std::move(*place));
+    co_return true;
 }
 
 // A connection that cannot begin, for example because memory is missing, is closed.

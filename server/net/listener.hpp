@@ -36,6 +36,7 @@ public:
 
 private:
     void open(Endpoint const&);
+    Task<bool> accept_one();
     Task<std::optional<Admission::Place>> place(Socket&);
     void serve(Socket, Admission::Place);
 
