@@ -61,7 +61,7 @@ TEST_F(RoisWithASessionFile, ExplainsAnInvalidSessionFile) {
     auto const none = file_named("none");
     expect(2, "no process holds a session under this file", {"start", "reaction", "--session-file", none});
     expect(2, "no process holds a session under this file", {"release", "--session-file", none});
-    expect(2, "not both", {"start", "reaction", "--session-file", none, "--session", "s"});
+    expect(2, "name two sessions; give only one", {"start", "reaction", "--session-file", none, "--session", "s"});
     expect(3, "unknown component 'elevator'; there are ", {"bind", "elevator", "--session-file", none});
     EXPECT_FALSE(std::filesystem::exists(none));
     auto const pipe = file_named("pipe");

@@ -284,7 +284,7 @@ TEST(Decision26, ValuesAreOfTheirDeclaredTypes) {
     EXPECT_NE(find(desk.get_parameter("lamp").parameters, "grammar"), nullptr) << "in the correct spelling";
     EXPECT_EQ(set(value("count", "int", {"2147483648"})), "parameter 'count': '2147483648' is not of the type int");
     EXPECT_THAT(set(value("count", "string", {"7"})), HasSubstr("'count' is declared as 'string', its type is int"));
-    EXPECT_THAT(set(value("count", "int", {"1", "2"})), HasSubstr("'count': a single value of the type int needs exactly one"));
+    EXPECT_THAT(set(value("count", "int", {"1", "2"})), HasSubstr("'count': the type int needs exactly one value, got 2"));
     EXPECT_THAT(set(value("colour", "string", {"red"})), HasSubstr("unknown parameter 'colour'"));
 }
 

@@ -96,7 +96,7 @@ TEST_F(Memory, OfSessionsWithinTheirPredicates) {
             auto const reply =
                 client.call("subscribe", one_of(250, "-" + std::to_string(100 * session + i) + std::string(3'500, 'x')));
             code = reply.return_code();
-            EXPECT_THAT(reply.reason(), HasSubstr(code == "OK" ? "" : "1048576 bytes of text together"));
+            EXPECT_THAT(reply.reason(), HasSubstr(code == "OK" ? "" : "1048576 bytes of text in total"));
         }
         EXPECT_EQ(code, "OUT_OF_RESOURCES");
     }

@@ -107,7 +107,7 @@ TEST_F(Drive, IsHeldDespitePongsThatAnswerNoPing) {
         driver.send("", client::Kind::pong);
     }
     ASSERT_EQ(kind, client::Kind::text) << "receive_error: it was held";
-    EXPECT_THAT(watcher.held(), HasSubstr("nothing was heard"));
+    EXPECT_THAT(watcher.held(), HasSubstr("gave no sign of life"));
 }
 
 TEST_F(Drive, IsHeldDespiteThePongsWhenOnlyRequestsAreProof) {

@@ -137,7 +137,7 @@ TEST(SimulatedHall, RefusesInvalidArguments) {
                 HasSubstr("'jump' is unknown; expected one of wave, nod"));
     auto const walk = [&](std::vector<std::string> to) { return steerer.refusal("walk", {anna, texts("target_position", to)}); };
     EXPECT_THAT(walk({}), HasSubstr("at least one position"));
-    EXPECT_THAT(walk({"attic"}), HasSubstr("'attic' is neither"));
+    EXPECT_THAT(walk({"attic"}), HasSubstr("'attic' is not a valid target"));
     EXPECT_THAT(walk({"3000, 2000", "13000, 1000"}),
                 HasSubstr("'13000, 1000' is outside of the hall, in a wall or in furniture"));
     EXPECT_EQ(walk({"desk", "3000, 2000", "3000, 2000, 90"}), "");

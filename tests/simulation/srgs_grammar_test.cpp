@@ -169,7 +169,7 @@ TEST(SrgsGrammar, ReportsThePlaceOfAnError) {
     EXPECT_THAT(flaw(grammar("<rule id='a'>\n<item repeat='3-2'>x</item></rule>", "")),
                 AllOf(StartsWith("grammar:3:1: "), HasSubstr("has a maximum below its minimum")));
     EXPECT_THAT(flaw(grammar("<rule id='a'>\n<ruleref uri='#b'/></rule>", "")),
-                AllOf(StartsWith("grammar:3:1: "), HasSubstr("no rule 'b'")));
+                AllOf(StartsWith("grammar:3:1: "), HasSubstr("unknown rule 'b'")));
     EXPECT_THAT(flaw(grammar("<rule id='a'>\n<ruleref uri='http://x/y#b'/></rule>", "")), HasSubstr("unsupported uri"));
     EXPECT_THAT(flaw(grammar("<rule id='a'>\n<ruleref/></rule>", "")), HasSubstr("either 'uri' or 'special'"));
     EXPECT_THAT(flaw(grammar("<rule id='a'>x</rule>", " root='b'")), AllOf(StartsWith("grammar:1:1: "), HasSubstr("'b'")));

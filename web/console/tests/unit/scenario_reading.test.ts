@@ -79,8 +79,8 @@ describe('changing', () => {
   test('changing an attribute changes nothing else', () => {
     const after = state('find').children.find((one) => one.name === 'after')!;
     expect(difference(with_attribute(text, after, 'seconds', '3 & "4"'))).toEqual([
-      '- <after seconds="{looking}" to="go_to_start_position"/>  <!-- from where the hall is seen -->',
-      '+ <after seconds="3 &amp; &quot;4&quot;" to="go_to_start_position"/>  <!-- from where the hall is seen -->',
+      '- <after seconds="{looking}" to="go_to_start_position"/>  <!-- the start overlooks the hall -->',
+      '+ <after seconds="3 &amp; &quot;4&quot;" to="go_to_start_position"/>  <!-- the start overlooks the hall -->',
     ]);
     const [completed] = state('approach').children.filter((one) => one.name === 'completed');
     expect(difference(with_attribute(text, completed!, 'status', undefined))).toContain('+ <completed to="see_whether_they_stand"/>');
