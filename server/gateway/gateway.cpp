@@ -1,13 +1,13 @@
-#include "net/gateway.hpp"
+#include "gateway/gateway.hpp"
 
 #include <charconv>
 #include <thread>
 #include <utility>
 
 #include "engine/attempts.hpp"
-#include "net/memory.hpp"
+#include "gateway/memory.hpp"
 
-namespace rois::net {
+namespace rois {
 
 namespace {
 
@@ -168,7 +168,7 @@ Fault Gateway::fault_of(Refusal refusal) {
         case Refusal::no_memory:
             return {FaultCode::too_many, memory_.refuse("there is no memory for a new session"), {}, {}};
         case Refusal::shutting_down:
-            return rois::net::shutting_down();
+            return rois::shutting_down();
         case Refusal::no_session:
             break;
     }
@@ -354,4 +354,4 @@ bool Farewell::alone() const {
     return gateway_.readers_.count(session_) == 1;
 }
 
-}  // namespace rois::net
+}  // namespace rois

@@ -1,4 +1,4 @@
-#include "net/log_queue.hpp"
+#include "gateway/log_queue.hpp"
 
 #include <poll.h>
 #include <spdlog/pattern_formatter.h>
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-namespace rois::net {
+namespace rois {
 
 namespace {
 
@@ -202,4 +202,4 @@ bool LogQueue::write(std::string_view text) {
     return true;
 }
 
-}  // namespace rois::net
+}  // namespace rois

@@ -17,7 +17,7 @@
 
 #include "types/instant.hpp"
 
-namespace rois::net {
+namespace rois {
 
 // A sink of spdlog. Any thread.
 class LogQueue : public spdlog::sinks::sink {
@@ -90,4 +90,4 @@ private:
     std::jthread thread_;
 };
 
-}  // namespace rois::net
+}  // namespace rois

@@ -15,13 +15,13 @@
 
 #include "engine/engine.hpp"
 #include "engine/prefetch.hpp"
-#include "net/log.hpp"
-#include "net/readers.hpp"
-#include "net/session_quota.hpp"
-#include "net/telemetry.hpp"
+#include "gateway/log.hpp"
+#include "gateway/readers.hpp"
+#include "gateway/session_quota.hpp"
+#include "gateway/telemetry.hpp"
 #include "xml/codec.hpp"
 
-namespace rois::net {
+namespace rois {
 
 class Gateway;
 
@@ -213,4 +213,4 @@ private:
     Reader& reader_;
 };
 
-}  // namespace rois::net
+}  // namespace rois

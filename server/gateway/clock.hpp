@@ -7,9 +7,9 @@
 #include <functional>
 #include <thread>
 
-#include "net/troubles.hpp"
+#include "gateway/troubles.hpp"
 
-namespace rois::net {
+namespace rois {
 
 // Ticks as long as it lives, on a thread with the name "clock". An exception that leaves a tick is reported, and the next tick
 // comes in time.
@@ -32,4 +32,4 @@ private:
     std::jthread thread_;
 };
 
-}  // namespace rois::net
+}  // namespace rois

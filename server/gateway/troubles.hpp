@@ -7,10 +7,10 @@
 #include <mutex>
 #include <string_view>
 
-#include "net/telemetry.hpp"
+#include "gateway/telemetry.hpp"
 #include "types/instant.hpp"
 
-namespace rois::net {
+namespace rois {
 
 // Logs and counts them. What happens within 0.1 s is one incident, however many exceptions that is; at the third incident within
 // a second the gateway is given up. Exceptions of one connection are none: they end that connection. Any thread.
@@ -35,4 +35,4 @@ private:
     bool given_up_ = false;
 };
 
-}  // namespace rois::net
+}  // namespace rois

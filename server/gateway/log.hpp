@@ -10,7 +10,7 @@
 #include "engine/journal.hpp"
 #include "types/messages.hpp"
 
-namespace rois::net {
+namespace rois {
 
 // Sessions are logged at the level info, the rest at debug. Called with the engine locked.
 class EngineLog : public Journal {
@@ -46,4 +46,4 @@ void log_fault(Fault const&, std::string_view request, std::string const& peer);
 // Whether log_fault would write a line about it.
 bool is_logged(FaultCode);
 
-}  // namespace rois::net
+}  // namespace rois

@@ -17,7 +17,7 @@
 #include "types/messages.hpp"
 #include "xml/codec.hpp"
 
-namespace rois::net {
+namespace rois {
 
 class LogQueue;
 
@@ -105,4 +105,4 @@ private:
 // "tick", for example.
 std::string_view name_of(Telemetry::Where);
 
-}  // namespace rois::net
+}  // namespace rois

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rois::net {
+namespace rois {
 
 // An IPv6 address; one of IPv4 in its form ::ffff:192.0.2.1.
 using Address = std::array<unsigned char, 16>;
@@ -38,4 +38,4 @@ enum class Limits : unsigned char {
 };
 Limits limits_of(Address const&, std::vector<Network> const& proxies);
 
-}  // namespace rois::net
+}  // namespace rois

@@ -5,7 +5,7 @@
 
 #include "engine/memory_budget.hpp"
 
-namespace rois::net {
+namespace rois {
 
 // What is in physical memory, in bytes; 0 if the system does not say. Any thread.
 std::size_t resident_bytes();
@@ -34,4 +34,4 @@ public:
     static void refill();
 };
 
-}  // namespace rois::net
+}  // namespace rois

@@ -9,7 +9,7 @@
 
 #include "engine/engine.hpp"
 
-namespace rois::net {
+namespace rois {
 
 class Wakes;
 
@@ -73,4 +73,4 @@ private:
     std::unordered_map<SessionId, std::shared_ptr<Audience>, IdHash> audiences_;  // that somebody is in
 };
 
-}  // namespace rois::net
+}  // namespace rois

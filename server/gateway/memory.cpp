@@ -1,4 +1,4 @@
-#include "net/memory.hpp"
+#include "gateway/memory.hpp"
 
 #include <fcntl.h>
 #include <malloc.h>
@@ -16,7 +16,7 @@
 
 #include "types/instant.hpp"
 
-namespace rois::net {
+namespace rois {
 
 namespace {
 
@@ -143,4 +143,4 @@ MemoryReserve::~MemoryReserve() {
 
 void MemoryReserve::refill() { Reserve::instance().refill(); }
 
-}  // namespace rois::net
+}  // namespace rois
