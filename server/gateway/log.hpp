@@ -1,4 +1,4 @@
-// The log's lines about sessions and refused requests. What a client says is quoted: no line can be forged.
+// Log lines about sessions and refused requests. Text of a client is quoted, so it cannot forge a line.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,7 @@ private:
 void log_joined(std::uint64_t session, std::string_view how, std::string const& peer);
 
 // A request was refused with a fault: at the level info if the gateway does not let the client in, otherwise at debug. `request`
-// is what was asked for.
+// is the request line or the operation.
 void log_fault(Fault const&, std::string_view request, std::string const& peer);
 // Whether log_fault would write a line about it.
 bool is_logged(FaultCode);

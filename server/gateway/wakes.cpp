@@ -86,7 +86,7 @@ void Wakes::yield_core() {
     std::this_thread::yield();
 }
 
-// A thousand readers are far away in memory, each of them: they are called for some turns before theirs.
+// Prefetches the next few readers: with a thousand readers, each is a cache miss.
 void Wakes::approach() const {
     auto const later = [&](std::size_t turns) {
         return served_ + turns < serving_.size() ? serving_[served_ + turns].get() : nullptr;
