@@ -31,7 +31,8 @@ void accept_for_ever(Acceptor& acceptor, Shared&... shared) {
             error_code ignored;
             socket.set_option(Tcp::no_delay{true}, ignored);
             socket.non_blocking(true, ignored);
-            ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_CONGESTION, "reno", 4);  // like the gateway
+            // The cheapest algorithm on loopback. The gateway uses the system's.
+            ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_CONGESTION, "reno", 4);
             std::make_shared<Session>(std::move(socket), shared...)->run();
         }
         accept_for_ever<Session>(acceptor, shared...);

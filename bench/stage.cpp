@@ -9,8 +9,8 @@
 #include "engine/engine.hpp"
 #include "files/files.hpp"
 #include "net/documents.hpp"
-#include "net/gateway.hpp"
-#include "net/secrets.hpp"
+#include "gateway/gateway.hpp"
+#include "gateway/secrets.hpp"
 #include "net/server.hpp"
 #include "probe.hpp"
 #include "xml/schemas.hpp"
@@ -35,14 +35,14 @@ void serve(Setting const& setting) {
     engine_settings.max_sessions = 100'000;
     engine_settings.max_predicates = 10'000'000;
     engine_settings.max_waiting_notifications = 100'000;  // the row of set_parameter over HTTP does not fetch them
-    net::Readers readers;
-    Engine engine{profile, known_profiles(), engine_settings, readers, net::fresh_secret};
+    Readers readers;
+    Engine engine{profile, known_profiles(), engine_settings, readers, fresh_secret};
     auto const of_probes = std::make_shared<ComponentProfile const>(probe_profile());
     auto const of_bystanders = std::make_shared<ComponentProfile const>(bystander_profile());
     for (std::size_t i = 0; i < setting.probes; ++i) engine.add(probe("probe" + std::to_string(i), of_probes));
     for (std::size_t i = 0; i < setting.bystanders; ++i) engine.add(probe("bystander" + std::to_string(i), of_bystanders));
-    net::Telemetry telemetry;
-    net::Gateway gateway{engine, readers, telemetry};
+    Telemetry telemetry;
+    Gateway gateway{engine, readers, telemetry};
     net::Documents const documents{gateway, telemetry, *schemas, {}};
     net::Settings net_settings;
     net_settings.port = setting.port;

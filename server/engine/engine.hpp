@@ -75,7 +75,7 @@ struct EngineStatistics {
     std::size_t memory_used = 0;    // bytes
 };
 
-// Not thread-safe: the caller serializes all calls (net::Gateway holds a mutex). Only reading from a NotificationQueue needs no
+// Not thread-safe: the caller serializes all calls (Gateway holds a mutex). Only reading from a NotificationQueue needs no
 // such lock. The engine never reads a clock or opens a file: the caller passes the time, and `steady` must not go back. A call
 // handles everything that it causes before it returns.
 class Engine {

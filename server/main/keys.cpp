@@ -175,9 +175,9 @@ bool set_origins(Settings& settings, std::string const& text) {
 }
 
 bool set_proxies(Settings& settings, std::string const& text) {
-    std::vector<net::Network> proxies;
+    std::vector<Network> proxies;
     for (auto const& word : words_of(text)) {
-        auto const network = net::read_network(word);
+        auto const network = read_network(word);
         if (!network) return false;
         proxies.push_back(*network);
     }
@@ -188,7 +188,7 @@ bool set_proxies(Settings& settings, std::string const& text) {
 std::string show_proxies(Settings const& settings) {
     std::vector<std::string> words;
     words.reserve(settings.net.proxies.size());
-    for (auto const& network : settings.net.proxies) words.push_back(net::text_of(network));
+    for (auto const& network : settings.net.proxies) words.push_back(text_of(network));
     return joined(words);
 }
 

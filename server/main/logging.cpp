@@ -47,8 +47,8 @@ void protect_standard_files() {
         if (::fcntl(file, F_GETFD) < 0) ::open("/dev/null", O_RDWR);  // takes the lowest free number, which is `file`
 }
 
-std::shared_ptr<net::LogQueue const> set_up_logging(LogFormat format, LogLevel level) {
-    auto queue = std::make_shared<net::LogQueue>(STDERR_FILENO);
+std::shared_ptr<LogQueue const> set_up_logging(LogFormat format, LogLevel level) {
+    auto queue = std::make_shared<LogQueue>(STDERR_FILENO);
     auto logger = std::make_shared<spdlog::logger>("rois-gateway", queue);
     auto formatter = std::make_unique<spdlog::pattern_formatter>(spdlog::pattern_time_type::utc);
     formatter->add_flag<JsonText>('*');

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "main/settings.hpp"
-#include "net/log_queue.hpp"
+#include "gateway/log_queue.hpp"
 
 namespace rois {
 
@@ -14,7 +14,7 @@ void protect_standard_files();
 
 // Makes spdlog's default logger write to the queue that is returned. At the end of the process, it writes remaining lines for at
 // most half a second.
-std::shared_ptr<net::LogQueue const> set_up_logging(LogFormat, LogLevel);
+std::shared_ptr<LogQueue const> set_up_logging(LogFormat, LogLevel);
 
 // Its destructor waits until all lines are written, for at most half a second.
 struct LogFlush {

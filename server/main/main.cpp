@@ -10,6 +10,10 @@
 
 #include "engine/engine.hpp"
 #include "files/files.hpp"
+#include "gateway/gateway.hpp"
+#include "gateway/memory.hpp"
+#include "gateway/open_files.hpp"
+#include "gateway/secrets.hpp"
 #include "main/command_line.hpp"
 #include "main/configuration_file.hpp"
 #include "main/keys.hpp"
@@ -20,11 +24,7 @@
 #include "media/server.hpp"
 #include "net/documents.hpp"
 #include "net/foreign.hpp"
-#include "net/gateway.hpp"
 #include "net/health_check.hpp"
-#include "net/memory.hpp"
-#include "net/open_files.hpp"
-#include "net/secrets.hpp"
 #include "net/server.hpp"
 #include "simulation/component_refs.hpp"
 #include "simulation/floor_map.hpp"
@@ -107,7 +107,7 @@ net::Settings with_all_hosts(Settings const& settings) {
     return all;
 }
 
-net::ClientLimits client_limits(net::Settings const& settings) {
+ClientLimits client_limits(net::Settings const& settings) {
     return {.sessions_per_connection = settings.max_sessions_per_connection,
             .sessions_per_address = settings.max_sessions_per_address,
             .streams_per_session = settings.max_streams_per_session};
@@ -118,7 +118,7 @@ void make_room_for_connections(net::Settings& net, media::Settings const& media)
     constexpr std::size_t own = 64, of_thread = 8;  // other open files, with some reserve
     auto const others = own + of_thread * net.threads + (media.host.empty() ? 0 : media.max_connections);
     auto const wanted = others + net.max_connections;
-    auto const possible = net::raise_open_files(wanted);
+    auto const possible = raise_open_files(wanted);
     if (possible >= wanted) return;
     auto const fit = std::max<std::size_t>(possible, others + 1) - others;
     spdlog::warn(
@@ -135,7 +135,7 @@ std::shared_ptr<media::Server> make_media(media::Settings settings, net::Setting
     settings.is_allowed_origin = [allowed = net.allowed_origins](std::string_view origin, std::string_view host) {
         return net::is_allowed_origin(origin, host, allowed);
     };
-    return std::make_shared<media::Server>(std::move(settings), net::fresh_secret);
+    return std::make_shared<media::Server>(std::move(settings), fresh_secret);
 }
 
 bool has_steering(Settings const& settings) { return settings.steering == Steering::on || settings.sim_speed == 0; }
@@ -178,7 +178,7 @@ EngineProfile engine_profile(Settings const& settings, simulation::FloorPlan con
 }
 
 // Reads the folder of profiles again. If that fails, logs why and changes nothing.
-void read_again(UserComponents& components, net::Gateway& gateway) {
+void read_again(UserComponents& components, Gateway& gateway) {
     try {
         spdlog::info("profiles: reading the folder again after SIGHUP");
         gateway.change([&] { return components.read(); });
@@ -201,23 +201,23 @@ int serve(CommandLine const& command) {
     }
     auto const log = set_up_logging(settings.log_format, settings.log_level);
     LogFlush const flush;
-    net::release_large_blocks_at_once();
+    release_large_blocks_at_once();
     auto net_settings = with_all_hosts(settings);
     make_room_for_connections(net_settings, settings.media);
     for (auto const& warning : command.warnings) spdlog::warn("{}", warning);
     auto const media = make_media(settings.media, net_settings);
-    net::Readers readers;
-    Engine engine{engine_profile(settings, simulation->hall().plan()), profiles, settings.engine, readers, net::fresh_secret};
+    Readers readers;
+    Engine engine{engine_profile(settings, simulation->hall().plan()), profiles, settings.engine, readers, fresh_secret};
     engine.add(simulation);
     engine.describe(simulation::named_places(simulation->hall().plan()));
     for (auto& component : simulation::robot_components(simulation, media, profiles)) engine.add(std::move(component));
     if (has_steering(settings)) engine.add(simulation::simulated_hall(simulation, profile_of_hall(schemas)));
     SpeechLog const speech_log{simulation};
-    net::Telemetry telemetry;
+    Telemetry telemetry;
     telemetry.show(log);
-    MemoryBudget memory{settings.net.memory_budget, net::memory_in_use};
-    net::MemoryReserve const reserve{memory};
-    net::Gateway gateway{engine, readers, telemetry, client_limits(net_settings), memory};
+    MemoryBudget memory{settings.net.memory_budget, memory_in_use};
+    MemoryReserve const reserve{memory};
+    Gateway gateway{engine, readers, telemetry, client_limits(net_settings), memory};
     UserComponents user_components{
         schemas, {simulation, media, schemas}, profiles, own_refs(settings, simulation->hall().plan()), settings.profiles};
     if (!settings.profiles.empty()) gateway.change([&] { return user_components.read(); });

@@ -8,7 +8,7 @@
 #include <utility>
 #include <variant>
 
-#include "net/addresses.hpp"
+#include "gateway/addresses.hpp"
 
 namespace rois::net {
 

@@ -97,7 +97,7 @@ Task<Connection::Then> Connection::serve() {
             wire_.use(head().content_length);
             if (answer.turn == Answer::Turn::disconnected) {
                 co_await flush();
-                co_await others_heard(loop_.shared().gateway, session_, loop_.wakes());
+                co_await others_heard(loop_.shared().gateway, session_, loop_.executor(), loop_.wakes());
             }
             then = reply(std::move(answer));
         }

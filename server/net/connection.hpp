@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "net/gateway.hpp"
+#include "gateway/gateway.hpp"
 #include "net/http_answer.hpp"
 #include "net/http_head.hpp"
 #include "net/loop.hpp"

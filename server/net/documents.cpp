@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "net/secrets.hpp"
+#include "gateway/secrets.hpp"
 
 namespace rois::net {
 

@@ -4,11 +4,11 @@
 #include <memory>
 #include <string>
 
-#include "net/gateway.hpp"
+#include "gateway/gateway.hpp"
 #include "net/http_answer.hpp"
 #include "net/http_head.hpp"
 #include "net/routes.hpp"
-#include "net/telemetry.hpp"
+#include "gateway/telemetry.hpp"
 #include "net/web_files.hpp"
 #include "xml/schemas.hpp"
 

@@ -64,7 +64,7 @@ std::variant<NotificationsWanted, Fault> read_wanted(RequestHead const& head) {
 Task<HttpAnswer> poll(Wire& wire, Gateway& gateway, Telemetry& telemetry, Wakes& wakes, SessionId const& session,
                       NotificationsWanted const& wanted) {
     auto const until = std::chrono::steady_clock::now() + wanted.wait;
-    auto const signal = std::make_shared<Signal>(wakes);
+    auto const signal = std::make_shared<Signal>(wire.executor(), wakes);
     auto read = gateway.read(session, Link::stream, wanted.after, *signal, Readers::Until::answered);
     if (auto const* fault = std::get_if<Fault>(&read)) co_return answer_of(*fault);
     auto const reading = std::get<std::unique_ptr<Reading>>(std::move(read));
@@ -92,7 +92,7 @@ Task<HttpAnswer> poll(Wire& wire, Gateway& gateway, Telemetry& telemetry, Wakes&
 
 Task<std::optional<HttpAnswer>> stream(Wire& wire, Gateway& gateway, Telemetry& telemetry, Wakes& wakes, SessionId const& session,
                                        NotificationsWanted const& wanted, Settings const& settings) {
-    auto const signal = std::make_shared<Signal>(wakes);
+    auto const signal = std::make_shared<Signal>(wire.executor(), wakes);
     auto read = gateway.read(session, Link::stream, wanted.after, *signal);
     if (auto const* fault = std::get_if<Fault>(&read)) co_return answer_of(*fault);
     auto const reading = std::get<std::unique_ptr<Reading>>(std::move(read));
@@ -126,9 +126,9 @@ Task<std::optional<HttpAnswer>> stream(Wire& wire, Gateway& gateway, Telemetry& 
     co_return std::nullopt;
 }
 
-Task<> others_heard(Gateway& gateway, SessionId const& session, Wakes& wakes) {
+Task<> others_heard(Gateway& gateway, SessionId const& session, Executor const& executor, Wakes& wakes) {
     auto const until = std::chrono::steady_clock::now() + std::chrono::seconds{1};
-    auto const signal = std::make_shared<Signal>(wakes);
+    auto const signal = std::make_shared<Signal>(executor, wakes);
     Farewell const farewell{gateway, session, *signal};
     while (!farewell.alone()) {
         auto const woken = co_await signal->wait_until(until);

@@ -1,7 +1,7 @@
 // GET /rois/notifications: a session's notifications as server-sent events, or answered to a long poll (wire.md).
 #pragma once
 
-#include "net/gateway.hpp"
+#include "gateway/gateway.hpp"
 #include "net/http_answer.hpp"
 #include "net/http_head.hpp"
 #include "net/settings.hpp"
@@ -26,6 +26,6 @@ Task<std::optional<HttpAnswer>> stream(Wire&, Gateway&, Telemetry&, Wakes&, Sess
                                        Settings const&);
 
 // Waits until all readers of a session that has disconnected have taken what was left for them, or a second has passed.
-Task<> others_heard(Gateway&, SessionId const&, Wakes&);
+Task<> others_heard(Gateway&, SessionId const&, Executor const&, Wakes&);
 
 }  // namespace rois::net

@@ -15,7 +15,15 @@ namespace rois::net {
 
 namespace {
 
-using ReusePort = asio::detail::socket_option::boolean<SOL_SOCKET, SO_REUSEPORT>;
+// SO_REUSEPORT, switched on: Asio has no public name for it. A type of Asio's concept SettableSocketOption.
+struct ReusePort {
+    static int level(asio::ip::tcp const&) { return SOL_SOCKET; }
+    static int name(asio::ip::tcp const&) { return SO_REUSEPORT; }
+    void const* data(asio::ip::tcp const&) const { return &on; }
+    static std::size_t size(asio::ip::tcp const&) { return sizeof on; }
+
+    int on = 1;
+};
 
 constexpr auto between_tries = std::chrono::milliseconds{50};
 constexpr unsigned most_without_memory = 64;  // connections taken between two pauses, while the system has no memory
@@ -60,7 +68,7 @@ void Listener::bind_alone(Endpoint const& endpoint) {
     acceptor_.bind(endpoint);
 }
 
-void Listener::share() { acceptor_.set_option(ReusePort{true}); }
+void Listener::share() { acceptor_.set_option(ReusePort{}); }
 
 void Listener::bind_too(Endpoint const& endpoint) {
     open(endpoint);

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "net/asio.hpp"
-#include "net/gateway.hpp"
+#include "gateway/gateway.hpp"
 #include "xml/codec.hpp"
 
 namespace rois::net {

@@ -32,7 +32,7 @@ Loop::Loop(Shared& shared)
     : shared_{shared},
       reader_{shared.schemas, shared.settings.document, shared.settings.validation},
       sweeps_for_all_{sweeps_for_all(shared.settings)},
-      wakes_{io_.get_executor(), shared.troubles} {
+      wakes_{[this] { asio::post(io_, [this] { wakes_.serve(); }); }, shared.troubles} {
     always(Troubles::Where::sweep, [this] { return sweep(); });
 }
 

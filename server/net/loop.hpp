@@ -6,15 +6,15 @@
 #include <memory>
 #include <vector>
 
+#include "gateway/gateway.hpp"
+#include "gateway/telemetry.hpp"
+#include "gateway/troubles.hpp"
+#include "gateway/wakes.hpp"
 #include "net/admission.hpp"
 #include "net/asio.hpp"
 #include "net/documents.hpp"
-#include "net/gateway.hpp"
 #include "net/long_documents.hpp"
 #include "net/settings.hpp"
-#include "net/telemetry.hpp"
-#include "net/troubles.hpp"
-#include "net/wakes.hpp"
 
 namespace rois::net {
 

@@ -14,7 +14,7 @@
 #include <tuple>
 #include <vector>
 
-#include "net/clock.hpp"
+#include "gateway/clock.hpp"
 #include "net/listener.hpp"
 #include "net/loop.hpp"
 

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "net/documents.hpp"
-#include "net/gateway.hpp"
+#include "gateway/gateway.hpp"
 #include "net/settings.hpp"
-#include "net/telemetry.hpp"
+#include "gateway/telemetry.hpp"
 
 namespace rois::net {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "net/addresses.hpp"
+#include "gateway/addresses.hpp"
 #include "xml/codec.hpp"
 
 namespace rois::net {

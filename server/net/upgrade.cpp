@@ -1,6 +1,8 @@
 #include "net/upgrade.hpp"
 
-#include "net/secrets.hpp"
+#include <algorithm>
+
+#include "gateway/secrets.hpp"
 
 namespace rois::net {
 
@@ -23,6 +25,17 @@ HttpAnswer broken(std::string reason) {
 }
 
 }  // namespace
+
+std::string websocket_accept(std::string_view key) {
+    return sha1_base64(std::string{key} + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11");
+}
+
+bool is_websocket_key(std::string_view text) {
+    if (text.size() != 24 || !text.ends_with("==")) return false;
+    return std::ranges::all_of(text.substr(0, 22), [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '+' || c == '/';
+    });
+}
 
 HttpAnswer upgrade(RequestHead const& head) {
     if (head.method != "GET" || head.http_1_0 || !head.lists("Upgrade", "websocket") || !head.lists("Connection", "upgrade")) {

@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-#include "net/secrets.hpp"
+#include "gateway/secrets.hpp"
 
 namespace rois::net {
 

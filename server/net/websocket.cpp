@@ -158,7 +158,7 @@ Task<> WebSocket::say_farewell() {
     }
     reading_.reset();
     flush();
-    co_await others_heard(gateway_, session_, wakes());
+    co_await others_heard(gateway_, session_, wire_->executor(), wakes());
     say(*std::exchange(farewell_, nullptr));
 }
 
@@ -187,7 +187,7 @@ Task<> WebSocket::wait_for_room() {
 }
 
 Task<> WebSocket::something_written() {
-    room_ = std::make_shared<Signal>(wakes());
+    room_ = std::make_shared<Signal>(wire_->executor(), wakes());
     co_await room_->wait_until(Steady::max());
     room_.reset();
 }

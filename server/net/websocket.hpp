@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "net/gateway.hpp"
+#include "gateway/gateway.hpp"
 #include "net/long_documents.hpp"
 #include "net/settings.hpp"
 #include "net/signal.hpp"

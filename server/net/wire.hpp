@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "net/asio.hpp"
-#include "net/telemetry.hpp"
+#include "gateway/telemetry.hpp"
 #include "types/instant.hpp"
 
 namespace rois::net {

@@ -9,7 +9,7 @@ namespace rois::faults {
 
 // What can fail.
 enum class Of : std::uint8_t {
-    memory,  // operator new throws std::bad_alloc; not for a destructor while an exception unwinds (net::MemoryReserve)
+    memory,  // operator new throws std::bad_alloc; not for a destructor while an exception unwinds (MemoryReserve)
     send,    // send and write: EPIPE
     accept,  // EMFILE
     epoll    // epoll_wait and epoll_ctl: ENOMEM

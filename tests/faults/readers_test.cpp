@@ -1,16 +1,14 @@
 // A reader that is on its way out, as a WebSocket is that an exception has unwound.
 #include <gtest/gtest.h>
 
-#include <boost/asio/io_context.hpp>
-
 #include "engine/world.hpp"
 #include "files/files.hpp"
-#include "net/gateway.hpp"
-#include "net/secrets.hpp"
-#include "net/wakes.hpp"
+#include "gateway/gateway.hpp"
+#include "gateway/secrets.hpp"
+#include "gateway/wakes.hpp"
 #include "xml/schemas.hpp"
 
-namespace rois::net {
+namespace rois {
 
 namespace {
 
@@ -47,8 +45,7 @@ TEST(AReaderOnItsWayOut, IsNoTroubleForTheRequestsOfOthers) {
     Telemetry telemetry;
     Gateway gateway{engine, readers, telemetry};
     Troubles troubles{telemetry, [] {}};
-    boost::asio::io_context io;
-    Wakes wakes{io.get_executor(), troubles};
+    Wakes wakes{[] {}, troubles};
     auto const ask = [&](SessionId const& session, std::string const& operation) {
         return gateway.answer(requests, session, "<" + operation + " xmlns=\"urn:x-rois:psm:xml:message:1\"/>", Via::websocket);
     };
@@ -63,4 +60,4 @@ TEST(AReaderOnItsWayOut, IsNoTroubleForTheRequestsOfOthers) {
     EXPECT_NO_THROW(ask(session, "disconnect")) << "nobody is woken that is gone";
 }
 
-}  // namespace rois::net
+}  // namespace rois

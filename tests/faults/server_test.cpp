@@ -10,7 +10,7 @@
 #include "faults/faults.hpp"
 #include "faults/wheels.hpp"
 #include "files/files.hpp"
-#include "net/secrets.hpp"
+#include "gateway/secrets.hpp"
 #include "net/server.hpp"
 #include "xml/schemas.hpp"
 
@@ -50,11 +50,11 @@ struct Rig {
     faults::Exempt exempt;
     xml::Platform platform;
     std::shared_ptr<xml::Schemas const> schemas = std::make_shared<xml::Schemas const>(files::schemas());
-    net::Readers readers;
-    Engine engine{profile(), {common}, short_windows(), readers, net::fresh_secret};
+    Readers readers;
+    Engine engine{profile(), {common}, short_windows(), readers, fresh_secret};
     Wheels* base = nullptr;
-    net::Telemetry telemetry;
-    std::optional<net::Gateway> gateway;
+    Telemetry telemetry;
+    std::optional<Gateway> gateway;
     std::optional<net::Documents> documents;
     std::optional<net::Server> server;
     std::atomic<int> given_up = 0;

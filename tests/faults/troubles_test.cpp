@@ -3,9 +3,9 @@
 
 #include <stdexcept>
 
-#include "net/troubles.hpp"
+#include "gateway/troubles.hpp"
 
-namespace rois::net {
+namespace rois {
 
 using namespace std::chrono_literals;
 
@@ -60,4 +60,4 @@ TEST_F(ATrouble, OfAConnectionIsItsOwn) {
     EXPECT_EQ(given_up, 0);
 }
 
-}  // namespace rois::net
+}  // namespace rois

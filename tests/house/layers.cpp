@@ -17,6 +17,8 @@ Headers const xerces{"xercesc/"};
 Headers const pugixml{"pugixml.hpp", "pugiconfig.hpp"};
 Headers const boost{"boost/"};
 Headers const boost_geometry{"boost/geometry/"};
+Headers const boost_address{"boost/asio/ip/address.hpp"};  // a value, no socket
+Headers const boost_container{"boost/container/"};
 Headers const openssl{"openssl/"};
 Headers const prometheus{"prometheus/"};
 Headers const spdlog{"spdlog/"};
@@ -46,9 +48,13 @@ std::vector<Layer> const layers{
     {"server/xml/", {"xml/", "types/"}, {xerces, pugixml}, Time::passed_in},
     {"server/engine/", {"engine/", "types/"}, {eigen, boost_geometry}, Time::passed_in},
     {"server/files/", {"files/"}, {}, Time::passed_in},
-    {"server/net/", {"net/", "engine/", "xml/", "types/"}, {boost, openssl, prometheus, spdlog, posix}, Time::read},
+    {"server/gateway/",
+     {"gateway/", "engine/", "xml/", "types/"},
+     {boost_address, boost_container, openssl, prometheus, spdlog, posix},
+     Time::read},
+    {"server/net/", {"net/", "gateway/", "engine/", "xml/", "types/"}, {boost, spdlog, posix}, Time::read},
     {"server/main/",
-     {"main/", "net/", "engine/", "xml/", "types/", "files/", "simulation/", "media/server.hpp", "media/settings.hpp"},
+     {"main/", "net/", "gateway/", "engine/", "xml/", "types/", "files/", "simulation/", "media/server.hpp", "media/settings.hpp"},
      {cli11, json, spdlog, posix},
      Time::read},
     {"components/media/", {"media/"}, {boost, jpeg}, Time::read},

@@ -41,6 +41,19 @@ TEST(Layers, SiblingsDoNotKnowEachOther) {
                             "server/xml/codec.hpp:1: server/xml/ may not use \"engine/engine.hpp\""));
 }
 
+TEST(Layers, TheGatewayKnowsNoSockets) {
+    Tree const tree{
+        {"server/gateway/gateway.cpp", "#include \"engine/engine.hpp\"\n#include \"net/web.hpp\"\n#include <boost/asio.hpp>\n"},
+        {"server/engine/engine.hpp", "#include \"gateway/gateway.hpp\"\n"},
+        {"server/gateway/gateway.hpp", ""},
+        {"server/net/web.cpp", "#include \"gateway/gateway.hpp\"\n"},
+        {"server/net/web.hpp", ""}};
+    EXPECT_THAT(against_layers(tree),
+                ElementsAre("server/engine/engine.hpp:1: server/engine/ may not use \"gateway/gateway.hpp\"",
+                            "server/gateway/gateway.cpp:2: server/gateway/ may not use \"net/web.hpp\"",
+                            "server/gateway/gateway.cpp:3: server/gateway/ may not see <boost/asio.hpp>"));
+}
+
 TEST(Layers, ALibraryBelongsToOneLayer) {
     Tree const tree{{"server/engine/engine.cpp", "#include <vector>\n#include <boost/asio.hpp>\n"},
                     {"server/types/ids.hpp", "#include <unistd.h>\n"},

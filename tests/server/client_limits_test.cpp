@@ -15,9 +15,9 @@
 #include <optional>
 #include <vector>
 
-#include "net/addresses.hpp"
+#include "gateway/addresses.hpp"
+#include "gateway/session_quota.hpp"
 #include "net/admission.hpp"
-#include "net/session_quota.hpp"
 #include "server/websocket_client.hpp"
 
 namespace rois::test {
@@ -39,7 +39,7 @@ std::optional<std::string> own_address() {
         if (one->ifa_addr == nullptr || one->ifa_addr->sa_family != AF_INET) continue;
         if (getnameinfo(one->ifa_addr, sizeof(sockaddr_in), name.data(), name.size(), nullptr, 0, NI_NUMERICHOST) != 0) continue;
         std::string address = name.data();
-        if (!net::is_loopback(net::read_address(address).value())) return address;
+        if (!is_loopback(read_address(address).value())) return address;
     }
     return {};
 }
@@ -240,7 +240,7 @@ TEST_F(OpenFiles, ThatAreTooFewAreToldInOneLine) {
 
 TEST(Networks, HoldTheirAddresses) {
     auto const holds = [](std::string_view network, std::string_view address) {
-        return net::read_network(network).value().contains(net::read_address(address).value());
+        return read_network(network).value().contains(read_address(address).value());
     };
     EXPECT_TRUE(holds("192.0.2.1", "192.0.2.1"));
     EXPECT_FALSE(holds("192.0.2.1", "192.0.2.2"));
@@ -254,29 +254,27 @@ TEST(Networks, HoldTheirAddresses) {
     EXPECT_TRUE(holds("0.0.0.0/0", "203.0.113.1"));
     EXPECT_FALSE(holds("0.0.0.0/0", "2001:db8::1"));
     for (auto const* wrong : {"", "proxy", "10.0.0.0/33", "10.0.0.0/", "10.0.0.0/-1", "::/129", "10.0.0", "[::1]"})
-        EXPECT_FALSE(net::read_network(wrong)) << wrong;
+        EXPECT_FALSE(read_network(wrong)) << wrong;
     for (std::string const text : {"192.0.2.1", "10.0.0.0/8", "2001:db8::/32", "::1"})
-        EXPECT_EQ(net::text_of(net::read_network(text).value()), text);
+        EXPECT_EQ(text_of(read_network(text).value()), text);
 }
 
 TEST(Limits, AreByAddress) {
-    std::vector<net::Network> const proxies{net::read_network("192.0.2.0/24").value()};
-    auto const of = [&](std::string_view address) { return net::limits_of(net::read_address(address).value(), proxies); };
+    std::vector<Network> const proxies{read_network("192.0.2.0/24").value()};
+    auto const of = [&](std::string_view address) { return limits_of(read_address(address).value(), proxies); };
     for (auto const* loopback : {"127.0.0.1", "127.1.2.3", "::1", "::ffff:127.0.0.1"})
-        EXPECT_EQ(of(loopback), net::Limits::of_connection) << loopback;
-    EXPECT_EQ(of("192.0.2.9"), net::Limits::none);
-    EXPECT_EQ(of("198.51.100.1"), net::Limits::all);
-    EXPECT_EQ(net::limits_of(net::read_address("127.0.0.1").value(), {net::read_network("127.0.0.1").value()}),
-              net::Limits::none);
+        EXPECT_EQ(of(loopback), Limits::of_connection) << loopback;
+    EXPECT_EQ(of("192.0.2.9"), Limits::none);
+    EXPECT_EQ(of("198.51.100.1"), Limits::all);
+    EXPECT_EQ(limits_of(read_address("127.0.0.1").value(), {read_network("127.0.0.1").value()}), Limits::none);
 }
 
 TEST(Admission, CountsEachAddressForAsLongAsItsConnectionsLive) {
     using net::Admission;
-    using net::Limits;
-    auto const here = net::read_address("192.0.2.1").value(), there = net::read_address("192.0.2.2").value();
+    auto const here = read_address("192.0.2.1").value(), there = read_address("192.0.2.2").value();
     Admission admission{4, 2};
     std::list<Admission::Place> places;
-    auto const enter = [&](net::Address const& address, Limits limits) {
+    auto const enter = [&](rois::Address const& address, Limits limits) {
         auto entered = admission.enter(address, limits);
         if (auto* place = std::get_if<Admission::Place>(&entered)) return places.push_back(std::move(*place)), std::string{"in"};
         return std::string{std::get<Admission::Refused>(entered) == Admission::Refused::full ? "full" : "full of address"};
@@ -292,12 +290,12 @@ TEST(Admission, CountsEachAddressForAsLongAsItsConnectionsLive) {
 }
 
 TEST(SessionQuota, CountsSessionsUntilTheyEnd) {
-    using Verdict = net::SessionQuota::Verdict;
-    auto const here = net::read_address("192.0.2.1").value();
-    auto const make = [&](net::Limits limits) { return std::make_shared<net::Opener>(net::Opener{here, limits, 0}); };
-    auto const first = make(net::Limits::all), second = make(net::Limits::all), local = make(net::Limits::of_connection),
-               proxy = make(net::Limits::none);
-    net::SessionQuota quota{2, 3};
+    using Verdict = SessionQuota::Verdict;
+    auto const here = read_address("192.0.2.1").value();
+    auto const make = [&](Limits limits) { return std::make_shared<Opener>(Opener{here, limits, 0}); };
+    auto const first = make(Limits::all), second = make(Limits::all), local = make(Limits::of_connection),
+               proxy = make(Limits::none);
+    SessionQuota quota{2, 3};
     quota.opened(1, first);
     quota.opened(2, first);
     EXPECT_EQ(quota.verdict(*first), Verdict::full_connection);

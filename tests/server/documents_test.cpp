@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "net/documents.hpp"
-#include "net/secrets.hpp"
+#include "gateway/secrets.hpp"
 #include "server/http_client.hpp"
 
 namespace rois::test {
@@ -113,10 +113,10 @@ TEST(FloorMap, ShowsTheFramesOfRobots) {
 TEST(FloorMap, OfAnEngineWithoutOneIsNotFound) {
     xml::Platform const platform;
     xml::Schemas const schemas{{}};
-    net::Readers readers;
-    Engine engine{{}, {}, {}, readers, net::fresh_secret};
-    net::Telemetry telemetry;
-    net::Gateway gateway{engine, readers, telemetry};
+    Readers readers;
+    Engine engine{{}, {}, {}, readers, fresh_secret};
+    Telemetry telemetry;
+    Gateway gateway{engine, readers, telemetry};
     net::Documents const documents{gateway, telemetry, schemas, {}};
     auto const answer = documents.answer(net::route_of("/rois/map"), {});
     EXPECT_EQ(answer.status, 404);

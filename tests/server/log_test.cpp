@@ -14,12 +14,11 @@
 
 #include "client/http_client.hpp"
 #include "client/vocabulary.hpp"
-#include "net/log_queue.hpp"
+#include "gateway/log_queue.hpp"
 
 namespace rois::test {
 
 using namespace std::chrono_literals;
-using net::LogQueue;
 using testing::HasSubstr;
 
 namespace {

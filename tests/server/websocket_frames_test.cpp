@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "net/secrets.hpp"
+#include "net/upgrade.hpp"
 #include "net/websocket_frames.hpp"
 
 namespace rois::net {

@@ -1,4 +1,4 @@
-#include "net/secrets.hpp"
+#include "gateway/secrets.hpp"
 
 #include <openssl/evp.h>
 #include <openssl/rand.h>
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace rois::net {
+namespace rois {
 
 namespace {
 
@@ -55,16 +55,9 @@ std::string sha256_base64(std::string_view content) {
     return base64(bytes.data(), bytes.size());
 }
 
-std::string websocket_accept(std::string_view key) {
-    auto const bytes = hash(std::string{key} + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11", EVP_sha1());
+std::string sha1_base64(std::string_view content) {
+    auto const bytes = hash(content, EVP_sha1());
     return base64(bytes.data(), bytes.size());
 }
 
-bool is_websocket_key(std::string_view text) {
-    if (text.size() != 24 || !text.ends_with("==")) return false;
-    return std::ranges::all_of(text.substr(0, 22), [](char c) {
-        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '+' || c == '/';
-    });
-}
-
-}  // namespace rois::net
+}  // namespace rois

@@ -1,4 +1,4 @@
-#include "net/log.hpp"
+#include "gateway/log.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -7,10 +7,10 @@
 #include "engine/command.hpp"
 #include "engine/registry.hpp"
 #include "engine/session.hpp"
-#include "net/telemetry.hpp"
+#include "gateway/telemetry.hpp"
 #include "types/texts.hpp"
 
-namespace rois::net {
+namespace rois {
 
 namespace {
 
@@ -86,4 +86,4 @@ void log_fault(Fault const& fault, std::string_view request, std::string const& 
 
 bool is_logged(FaultCode code) { return spdlog::should_log(level_of(code)); }
 
-}  // namespace rois::net
+}  // namespace rois

@@ -1,4 +1,4 @@
-#include "net/memory.hpp"
+#include "gateway/memory.hpp"
 
 #include <fcntl.h>
 #include <malloc.h>
@@ -16,7 +16,7 @@
 
 #include "types/instant.hpp"
 
-namespace rois::net {
+namespace rois {
 
 namespace {
 
@@ -27,7 +27,7 @@ class Block {
 public:
     explicit Block(std::size_t wanted) : wanted_{wanted} {}
 
-    // Takes as much as the system has, up to what is wanted. Returns false if that is nothing.
+    // Takes as much as the system has, at most the wanted size. Returns false if it has nothing.
     bool fill() {
         for (auto size = wanted_; size >= mib && size > size_; size /= 2) {
             auto* const larger = std::malloc(size);
@@ -143,4 +143,4 @@ MemoryReserve::~MemoryReserve() {
 
 void MemoryReserve::refill() { Reserve::instance().refill(); }
 
-}  // namespace rois::net
+}  // namespace rois

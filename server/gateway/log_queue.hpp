@@ -1,5 +1,4 @@
-// Lines of the log on their way to standard error, which may take them slowly or not at all: nobody but the queue's own thread
-// waits for it.
+// Queue between the log and standard error, which may block: only the queue's own thread waits for it.
 #pragma once
 
 #include <spdlog/sinks/sink.h>
@@ -17,7 +16,7 @@
 
 #include "types/instant.hpp"
 
-namespace rois::net {
+namespace rois {
 
 // A sink of spdlog. Any thread.
 class LogQueue : public spdlog::sinks::sink {
@@ -30,18 +29,18 @@ public:
         Steady (*now)() = std::chrono::steady_clock::now;
     };
 
-    // Writes to this open file, which stays open, until the queue ends; then what waits, for as long as a flush may take.
+    // Writes to this open file, and does not close it. The destructor writes the waiting lines, for at most `flush`.
     explicit LogQueue(int file) : LogQueue{file, Limits{}} {}
     LogQueue(int file, Limits const&);
     ~LogQueue() override;
 
     void log(spdlog::details::log_msg const&) override;
-    // Waits until all was written, but no longer than `limits.flush`.
+    // Waits until all lines are written, at most `limits.flush`.
     void flush() override;
     void set_pattern(std::string const&) override;
     void set_formatter(std::unique_ptr<spdlog::formatter>) override;
 
-    // Lines that nobody can read: the queue was full, or the file refused them; and those above the limit of their cause.
+    // Lines that were lost because the queue was full or the file failed; and lines above the limit of their cause.
     std::uint64_t dropped() const { return dropped_; }
     std::uint64_t left_out() const { return left_out_; }
 
@@ -51,7 +50,7 @@ private:
         spdlog::level::level_enum level = spdlog::level::info;
         std::string text;
     };
-    // What was said of one cause in the second that began then.
+    // The lines of one cause in the second that began at `since`.
     struct Cause {
         std::uint64_t hash = 0;
         Steady since;
@@ -80,7 +79,7 @@ private:
     std::atomic<Steady> give_up_{Steady::max()};  // writing, from then on
     std::uint64_t told_dropped_ = 0;              // the thread's own
 
-    std::mutex mutex_;  // guards what follows
+    std::mutex mutex_;  // guards the members below
     std::condition_variable news_;
     std::condition_variable written_;
     std::deque<Line> lines_;
@@ -90,4 +89,4 @@ private:
     std::jthread thread_;
 };
 
-}  // namespace rois::net
+}  // namespace rois

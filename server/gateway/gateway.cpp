@@ -1,19 +1,19 @@
-#include "net/gateway.hpp"
+#include "gateway/gateway.hpp"
 
 #include <charconv>
 #include <thread>
 #include <utility>
 
 #include "engine/attempts.hpp"
-#include "net/memory.hpp"
+#include "gateway/memory.hpp"
 
-namespace rois::net {
+namespace rois {
 
 namespace {
 
 Instant present() { return {std::chrono::steady_clock::now(), std::chrono::system_clock::now()}; }
 
-// A document takes up to ten times its length while it is read and performed (measured); some to spare.
+// Memory for a document while it is read and performed, in lengths of the document: measured up to 10.
 constexpr std::size_t work_factor = 16;
 constexpr std::size_t negligible = 1024;  // bytes of a document; most requests are that short
 
@@ -25,7 +25,7 @@ Fault beyond(std::uint64_t after, std::uint64_t last) {
             {}};
 }
 
-// What an operation that went well changes for the connection that asked for it.
+// Notes how a successful operation changes the connection that asked for it.
 void take_turn(Answer& answer, Operation const& operation, Reply const& reply) {
     if (auto const* connected = std::get_if<Connect::Reply>(&reply)) {
         answer.turn = Answer::Turn::connected;
@@ -60,7 +60,7 @@ void Hold::release() {
     gateway->readers_.notify(*queue_);
 }
 
-// Neither part of it needs memory.
+// Must not fail: neither call allocates.
 Reading::~Reading() {
     if (!queue_) return;
     std::lock_guard const lock{gateway_.mutex_};
@@ -154,7 +154,7 @@ Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std
     return answer;
 }
 
-// False: there is none. What is short needs none of its own, but the memory is measured when much of it has come.
+// Converts to false if there is no memory. Short documents reserve none, but their bytes are counted.
 MemoryBudget::Room Gateway::room_for(std::string_view text) {
     memory_.took(text.size());
     if (text.size() > memory_.longest_document()) return {};
@@ -168,7 +168,7 @@ Fault Gateway::fault_of(Refusal refusal) {
         case Refusal::no_memory:
             return {FaultCode::too_many, memory_.refuse("there is no memory for a new session"), {}, {}};
         case Refusal::shutting_down:
-            return rois::net::shutting_down();
+            return rois::shutting_down();
         case Refusal::no_session:
             break;
     }
@@ -181,7 +181,7 @@ std::variant<Reply, Refusal> Gateway::perform(SessionId const& session, Operatio
     std::lock_guard const lock{mutex_};
     auto queue = reading != nullptr ? reading->queue_ : engine_.notifications(session);
     bool const known = queue != nullptr;
-    // The readers of a session that disconnects hear the last of it before the answer (decision 3): then nothing is held.
+    // `disconnect` holds nothing: the readers receive the last notifications before the answer (decision 3).
     if (known && !std::holds_alternative<Disconnect>(operation)) answer.hold = Hold{*this, std::move(queue)};
     if (via == Via::http) engine_.heard_from(session, now);
     bool const opens = opener && !known && std::holds_alternative<Connect>(operation);
@@ -195,7 +195,7 @@ std::variant<Reply, Refusal> Gateway::perform(SessionId const& session, Operatio
     return handled;
 }
 
-// Why this connection may not open another session, or nothing.
+// Returns a fault if this connection may not open another session.
 std::optional<Fault> Gateway::refusal_of(Opener const& opener) {
     auto const refused = [](std::string_view holder, std::size_t sessions, std::string_view instead, std::string_view key) {
         return Fault{FaultCode::too_many,
@@ -253,7 +253,7 @@ void Gateway::begin() {
     telemetry_.ticked(now.steady);
 }
 
-// What was freed goes back to the system, else it would count for as long as the process runs.
+// Returns freed memory to the system. Otherwise it would count against the budget until the process ends.
 void Gateway::save_memory(Steady now) {
     MemoryReserve::refill();
     memory_.look();
@@ -273,12 +273,12 @@ void Gateway::tick() {
     telemetry_.ticked(now.steady);
 }
 
-// Whoever has the engine locked for so long does not give it back.
+// Waits at most a second: a thread that holds the lock for longer will not release it.
 void Gateway::halt_at_last() noexcept {
     std::unique_lock lock{mutex_, std::defer_lock};
     for (int tries = 0; tries < 100 && !lock.try_lock(); ++tries) std::this_thread::sleep_for(std::chrono::milliseconds{10});
     if (!lock.owns_lock()) return;
-    Attempts attempts;  // each component is told, whatever fails
+    Attempts attempts;  // a failure of one component does not keep the others from halting
     attempts([&] { engine_.stop_everything(present()); });
 }
 
@@ -354,4 +354,4 @@ bool Farewell::alone() const {
     return gateway_.readers_.count(session_) == 1;
 }
 
-}  // namespace rois::net
+}  // namespace rois

@@ -1,5 +1,5 @@
-// The engine as the connections see it: one mutex around it, taken for as long as one operation, and the places from which a
-// session's notifications are read. All functions may be called from any thread.
+// The engine behind one mutex, which is held during one operation, and the readers of its notifications. Thread-safe: all
+// functions may be called from any thread.
 #pragma once
 
 #include <array>
@@ -15,18 +15,18 @@
 
 #include "engine/engine.hpp"
 #include "engine/prefetch.hpp"
-#include "net/log.hpp"
-#include "net/readers.hpp"
-#include "net/session_quota.hpp"
-#include "net/telemetry.hpp"
+#include "gateway/log.hpp"
+#include "gateway/readers.hpp"
+#include "gateway/session_quota.hpp"
+#include "gateway/telemetry.hpp"
 #include "xml/codec.hpp"
 
-namespace rois::net {
+namespace rois {
 
 class Gateway;
 
-// As long as it lives, the session's readers do not see what was queued since the operation that gave it: its answer comes
-// first (decision 22). Destroy it once the answer has been handed to the socket. Must not outlive the gateway.
+// Keeps an operation's answer in front of the notifications that the operation caused (decision 22): while it lives, the
+// session's readers do not see them. Destroy it after the answer was given to the socket. The gateway must outlive it.
 class Hold {
 public:
     Hold() = default;
@@ -44,10 +44,10 @@ private:
     NotificationQueue::Hold place_ = 0;
 };
 
-// One reader's place in a session's notifications, and its link to the session. The gateway and the reader must outlive it.
+// A reader's position in a session's notifications, and its link to the session. The gateway and the reader must outlive it.
 class Reading {
 public:
-    // Not among the readers yet: Gateway::read does that.
+    // Does not join the readers: only Gateway::read does.
     Reading(Gateway& gateway, Link link, std::uint64_t after, Reader& reader)
         : gateway_{gateway}, link_{link}, after_{after}, reader_{reader} {}
     ~Reading();
@@ -59,14 +59,14 @@ public:
         std::vector<Numbered> notifications;
         Then then = Then::wait;
     };
-    // The next ones, at most `most`; the place moves behind them. The engine is not locked for it.
+    // Returns at most `most` notifications and moves the position behind them. Does not lock the engine.
     Taken take(std::size_t most);
-    Then take(std::size_t most, std::vector<Numbered>& into);  // appends them
+    Then take(std::size_t most, std::vector<Numbered>& into);  // appends to `into`
 
-    // The motion lease (decision 33): whether the application is asked for signs of life now; and one of them.
+    // The motion lease (decision 33): whether it needs signs of life now, and the report of one.
     bool wants_signs_of_life(Steady now) const { return queue_->wants_signs_of_life(now); }
     void heard_pong();
-    // The long poll was answered; without it the link counts as lost when this ends.
+    // The long poll was answered. If this is not called, the link counts as lost when the object is destroyed.
     void answered() { closing_ = Closing::answered; }
 
     // Prefetches what `take` needs.
@@ -85,14 +85,14 @@ private:
     std::shared_ptr<NotificationQueue> queue_;  // null until it is among the readers
 };
 
-// What those hear who name no session, an unknown one or an ended one.
+// The fault for a request with a missing, unknown or ended session.
 Fault no_such_session();
 Fault shutting_down();
-// To whoever sends a document that there is no memory for.
+// The fault for a document that does not fit into memory.
 Fault no_memory_for_document(MemoryBudget&);
 
-// The document of a notification (wire.md): the sequence is its session's own; what stands before and behind it is shared by all
-// its receivers, encoded once, and lives as long as the notification.
+// The document of a notification (wire.md). Only the sequence differs between sessions. The text before and behind it is encoded
+// once, shared by all receivers, and lives as long as the notification.
 class NotificationDocument {
 public:
     explicit NotificationDocument(Numbered const&);
@@ -108,51 +108,51 @@ private:
 
 enum class Via : std::uint8_t { http, websocket };
 
-// What one client may take (docs/metrics.md).
+// Limits of one client (docs/metrics.md).
 struct ClientLimits {
     std::size_t sessions_per_connection = 16;
     std::size_t sessions_per_address = 64;
     std::size_t streams_per_session = 8;
 };
 
-// What an operation's request is answered with, and what it means for the connection that it came by.
+// The answer to a request, and its effect on the connection.
 struct Answer {
     std::string document;
-    std::optional<Fault> fault;  // which the document is; no operation ran
+    std::optional<Fault> fault;  // set: the document is this fault, and no operation ran
     enum class Turn : std::uint8_t { stays, connected, resumed, disconnected } turn = Turn::stays;
-    SessionId session;                 // connected, resumed: which the connection speaks for from now on
-    std::uint64_t session_number = 0;  // of it, if it was opened or resumed now
-    std::uint64_t last_sequence = 0;   // resumed: where its notifications go on
+    SessionId session;                 // connected, resumed: the connection's session from now on
+    std::uint64_t session_number = 0;  // its number, if it was opened or resumed now
+    std::uint64_t last_sequence = 0;   // resumed: its notifications continue after this one
     Hold hold;
 };
 
 class Gateway {
 public:
-    // All must outlive the gateway; `readers` is the engine's outbox. The memory is measured at each tick.
+    // All must outlive the gateway. `readers` is the engine's outbox. Each tick measures the memory.
     Gateway(Engine&, Readers& readers, Telemetry&, ClientLimits = {}, MemoryBudget& = MemoryBudget::none());
 
-    // Reads the request's text, performs the operation for the session (an empty id: for nobody yet) and encodes the answer.
-    // Only the operation itself is done with the engine locked. `opener`: the connection, whose sessions are counted; null: they
-    // are not. `reading`: of the session, if there is one, which spares a search.
+    // Reads the request, performs its operation for the session (an empty id: none yet) and encodes the answer. Locks the engine
+    // only for the operation. `opener` is the connection that counts its sessions; null: they are not counted. `reading` is an
+    // open reading of the session, if there is one: it saves a search.
     Answer answer(xml::RequestReader&, SessionId const&, std::string_view text, Via,
                   std::shared_ptr<Opener> const& opener = nullptr, Reading const* reading = nullptr);
 
-    // A fault if there is no such session, if `after` is above the last sequence that was given out in it, or if it has as many
-    // event streams as it may.
+    // Starts to read behind the sequence `after`. Returns a fault if the session is unknown, if `after` is above its last
+    // sequence, or if it has too many event streams.
     std::variant<std::unique_ptr<Reading>, Fault> read(SessionId const&, Link, std::uint64_t after, Reader&,
                                                        Readers::Until = Readers::Until::closed);
 
-    // Halts all components and begins the engine's time. Once, before anything is answered.
+    // Halts all components and starts the engine's clock. Call it once, before the first request.
     void begin();
 
-    // To be called every few milliseconds: lets the engine do what is due. Throws what went wrong, when all else was done.
+    // Runs the engine's due work. Call it every few milliseconds. Throws the first error, after all other work was done.
     void tick();
 
-    // For a gateway that is given up: halts every component, as far as the engine can be had within a second. Never throws.
+    // Halts every component before the process ends in an emergency. Gives up if the engine stays locked for a second.
     void halt_at_last() noexcept;
 
-    // Components come and go: those that `make` makes with the engine locked, since their devices move meanwhile. Throws what
-    // that and the engine throw.
+    // Adds and removes components. Calls `make` with the engine locked, because devices move meanwhile. Throws the exceptions of
+    // `make` and of the engine.
     void change(std::function<ComponentChange()> const& make);
 
     // Stop for everything (decision 34), and its end. Return the state afterwards.
@@ -162,7 +162,7 @@ public:
     std::vector<std::string> not_halted() const;
     std::vector<std::string> not_ready() const;
 
-    // Ends all sessions; what comes later is refused.
+    // Ends all sessions and refuses all later requests.
     void shut_down();
     MemoryBudget& memory() { return memory_; }
     bool shutting_down() const { return shutting_down_; }
@@ -188,7 +188,7 @@ private:
     Readers& readers_;
     Telemetry& telemetry_;
     MemoryBudget& memory_;
-    Steady memory_released_;    // when memory was given back to the system last; the tick's own
+    Steady memory_released_;    // when memory was last returned to the system; used only by tick()
     mutable std::mutex mutex_;  // guards the engine, the readers and the quota
     SessionQuota quota_;
     std::size_t streams_per_session_;
@@ -196,7 +196,7 @@ private:
     std::atomic<bool> shutting_down_ = false;
 };
 
-// Joins the readers of a session that has ended, to see when the others have taken what was left for them.
+// Joins the readers of an ended session, to see when the others have taken the remaining notifications.
 class Farewell {
 public:
     Farewell(Gateway&, SessionId, Reader&);
@@ -204,7 +204,7 @@ public:
     Farewell(Farewell const&) = delete;
     Farewell& operator=(Farewell const&) = delete;
 
-    // The reader is woken whenever this may have changed.
+    // Whether all other readers have left. The reader is woken when one leaves.
     bool alone() const;
 
 private:
@@ -213,4 +213,4 @@ private:
     Reader& reader_;
 };
 
-}  // namespace rois::net
+}  // namespace rois

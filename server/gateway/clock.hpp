@@ -7,12 +7,12 @@
 #include <functional>
 #include <thread>
 
-#include "net/troubles.hpp"
+#include "gateway/troubles.hpp"
 
-namespace rois::net {
+namespace rois {
 
-// Ticks as long as it lives, on a thread with the name "clock". An exception that leaves a tick is reported, and the next tick
-// comes in time.
+// Calls `tick` periodically on a thread named "clock" while it lives. An exception of a tick is reported, and does not delay
+// the next tick.
 class Clock {
 public:
     Clock(std::chrono::milliseconds between_ticks, std::function<void()> tick, Troubles& troubles)
@@ -32,4 +32,4 @@ private:
     std::jthread thread_;
 };
 
-}  // namespace rois::net
+}  // namespace rois

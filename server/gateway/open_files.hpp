@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
-namespace rois::net {
+namespace rois {
 
 // Raises the limit to `wanted` if it is lower, as far as the system lets it. Returns the limit that holds then.
 std::size_t raise_open_files(std::size_t wanted);
 
-}  // namespace rois::net
+}  // namespace rois

@@ -1,4 +1,4 @@
-// Who reads the notifications of which session.
+// The readers of each session's notifications.
 #pragma once
 
 #include <atomic>
@@ -9,7 +9,7 @@
 
 #include "engine/engine.hpp"
 
-namespace rois::net {
+namespace rois {
 
 class Wakes;
 
@@ -22,14 +22,14 @@ public:
     Reader(Reader const&) = delete;
     Reader& operator=(Reader const&) = delete;
 
-    // Both come from any thread, with the engine locked: they only pass the word to the reader's own thread.
-    // There may be something to read, or another reader of the session has left. A reader that is on its way out is not woken.
+    // Both are called on any thread, with the engine locked. They only queue the reader for its own thread.
+    // Something may have arrived, or another reader of the session has left. Does nothing while the reader is being destroyed.
     void wake() noexcept;
-    // Another WebSocket goes on with the session.
+    // Another WebSocket has taken over the session.
     void take_over() noexcept;
 
 protected:
-    // How far it is to what `woken` needs: what the reader itself points to, and what lies behind that.
+    // The memory that `woken` needs: `far` is what the reader points to, `near` what lies behind that.
     enum class Distance : std::uint8_t { far, near };
 
     Wakes& wakes() { return wakes_; }
@@ -38,7 +38,7 @@ private:
     friend class Wakes;
     void serve();
 
-    // Prefetches that.
+    // Prefetches that memory.
     virtual void approach(Distance) const {}
 
     // On the reader's own thread.
@@ -53,15 +53,15 @@ private:
 // The engine's outbox: wakes the readers of a session. Guarded by the gateway's mutex, as the engine is.
 class Readers : public Outbox {
 public:
-    // Until when the reader is there: a long poll until its answer.
+    // When the reader leaves: a long poll leaves when it is answered.
     enum class Until : std::uint8_t { answered, closed };
-    // A WebSocket that joins takes over from one that is there. If it throws, nobody has joined.
+    // A WebSocket that joins takes over from the session's earlier one. If it throws, the reader has not joined.
     void join(NotificationQueue&, Link, Reader&, Until = Until::closed);
-    // The same for a session that has ended: to see how the others leave.
+    // Joins an ended session, to see when the other readers leave.
     void join(SessionId const&, Reader&);
     void leave(SessionId const&, Reader const&);
     std::size_t count(SessionId const&) const;
-    // How many event streams read this queue.
+    // The number of event streams that read this queue.
     static std::size_t streams(NotificationQueue const&);
 
     void notify(NotificationQueue&) override;
@@ -70,7 +70,7 @@ public:
 private:
     std::shared_ptr<Audience> const& audience_with_room(SessionId const&, std::shared_ptr<Audience> const& known);
 
-    std::unordered_map<SessionId, std::shared_ptr<Audience>, IdHash> audiences_;  // that somebody is in
+    std::unordered_map<SessionId, std::shared_ptr<Audience>, IdHash> audiences_;  // only sessions with a reader
 };
 
-}  // namespace rois::net
+}  // namespace rois

@@ -1,4 +1,4 @@
-#include "net/log_queue.hpp"
+#include "gateway/log_queue.hpp"
 
 #include <poll.h>
 #include <spdlog/pattern_formatter.h>
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-namespace rois::net {
+namespace rois {
 
 namespace {
 
@@ -84,7 +84,7 @@ void LogQueue::log(spdlog::details::log_msg const& message) {
     news_.notify_one();
 }
 
-// Its own place, or one that nobody needs any more; if there is none near by, it shares one.
+// Returns the cause's own place, or an expired one near by. Otherwise it shares a place with another cause.
 LogQueue::Cause& LogQueue::place_of(std::uint64_t hash, Steady now) {
     constexpr std::size_t near_by = 4;
     auto const begin = hash % (causes_.size() - near_by);
@@ -130,7 +130,7 @@ void LogQueue::put(Line line) {
     bytes_ += size;
 }
 
-// Of causes whose second is over, also if nobody says more.
+// Reports left-out lines of causes whose second is over, without waiting for their next line.
 void LogQueue::tell_what_was_left_out(Steady now) {
     for (auto& cause : causes_)
         if (cause.left_out > 0 && now - cause.since >= std::chrono::seconds{1}) sum_up(cause);
@@ -202,4 +202,4 @@ bool LogQueue::write(std::string_view text) {
     return true;
 }
 
-}  // namespace rois::net
+}  // namespace rois

@@ -17,7 +17,7 @@
 #include "types/messages.hpp"
 #include "xml/codec.hpp"
 
-namespace rois::net {
+namespace rois {
 
 class LogQueue;
 
@@ -58,11 +58,11 @@ public:
     void set(Limit limit, std::size_t most) { limits_[static_cast<std::size_t>(limit)].most = most; }
     void reached(Limit limit) { ++limits_[static_cast<std::size_t>(limit)].reached; }
 
-    // Where an exception escaped and was survived.
+    // The place from which a survived exception escaped.
     enum class Where : std::uint8_t { tick, sweep, accept, wake, loop, connection };
     void survived(Where where) { ++survived_[static_cast<std::size_t>(where)]; }
 
-    // The engine has done what was due. Any thread may ask how long ago that was, also while the engine is locked.
+    // Reports a finished tick. Any thread may ask for its age, also while the engine is locked.
     void ticked(Steady now) { last_tick_.store(now, std::memory_order_relaxed); }
     std::chrono::nanoseconds age_of_last_tick(Steady now) const {
         return now - std::min(now, last_tick_.load(std::memory_order_relaxed));
@@ -105,4 +105,4 @@ private:
 // "tick", for example.
 std::string_view name_of(Telemetry::Where);
 
-}  // namespace rois::net
+}  // namespace rois

@@ -1,4 +1,4 @@
-#include "net/troubles.hpp"
+#include "gateway/troubles.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -6,7 +6,7 @@
 
 #include "engine/attempts.hpp"
 
-namespace rois::net {
+namespace rois {
 
 namespace {
 
@@ -46,4 +46,4 @@ bool Troubles::is_too_much(Steady now) {
     return !std::exchange(given_up_, true);
 }
 
-}  // namespace rois::net
+}  // namespace rois

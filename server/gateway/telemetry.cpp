@@ -1,4 +1,4 @@
-#include "net/telemetry.hpp"
+#include "gateway/telemetry.hpp"
 
 #include <dirent.h>
 #include <prometheus/text_serializer.h>
@@ -8,10 +8,10 @@
 #include <functional>
 #include <sstream>
 
-#include "net/log_queue.hpp"
-#include "net/memory.hpp"
+#include "gateway/log_queue.hpp"
+#include "gateway/memory.hpp"
 
-namespace rois::net {
+namespace rois {
 
 namespace {
 
@@ -249,4 +249,4 @@ std::string Telemetry::text(EngineStatistics const& statistics) const {
     return exposition.text();
 }
 
-}  // namespace rois::net
+}  // namespace rois

@@ -1,22 +1,22 @@
-#include "net/readers.hpp"
+#include "gateway/readers.hpp"
 
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 
 #include "engine/prefetch.hpp"
-#include "net/wakes.hpp"
+#include "gateway/wakes.hpp"
 
 // Also found from the session's queue itself, since events go to many sessions at once.
 struct rois::Audience {
     struct Joined {
         Link link;
-        net::Reader* reader;
-        net::Readers::Until until;
+        Reader* reader;
+        Readers::Until until;
     };
     boost::container::small_vector<Joined, 1> joined;
 };
 
-namespace rois::net {
+namespace rois {
 
 namespace {
 
@@ -99,4 +99,4 @@ void Readers::approach(NotificationQueue const& queue) const {
     if (queue.audience() && !queue.audience()->joined.empty()) prefetch(queue.audience()->joined.front().reader);
 }
 
-}  // namespace rois::net
+}  // namespace rois

@@ -1,20 +1,19 @@
-#include "net/wakes.hpp"
+#include "gateway/wakes.hpp"
 
 #include <algorithm>
-#include <boost/asio/post.hpp>
 #include <thread>
 #include <utility>
 
 #include "engine/prefetch.hpp"
-#include "net/readers.hpp"
+#include "gateway/readers.hpp"
 
-namespace rois::net {
+namespace rois {
 
 namespace {
 
 constexpr std::size_t most_at_once = 32;        // some 200 us of work
 constexpr std::size_t most_in_a_row = 128;      // some 0.8 ms
-constexpr std::size_t bytes_of_a_reader = 256;  // of those that it needs at once
+constexpr std::size_t bytes_of_a_reader = 256;  // that serving it reads first
 
 }  // namespace
 
@@ -33,19 +32,19 @@ void Wakes::leave() {
     --readers_;
 }
 
-// A reader is in at most once, so there is room.
+// A reader waits at most once, so there is room.
 void Wakes::add(std::shared_ptr<Reader> reader) noexcept {
     {
         std::lock_guard const lock{mutex_};
         waiting_.push_back(std::move(reader));
         if (std::exchange(posted_, true)) return;
     }
-    post();
+    request_turn();
 }
 
-void Wakes::post() noexcept {
+void Wakes::request_turn() noexcept {
     try {
-        asio::post(executor_, [this] { serve(); });
+        request_turn_();
     } catch (...) {
         std::lock_guard const lock{mutex_};
         posted_ = false;
@@ -58,7 +57,7 @@ void Wakes::look_after() noexcept {
         bool const waits = !waiting_.empty() || served_ < serving_.size();
         if (!waits || std::exchange(posted_, true)) return;
     }
-    post();
+    request_turn();
 }
 
 void Wakes::serve() {
@@ -76,18 +75,18 @@ void Wakes::serve() {
         in_a_row_ = 0;
         return;
     }
-    if (in_a_row_ >= most_in_a_row) make_way();
-    post();
+    if (in_a_row_ >= most_in_a_row) yield_core();
+    request_turn();
 }
 
-// The kernel lets a thread go on until its next tick, 4 ms on many a machine, while others wait for the core: another loop with a
-// request, or a client on this machine.
-void Wakes::make_way() {
+// Without this, the kernel lets the thread run until its next tick (4 ms on many machines), while another loop with a request or
+// a client on this machine waits for the core.
+void Wakes::yield_core() {
     in_a_row_ = 0;
     std::this_thread::yield();
 }
 
-// A thousand readers are far away in memory, each of them: they are called for some turns before theirs.
+// Prefetches the next few readers: with a thousand readers, each is a cache miss.
 void Wakes::approach() const {
     auto const later = [&](std::size_t turns) {
         return served_ + turns < serving_.size() ? serving_[served_ + turns].get() : nullptr;
@@ -97,7 +96,7 @@ void Wakes::approach() const {
     if (auto const* reader = later(3)) prefetch<bytes_of_a_reader>(reader);
 }
 
-// False when nobody waits: then the next to come posts.
+// Returns false if no reader waits. Then the next `add` requests a turn.
 bool Wakes::take_more() {
     serving_.clear();
     served_ = 0;
@@ -107,4 +106,4 @@ bool Wakes::take_more() {
     return posted_;
 }
 
-}  // namespace rois::net
+}  // namespace rois

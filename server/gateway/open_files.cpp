@@ -1,10 +1,10 @@
-#include "net/open_files.hpp"
+#include "gateway/open_files.hpp"
 
 #include <sys/resource.h>
 
 #include <algorithm>
 
-namespace rois::net {
+namespace rois {
 
 std::size_t raise_open_files(std::size_t wanted) {
     rlimit limit{};
@@ -16,4 +16,4 @@ std::size_t raise_open_files(std::size_t wanted) {
     return ::setrlimit(RLIMIT_NOFILE, &allowed) == 0 ? allowed.rlim_cur : limit.rlim_cur;
 }
 
-}  // namespace rois::net
+}  // namespace rois

@@ -1,9 +1,9 @@
-#include "net/addresses.hpp"
+#include "gateway/addresses.hpp"
 
 #include <algorithm>
 #include <boost/asio/ip/address.hpp>
 #include <charconv>
-namespace rois::net {
+namespace rois {
 
 namespace {
 
@@ -60,4 +60,4 @@ Limits limits_of(Address const& address, std::vector<Network> const& proxies) {
     return is_loopback(address) ? Limits::of_connection : Limits::all;
 }
 
-}  // namespace rois::net
+}  // namespace rois

@@ -7,9 +7,9 @@
 #include <memory>
 #include <unordered_map>
 
-#include "net/addresses.hpp"
+#include "gateway/addresses.hpp"
 
-namespace rois::net {
+namespace rois {
 
 // A connection, as far as it opens sessions.
 struct Opener {
@@ -62,4 +62,4 @@ private:
     std::map<Address, std::size_t> of_address_;
 };
 
-}  // namespace rois::net
+}  // namespace rois

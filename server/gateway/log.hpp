@@ -1,4 +1,4 @@
-// The log's lines about sessions and refused requests. What a client says is quoted: no line can be forged.
+// Log lines about sessions and refused requests. Text of a client is quoted, so it cannot forge a line.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include "engine/journal.hpp"
 #include "types/messages.hpp"
 
-namespace rois::net {
+namespace rois {
 
 // Sessions are logged at the level info, the rest at debug. Called with the engine locked.
 class EngineLog : public Journal {
@@ -41,9 +41,9 @@ private:
 void log_joined(std::uint64_t session, std::string_view how, std::string const& peer);
 
 // A request was refused with a fault: at the level info if the gateway does not let the client in, otherwise at debug. `request`
-// is what was asked for.
+// is the request line or the operation.
 void log_fault(Fault const&, std::string_view request, std::string const& peer);
 // Whether log_fault would write a line about it.
 bool is_logged(FaultCode);
 
-}  // namespace rois::net
+}  // namespace rois

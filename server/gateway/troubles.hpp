@@ -1,4 +1,4 @@
-// Exceptions that escaped from what must go on for ever, and were survived (docs/safety.md).
+// Counts and judges exceptions that the gateway survives (docs/safety.md).
 #pragma once
 
 #include <array>
@@ -7,13 +7,13 @@
 #include <mutex>
 #include <string_view>
 
-#include "net/telemetry.hpp"
+#include "gateway/telemetry.hpp"
 #include "types/instant.hpp"
 
-namespace rois::net {
+namespace rois {
 
-// Logs and counts them. What happens within 0.1 s is one incident, however many exceptions that is; at the third incident within
-// a second the gateway is given up. Exceptions of one connection are none: they end that connection. Any thread.
+// Logs and counts exceptions. All exceptions within 0.1 s are one incident. At the third incident within a second it gives the
+// gateway up. Exceptions of one connection do not count as incidents: they end that connection. Any thread.
 class Troubles {
 public:
     using Where = Telemetry::Where;
@@ -35,4 +35,4 @@ private:
     bool given_up_ = false;
 };
 
-}  // namespace rois::net
+}  // namespace rois

@@ -1,0 +1,21 @@
+// Random names and hashes. Any thread.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace rois {
+
+// Returns 192 random bits in base64url, the id of a session. Throws std::runtime_error if the system gives no random bytes.
+std::string fresh_secret();
+
+// Returns a short hash of the content: for ETags, and for log lines that must not show a secret.
+std::string digest(std::string_view content);
+
+// The SHA-256 of the content in base64, as a Content-Security-Policy expects it.
+std::string sha256_base64(std::string_view content);
+
+// The SHA-1 of the content in base64: for the opening handshake of a WebSocket.
+std::string sha1_base64(std::string_view content);
+
+}  // namespace rois

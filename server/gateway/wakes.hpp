@@ -1,0 +1,54 @@
+// The queue of woken readers of one event loop. The loop serves a few readers in each turn, so a request does not wait behind a
+// thousand notifications. After some more turns it also yields the core.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "gateway/troubles.hpp"
+
+namespace rois {
+
+class Reader;
+
+// Belongs to a loop, which outlives all of its readers.
+class Wakes {
+public:
+    // `request_turn` makes the loop call `serve` soon, on its own thread. Any thread calls it; it may throw.
+    Wakes(std::function<void()> request_turn, Troubles& troubles) : request_turn_{std::move(request_turn)}, troubles_{troubles} {}
+
+    // Each reader calls these when it begins and ends, on the loop's thread. They reserve room, so that `add` cannot fail.
+    void enter();
+    void leave();
+
+    // The loop's thread will call `Reader::woken`. Any thread.
+    void add(std::shared_ptr<Reader>) noexcept;
+
+    // Serves some of the readers, and requests another turn if more wait. The loop's thread.
+    void serve();
+
+    // Requests again a turn that could not be requested because memory was missing. Call it regularly, on the loop's thread.
+    void look_after() noexcept;
+
+private:
+    void request_turn() noexcept;
+    void approach() const;
+    bool take_more();
+    void yield_core();
+
+    std::function<void()> request_turn_;
+    Troubles& troubles_;
+    std::vector<std::shared_ptr<Reader>> serving_;  // used only by the loop's thread, with the next two
+    std::size_t served_ = 0;                        // the first `served_` of these are done
+    std::size_t in_a_row_ = 0;                      // served since the queue was empty or the core was yielded
+
+    std::mutex mutex_;  // guards the members below
+    std::vector<std::shared_ptr<Reader>> waiting_;
+    std::size_t readers_ = 0;
+    bool posted_ = false;  // a turn is requested
+};
+
+}  // namespace rois
