@@ -15,15 +15,15 @@
 #include <variant>
 #include <vector>
 
+#include "engine/conditions/filter.hpp"
 #include "engine/engine.hpp"
-#include "engine/filter.hpp"
 #include "files/files.hpp"
 #include "probe.hpp"
-#include "xml/acceptor.hpp"
-#include "xml/codec.hpp"
-#include "xml/decoding.hpp"
-#include "xml/schemas.hpp"
-#include "xml/validator.hpp"
+#include "xml/codec/codec.hpp"
+#include "xml/codec/decoding.hpp"
+#include "xml/tables/acceptor.hpp"
+#include "xml/validation/schemas.hpp"
+#include "xml/validation/validator.hpp"
 
 namespace rois::bench {
 

@@ -8,12 +8,12 @@
 
 #include "engine/engine.hpp"
 #include "files/files.hpp"
-#include "net/documents.hpp"
 #include "gateway/gateway.hpp"
 #include "gateway/secrets.hpp"
+#include "net/documents.hpp"
 #include "net/server.hpp"
 #include "probe.hpp"
-#include "xml/schemas.hpp"
+#include "xml/validation/schemas.hpp"
 
 namespace rois::bench {
 

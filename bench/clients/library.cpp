@@ -5,8 +5,8 @@
 #include "clients/round_trips.hpp"
 #include "files/files.hpp"
 #include "rois/blocking.hpp"
-#include "xml/codec.hpp"
-#include "xml/schemas.hpp"
+#include "xml/codec/codec.hpp"
+#include "xml/validation/schemas.hpp"
 
 namespace rois::bench {
 

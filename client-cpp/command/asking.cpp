@@ -3,7 +3,7 @@
 
 #include "command/context.hpp"
 #include "command/http.hpp"
-#include "command/terminal.hpp"
+#include "command/output/terminal.hpp"
 #include "rois/condition.hpp"
 #include "types/listing.hpp"
 #include "types/texts.hpp"

@@ -4,12 +4,12 @@
 #include <optional>
 #include <vector>
 
-#include "command/arguments.hpp"
 #include "command/context.hpp"
-#include "command/input.hpp"
-#include "command/request_file.hpp"
+#include "command/input/arguments.hpp"
+#include "command/input/input.hpp"
+#include "command/input/request_file.hpp"
+#include "command/output/terminal.hpp"
 #include "command/sequences.hpp"
-#include "command/terminal.hpp"
 #include "rois/condition.hpp"
 #include "types/texts.hpp"
 

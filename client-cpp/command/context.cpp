@@ -6,14 +6,14 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "command/condition_text.hpp"
-#include "command/input.hpp"
-#include "command/request_file.hpp"
-#include "command/terminal.hpp"
+#include "command/input/condition_text.hpp"
+#include "command/input/input.hpp"
+#include "command/input/request_file.hpp"
+#include "command/output/terminal.hpp"
 #include "files/files.hpp"
 #include "types/listing.hpp"
 #include "types/texts.hpp"
-#include "xml/decoding.hpp"
+#include "xml/codec/decoding.hpp"
 
 namespace rois::command {
 

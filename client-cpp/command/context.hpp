@@ -9,13 +9,13 @@
 #include <variant>
 #include <vector>
 
-#include "command/caller.hpp"
 #include "command/options.hpp"
-#include "command/printer.hpp"
-#include "command/session.hpp"
-#include "command/session_file.hpp"
+#include "command/output/printer.hpp"
+#include "command/session/caller.hpp"
+#include "command/session/session.hpp"
+#include "command/session/session_file.hpp"
 #include "command/signals.hpp"
-#include "xml/schemas.hpp"
+#include "xml/validation/schemas.hpp"
 
 namespace rois::command {
 

@@ -7,10 +7,10 @@
 
 #include "command/context.hpp"
 #include "command/http.hpp"
-#include "command/terminal.hpp"
+#include "command/output/terminal.hpp"
 #include "types/listing.hpp"
 #include "types/texts.hpp"
-#include "xml/codec.hpp"
+#include "xml/codec/codec.hpp"
 
 namespace rois::command {
 

@@ -8,8 +8,8 @@
 
 #include "command/context.hpp"
 #include "command/environment.hpp"
-#include "command/terminal.hpp"
-#include "xml/schemas.hpp"
+#include "command/output/terminal.hpp"
+#include "xml/validation/schemas.hpp"
 
 namespace rois::command {
 

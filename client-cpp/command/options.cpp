@@ -11,7 +11,7 @@
 
 #include "command/exit.hpp"
 #include "command/http.hpp"
-#include "command/session_file.hpp"
+#include "command/session/session_file.hpp"
 #include "rois/settings.hpp"
 #include "types/texts.hpp"
 

@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "command/printer.hpp"
-#include "command/session_file.hpp"
+#include "command/output/printer.hpp"
+#include "command/session/session_file.hpp"
 
 namespace rois::command {
 

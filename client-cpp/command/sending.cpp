@@ -2,12 +2,12 @@
 #include <variant>
 
 #include "command/context.hpp"
-#include "command/input.hpp"
-#include "command/pretty.hpp"
-#include "command/terminal.hpp"
+#include "command/input/input.hpp"
+#include "command/output/pretty.hpp"
+#include "command/output/terminal.hpp"
 #include "types/texts.hpp"
-#include "xml/codec.hpp"
-#include "xml/decoding.hpp"
+#include "xml/codec/codec.hpp"
+#include "xml/codec/decoding.hpp"
 
 namespace rois::command {
 

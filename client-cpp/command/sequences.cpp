@@ -6,7 +6,7 @@
 #include <set>
 #include <variant>
 
-#include "command/terminal.hpp"
+#include "command/output/terminal.hpp"
 
 namespace rois::command {
 

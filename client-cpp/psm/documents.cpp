@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "types/texts.hpp"
-#include "xml/names.hpp"
-#include "xml/writer.hpp"
+#include "xml/codec/names.hpp"
+#include "xml/codec/writer.hpp"
 
 namespace rois::psm {
 

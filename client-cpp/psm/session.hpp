@@ -14,7 +14,7 @@
 #include "psm/delivery.hpp"
 #include "psm/values.hpp"
 #include "rois/client.hpp"
-#include "xml/codec.hpp"
+#include "xml/codec/codec.hpp"
 
 namespace rois::psm {
 

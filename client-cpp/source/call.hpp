@@ -10,7 +10,7 @@
 
 #include "loop.hpp"
 #include "rois/error.hpp"
-#include "xml/codec.hpp"
+#include "xml/codec/codec.hpp"
 
 namespace rois::client {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "xml/writer.hpp"
+#include "xml/codec/writer.hpp"
 
 namespace rois {
 

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "loop.hpp"
-#include "xml/codec.hpp"
+#include "xml/codec/codec.hpp"
 
 namespace rois {
 

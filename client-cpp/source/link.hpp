@@ -11,7 +11,7 @@
 #include "rois/settings.hpp"
 #include "target.hpp"
 #include "types/messages.hpp"
-#include "xml/codec.hpp"
+#include "xml/codec/codec.hpp"
 
 namespace rois::client {
 

@@ -1,7 +1,7 @@
 #include "reading.hpp"
 
 #include "types/texts.hpp"
-#include "xml/numbers.hpp"
+#include "xml/codec/numbers.hpp"
 
 namespace rois::client {
 

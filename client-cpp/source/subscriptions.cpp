@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "xml/codec.hpp"
+#include "xml/codec/codec.hpp"
 
 namespace rois::client {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "types/texts.hpp"
-#include "xml/writer.hpp"
+#include "xml/codec/writer.hpp"
 
 namespace rois {
 

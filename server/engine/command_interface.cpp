@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/commands/sequence_check.hpp"
 #include "engine/core.hpp"
-#include "engine/sequence_check.hpp"
 #include "types/texts.hpp"
 
 namespace rois {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/demand.hpp"
+#include "engine/conditions/demand.hpp"
 
 namespace rois {
 

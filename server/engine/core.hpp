@@ -12,17 +12,17 @@
 
 #include "engine/agenda.hpp"
 #include "engine/attempts.hpp"
-#include "engine/deadlines.hpp"
-#include "engine/details.hpp"
+#include "engine/commands/deadlines.hpp"
+#include "engine/commands/executor.hpp"
+#include "engine/conditions/filter.hpp"
 #include "engine/engine.hpp"
-#include "engine/executor.hpp"
-#include "engine/filter.hpp"
+#include "engine/frames/perspective.hpp"
 #include "engine/journal.hpp"
-#include "engine/notifier.hpp"
-#include "engine/perspective.hpp"
+#include "engine/notifications/details.hpp"
+#include "engine/notifications/notifier.hpp"
+#include "engine/notifications/subscriptions.hpp"
 #include "engine/registry.hpp"
 #include "engine/session.hpp"
-#include "engine/subscriptions.hpp"
 
 namespace rois {
 
@@ -108,7 +108,7 @@ private:
     // Returns whether one of these components may ever match, now or after a change of its state.
     bool may_ever_match(Filter const&, ComponentsInOrder possible, Session const& asker) const;
     // Returns the components that match, in the order of the selection, or else by ref. A group condition selects components of
-    // one robot: the one that the asker would get (engine/preference.hpp).
+    // one robot: the one that the asker would get (engine/commands/preference.hpp).
     std::vector<RegisteredComponent*> select(Selection const&, Session const& asker) const;
     struct ToBind {
         std::vector<RegisteredComponent*> components;  // in order of preference

@@ -9,12 +9,12 @@
 #include <variant>
 #include <vector>
 
+#include "engine/commands/motion_lease.hpp"
 #include "engine/component.hpp"
+#include "engine/frames/places.hpp"
 #include "engine/journal.hpp"
 #include "engine/memory_budget.hpp"
-#include "engine/motion_lease.hpp"
-#include "engine/notification_queue.hpp"
-#include "engine/places.hpp"
+#include "engine/notifications/notification_queue.hpp"
 #include "engine/settings.hpp"
 #include "types/messages.hpp"
 

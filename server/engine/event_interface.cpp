@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "engine/core.hpp"
-#include "engine/prefetch.hpp"
+#include "engine/notifications/prefetch.hpp"
 #include "types/texts.hpp"
 
 namespace rois {

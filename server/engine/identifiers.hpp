@@ -1,5 +1,5 @@
-// Checks the length of identifiers in requests. Identifiers in conditions are checked in engine/filter_values.cpp, those in
-// values in types/data_type.cpp.
+// Checks the length of identifiers in requests. Identifiers in conditions are checked in engine/conditions/filter_values.cpp,
+// those in values in types/data_type.cpp.
 #pragma once
 
 #include <optional>

@@ -1,7 +1,7 @@
 // Ends the commands that an exception in the engine interrupted, for example because memory ran out.
 #include <utility>
 
-#include "engine/executor.hpp"
+#include "engine/commands/executor.hpp"
 #include "types/texts.hpp"
 
 namespace rois {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
+#include "engine/commands/preference.hpp"
 #include "engine/core.hpp"
-#include "engine/preference.hpp"
 #include "types/data_type.hpp"
 #include "types/texts.hpp"
 

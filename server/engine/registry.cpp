@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "engine/parameters.hpp"
+#include "engine/commands/parameters.hpp"
 #include "engine/session.hpp"
 #include "types/data_type.hpp"
 #include "types/listing.hpp"

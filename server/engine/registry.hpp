@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "engine/agenda.hpp"
-#include "engine/command.hpp"
+#include "engine/commands/command.hpp"
+#include "engine/commands/parameters.hpp"
 #include "engine/component.hpp"
 #include "engine/component_index.hpp"
-#include "engine/frames.hpp"
-#include "engine/parameters.hpp"
-#include "engine/vocabulary.hpp"
+#include "engine/conditions/vocabulary.hpp"
+#include "engine/frames/frames.hpp"
 #include "types/messages.hpp"
 
 namespace rois {

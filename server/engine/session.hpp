@@ -11,11 +11,11 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "engine/command.hpp"
-#include "engine/deadlines.hpp"
-#include "engine/details.hpp"
-#include "engine/motion_lease.hpp"
-#include "engine/notification_queue.hpp"
+#include "engine/commands/command.hpp"
+#include "engine/commands/deadlines.hpp"
+#include "engine/commands/motion_lease.hpp"
+#include "engine/notifications/details.hpp"
+#include "engine/notifications/notification_queue.hpp"
 #include "types/ids.hpp"
 #include "types/instant.hpp"
 

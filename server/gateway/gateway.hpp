@@ -14,12 +14,12 @@
 #include <vector>
 
 #include "engine/engine.hpp"
-#include "engine/prefetch.hpp"
+#include "engine/notifications/prefetch.hpp"
 #include "gateway/log.hpp"
 #include "gateway/readers.hpp"
 #include "gateway/session_quota.hpp"
 #include "gateway/telemetry.hpp"
-#include "xml/codec.hpp"
+#include "xml/codec/codec.hpp"
 
 namespace rois {
 

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "engine/command.hpp"
+#include "engine/commands/command.hpp"
 #include "engine/registry.hpp"
 #include "engine/session.hpp"
 #include "gateway/telemetry.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 
-#include "engine/prefetch.hpp"
+#include "engine/notifications/prefetch.hpp"
 #include "gateway/wakes.hpp"
 
 // Also found from the session's queue itself, since events go to many sessions at once.

@@ -15,7 +15,7 @@
 #include "engine/engine.hpp"
 #include "types/instant.hpp"
 #include "types/messages.hpp"
-#include "xml/codec.hpp"
+#include "xml/codec/codec.hpp"
 
 namespace rois {
 

@@ -4,7 +4,7 @@
 #include <thread>
 #include <utility>
 
-#include "engine/prefetch.hpp"
+#include "engine/notifications/prefetch.hpp"
 #include "gateway/readers.hpp"
 
 namespace rois {

@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "main/settings.hpp"
 #include "gateway/log_queue.hpp"
+#include "main/settings.hpp"
 
 namespace rois {
 

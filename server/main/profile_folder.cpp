@@ -10,10 +10,10 @@
 
 #include "main/configuration_file.hpp"
 #include "main/settings.hpp"
-#include "simulation/adapters.hpp"
-#include "simulation/component_refs.hpp"
+#include "simulation/adapters/adapters.hpp"
+#include "simulation/basic/component_refs.hpp"
 #include "types/texts.hpp"
-#include "xml/profile_document.hpp"
+#include "xml/profiles/profile_document.hpp"
 
 namespace rois {
 

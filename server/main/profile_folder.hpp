@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "simulation/basic_components.hpp"
+#include "simulation/basic/basic_components.hpp"
 #include "types/profiles.hpp"
-#include "xml/schemas.hpp"
+#include "xml/validation/schemas.hpp"
 
 namespace rois {
 

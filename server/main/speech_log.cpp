@@ -5,7 +5,7 @@
 #include <utility>
 #include <variant>
 
-#include "simulation/voice_characters.hpp"
+#include "simulation/robot/voice_characters.hpp"
 #include "types/texts.hpp"
 
 namespace rois {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "simulation/simulation.hpp"
+#include "simulation/world/simulation.hpp"
 
 namespace rois {
 

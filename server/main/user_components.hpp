@@ -9,8 +9,8 @@
 
 #include "engine/engine.hpp"
 #include "main/profile_folder.hpp"
-#include "simulation/adapters.hpp"
-#include "xml/schemas.hpp"
+#include "simulation/adapters/adapters.hpp"
+#include "xml/validation/schemas.hpp"
 
 namespace rois {
 

@@ -5,12 +5,12 @@
 #include <string>
 
 #include "gateway/gateway.hpp"
+#include "gateway/telemetry.hpp"
 #include "net/http_answer.hpp"
 #include "net/http_head.hpp"
 #include "net/routes.hpp"
-#include "gateway/telemetry.hpp"
 #include "net/web_files.hpp"
-#include "xml/schemas.hpp"
+#include "xml/validation/schemas.hpp"
 
 namespace rois::net {
 

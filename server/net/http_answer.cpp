@@ -3,7 +3,7 @@
 #include <array>
 #include <ctime>
 
-#include "xml/codec.hpp"
+#include "xml/codec/codec.hpp"
 
 namespace rois::net {
 

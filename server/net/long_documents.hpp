@@ -7,9 +7,9 @@
 #include <functional>
 #include <memory>
 
-#include "net/asio.hpp"
 #include "gateway/gateway.hpp"
-#include "xml/codec.hpp"
+#include "net/asio.hpp"
+#include "xml/codec/codec.hpp"
 
 namespace rois::net {
 

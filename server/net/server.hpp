@@ -5,10 +5,10 @@
 #include <memory>
 #include <string>
 
-#include "net/documents.hpp"
 #include "gateway/gateway.hpp"
-#include "net/settings.hpp"
 #include "gateway/telemetry.hpp"
+#include "net/documents.hpp"
+#include "net/settings.hpp"
 
 namespace rois::net {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "gateway/addresses.hpp"
-#include "xml/codec.hpp"
+#include "xml/codec/codec.hpp"
 
 namespace rois::net {
 

@@ -8,7 +8,7 @@
 
 #include "net/http_answer.hpp"
 #include "net/http_head.hpp"
-#include "xml/schemas.hpp"
+#include "xml/validation/schemas.hpp"
 
 namespace rois::net {
 

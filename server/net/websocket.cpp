@@ -6,7 +6,7 @@
 #include <exception>
 #include <utility>
 
-#include "engine/prefetch.hpp"
+#include "engine/notifications/prefetch.hpp"
 #include "net/event_stream.hpp"
 
 namespace rois::net {

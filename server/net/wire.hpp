@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "net/asio.hpp"
 #include "gateway/telemetry.hpp"
+#include "net/asio.hpp"
 #include "types/instant.hpp"
 
 namespace rois::net {

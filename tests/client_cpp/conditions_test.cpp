@@ -6,7 +6,7 @@
 
 #include <pugixml.hpp>
 
-#include "xml/codec.hpp"
+#include "xml/codec/codec.hpp"
 
 namespace rois::test {
 namespace {

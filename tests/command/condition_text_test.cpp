@@ -1,5 +1,5 @@
 // Conditions of the command line.
-#include "command/condition_text.hpp"
+#include "command/input/condition_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,11 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "command/arguments.hpp"
 #include "command/exit.hpp"
-#include "command/pretty.hpp"
-#include "command/terminal.hpp"
-#include "command/variables.hpp"
+#include "command/input/arguments.hpp"
+#include "command/output/pretty.hpp"
+#include "command/output/terminal.hpp"
+#include "command/scenario/variables.hpp"
 
 namespace rois::command {
 namespace {

@@ -10,7 +10,7 @@
 #include "client/line.hpp"
 #include "conformance/play.hpp"
 #include "types/texts.hpp"
-#include "xml/schemas.hpp"
+#include "xml/validation/schemas.hpp"
 
 namespace {
 

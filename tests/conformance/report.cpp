@@ -4,7 +4,7 @@
 #include <pugixml.hpp>
 
 #include "types/texts.hpp"
-#include "xml/characters.hpp"
+#include "xml/codec/characters.hpp"
 
 namespace rois::conformance {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "client/vocabulary.hpp"
-#include "xml/schemas.hpp"
-#include "xml/validator.hpp"
+#include "xml/validation/schemas.hpp"
+#include "xml/validation/validator.hpp"
 
 namespace rois::conformance {
 

@@ -1,8 +1,8 @@
 // Limits: conditions of subscriptions in total, live commands, and the results of ended commands.
 #include <gmock/gmock.h>
 
-#include "engine/command.hpp"
-#include "engine/like_pattern.hpp"
+#include "engine/commands/command.hpp"
+#include "engine/conditions/like_pattern.hpp"
 #include "world.hpp"
 
 namespace rois {

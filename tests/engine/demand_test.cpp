@@ -5,7 +5,7 @@
 #include <random>
 
 #include "conditions.hpp"
-#include "engine/filter.hpp"
+#include "engine/conditions/filter.hpp"
 #include "world.hpp"
 
 namespace rois {

@@ -1,5 +1,5 @@
 // Conversions between frames, compared with cases worked out by hand. The dialogues are in frames_dialogue_test.cpp.
-#include "engine/frames.hpp"
+#include "engine/frames/frames.hpp"
 
 #include <gmock/gmock.h>
 

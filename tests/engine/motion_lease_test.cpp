@@ -1,5 +1,5 @@
 // The motion lease (decision 33): the robot moves only while its application gives signs of life.
-#include "engine/motion_lease.hpp"
+#include "engine/commands/motion_lease.hpp"
 
 #include <gmock/gmock.h>
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <thread>
 
-#include "engine/notification_queue.hpp"
+#include "engine/notifications/notification_queue.hpp"
 
 namespace rois {
 

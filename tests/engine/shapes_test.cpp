@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "conditions.hpp"
-#include "engine/frames.hpp"
-#include "engine/shapes.hpp"
-#include "engine/space.hpp"
+#include "engine/frames/frames.hpp"
+#include "engine/frames/shapes.hpp"
+#include "engine/frames/space.hpp"
 #include "world.hpp"
 
 namespace rois {

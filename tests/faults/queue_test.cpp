@@ -3,7 +3,7 @@
 
 #include <new>
 
-#include "engine/notification_queue.hpp"
+#include "engine/notifications/notification_queue.hpp"
 #include "faults/faults.hpp"
 
 namespace rois {

@@ -6,7 +6,7 @@
 #include "gateway/gateway.hpp"
 #include "gateway/secrets.hpp"
 #include "gateway/wakes.hpp"
-#include "xml/schemas.hpp"
+#include "xml/validation/schemas.hpp"
 
 namespace rois {
 

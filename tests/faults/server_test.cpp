@@ -12,7 +12,7 @@
 #include "files/files.hpp"
 #include "gateway/secrets.hpp"
 #include "net/server.hpp"
-#include "xml/schemas.hpp"
+#include "xml/validation/schemas.hpp"
 
 namespace rois {
 

@@ -4,9 +4,9 @@
 #include <variant>
 
 #include "fuzz/reading.hpp"
-#include "xml/grammars.hpp"
-#include "xml/scan.hpp"
-#include "xml/tree.hpp"
+#include "xml/codec/tree.hpp"
+#include "xml/validation/grammars.hpp"
+#include "xml/validation/scan.hpp"
 
 namespace rois::fuzz {
 

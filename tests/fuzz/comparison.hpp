@@ -8,10 +8,10 @@
 #include <string>
 #include <string_view>
 
-#include "xml/acceptor.hpp"
-#include "xml/codec.hpp"
-#include "xml/schemas.hpp"
-#include "xml/validator.hpp"
+#include "xml/codec/codec.hpp"
+#include "xml/tables/acceptor.hpp"
+#include "xml/validation/schemas.hpp"
+#include "xml/validation/validator.hpp"
 
 namespace rois::fuzz {
 

@@ -8,9 +8,9 @@
 #include <xercesc/sax2/Attributes.hpp>
 #include <xercesc/sax2/DefaultHandler.hpp>
 
-#include "xml/names.hpp"
-#include "xml/tree.hpp"
-#include "xml/xerces_text.hpp"
+#include "xml/codec/names.hpp"
+#include "xml/codec/tree.hpp"
+#include "xml/validation/xerces_text.hpp"
 
 namespace rois::fuzz {
 

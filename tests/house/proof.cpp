@@ -112,7 +112,7 @@ void judge(Row const& row, std::set<std::string> const& tests, Complaints& compl
         if (!tests.contains((*found)[1])) complaints.push_back(here + "there is no test " + (*found)[1].str());
 }
 
-// The source files of a row, such as `engine/executor.cpp`, must exist.
+// The source files of a row, such as `engine/commands/executor.cpp`, must exist.
 void judge_files(Tree const& tree, Row const& row, Complaints& complaints) {
     static std::regex const name(R"re(`([a-z]+/[\w/]+[.](?:cpp|hpp|xsd|xml))`)re");
     for (std::sregex_iterator found(row.how.begin(), row.how.end(), name), end; found != end; ++found) {

@@ -13,32 +13,33 @@ using testing::StartsWith;
 TEST(Layers, PointDown) {
     Tree const tree{
         {"server/types/ids.hpp", "#include <string>\n"},
-        {"server/xml/codec.hpp", "#include \"types/ids.hpp\"\n"},
-        {"server/xml/codec.cpp", "#include \"xml/codec.hpp\"\n#include <pugixml.hpp>\n#include <xercesc/sax2/X.hpp>\n"},
-        {"server/net/web.cpp", "#include \"xml/codec.hpp\"\n#include <boost/asio.hpp>\n#include <sys/socket.h>\n"},
-        {"components/simulation/hall.cpp", "#include <Eigen/Core>\n#include \"types/ids.hpp\"\n"}};
+        {"server/xml/codec/codec.hpp", "#include \"types/ids.hpp\"\n"},
+        {"server/xml/codec.cpp", "#include \"xml/codec/codec.hpp\"\n#include <pugixml.hpp>\n#include <xercesc/sax2/X.hpp>\n"},
+        {"server/net/web.cpp", "#include \"xml/codec/codec.hpp\"\n#include <boost/asio.hpp>\n#include <sys/socket.h>\n"},
+        {"components/simulation/world/hall.cpp", "#include <Eigen/Core>\n#include \"types/ids.hpp\"\n"}};
     EXPECT_THAT(against_layers(tree), IsEmpty());
 }
 
 TEST(Layers, AnArrowThatPointsUpIsFound) {
-    Tree const tree{{"server/types/ids.hpp", "// ids\n#include \"xml/codec.hpp\"\n"},
+    Tree const tree{{"server/types/ids.hpp", "// ids\n#include \"xml/codec/codec.hpp\"\n"},
                     {"server/engine/engine.cpp", "#  include \"net/web.hpp\"\n"},
                     {"server/net/web.hpp", ""},
-                    {"server/xml/codec.hpp", ""}};
+                    {"server/xml/codec/codec.hpp", ""}};
     EXPECT_THAT(against_layers(tree), ElementsAre("server/engine/engine.cpp:1: server/engine/ may not use \"net/web.hpp\"",
-                                                  "server/types/ids.hpp:2: server/types/ may not use \"xml/codec.hpp\""));
+                                                  "server/types/ids.hpp:2: server/types/ may not use \"xml/codec/codec.hpp\""));
 }
 
 TEST(Layers, SiblingsDoNotKnowEachOther) {
-    Tree const tree{{"server/engine/engine.cpp", "#include \"xml/codec.hpp\"\n"},
-                    {"server/xml/codec.hpp", "#include \"engine/engine.hpp\"\n"},
-                    {"server/engine/engine.hpp", ""},
-                    {"components/simulation/hall.cpp", "#include \"xml/codec.hpp\"\n#include \"xml/document.hpp\"\n"},
-                    {"server/xml/document.hpp", ""}};
+    Tree const tree{
+        {"server/engine/engine.cpp", "#include \"xml/codec/codec.hpp\"\n"},
+        {"server/xml/codec/codec.hpp", "#include \"engine/engine.hpp\"\n"},
+        {"server/engine/engine.hpp", ""},
+        {"components/simulation/world/hall.cpp", "#include \"xml/codec/codec.hpp\"\n#include \"xml/profiles/document.hpp\"\n"},
+        {"server/xml/profiles/document.hpp", ""}};
     EXPECT_THAT(against_layers(tree),
-                ElementsAre("components/simulation/hall.cpp:1: components/simulation/ may not use \"xml/codec.hpp\"",
-                            "server/engine/engine.cpp:1: server/engine/ may not use \"xml/codec.hpp\"",
-                            "server/xml/codec.hpp:1: server/xml/ may not use \"engine/engine.hpp\""));
+                ElementsAre("components/simulation/world/hall.cpp:1: components/simulation/ may not use \"xml/codec/codec.hpp\"",
+                            "server/engine/engine.cpp:1: server/engine/ may not use \"xml/codec/codec.hpp\"",
+                            "server/xml/codec/codec.hpp:1: server/xml/ may not use \"engine/engine.hpp\""));
 }
 
 TEST(Layers, TheGatewayKnowsNoSockets) {
@@ -73,8 +74,8 @@ TEST(Layers, ALibraryDoesNotShineThroughAHeader) {
 }
 
 TEST(Layers, PosesMayShineThrough) {
-    Tree const tree{{"server/main/main.cpp", "#include \"simulation/pose.hpp\"\n"},
-                    {"components/simulation/pose.hpp", "#include <Eigen/Geometry>\n"}};
+    Tree const tree{{"server/main/main.cpp", "#include \"simulation/world/pose.hpp\"\n"},
+                    {"components/simulation/world/pose.hpp", "#include <Eigen/Geometry>\n"}};
     EXPECT_THAT(against_layers(tree), IsEmpty());
 }
 
@@ -99,7 +100,7 @@ TEST(PassedInTime, IsReadByTheNetworkAndMainAlone) {
 }
 
 TEST(PassedInTime, HasManyDoors) {
-    Tree const tree{{"components/simulation/hall.cpp",
+    Tree const tree{{"components/simulation/world/hall.cpp",
                      "std::time(nullptr);\n"
                      "Steady::clock :: now();\n"
                      "std::this_thread::sleep_for(1s);\n"
@@ -124,13 +125,13 @@ TEST(CodeAlone, KeepsItsLinesAndItsCode) {
 }
 
 TEST(BracesInAwaits, AreFound) {
-    Tree const tree{{"client-cpp/command/front.cpp",
+    Tree const tree{{"client-cpp/command/recording/front.cpp",
                      "co_await write(message,\n    {FaultCode::not_found, \"no; not here\", {}, {}});\n"
                      "auto const all = co_await client.call(Search{});\n"
                      "co_return co_await follow.follow(rois::FollowParameters{.distance = 1_m});\n"}};
-    EXPECT_THAT(against_braces_in_awaits(tree),
-                ElementsAre(StartsWith("client-cpp/command/front.cpp:1: "), StartsWith("client-cpp/command/front.cpp:3: "),
-                            StartsWith("client-cpp/command/front.cpp:4: ")));
+    EXPECT_THAT(against_braces_in_awaits(tree), ElementsAre(StartsWith("client-cpp/command/recording/front.cpp:1: "),
+                                                            StartsWith("client-cpp/command/recording/front.cpp:3: "),
+                                                            StartsWith("client-cpp/command/recording/front.cpp:4: ")));
 }
 
 TEST(BracesInAwaits, AreAllowedElsewhere) {

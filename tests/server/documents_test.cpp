@@ -6,8 +6,8 @@
 #include <set>
 #include <sstream>
 
-#include "net/documents.hpp"
 #include "gateway/secrets.hpp"
+#include "net/documents.hpp"
 #include "server/http_client.hpp"
 
 namespace rois::test {

@@ -7,8 +7,8 @@
 #include "files/files.hpp"
 #include "server/conversation.hpp"
 #include "server/websocket_client.hpp"
-#include "xml/document.hpp"
-#include "xml/schemas.hpp"
+#include "xml/profiles/document.hpp"
+#include "xml/validation/schemas.hpp"
 
 namespace rois::test {
 namespace {

@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "files/files.hpp"
-#include "simulation/adapters.hpp"
+#include "simulation/adapters/adapters.hpp"
+#include "simulation/adapters/robot_components.hpp"
 #include "simulation/fake_media.hpp"
-#include "simulation/robot_components.hpp"
 #include "types/texts.hpp"
-#include "xml/profile_document.hpp"
+#include "xml/profiles/profile_document.hpp"
 
 namespace rois::simulation::stage {
 

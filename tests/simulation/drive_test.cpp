@@ -1,4 +1,4 @@
-#include "simulation/drive.hpp"
+#include "simulation/robot/drive.hpp"
 
 #include "simulation/world_stage.hpp"
 

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "simulation/adapters.hpp"
-#include "simulation/component_refs.hpp"
+#include "simulation/adapters/adapters.hpp"
+#include "simulation/basic/component_refs.hpp"
 #include "simulation/component_stage.hpp"
 
 namespace rois::simulation::stage {

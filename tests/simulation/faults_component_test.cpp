@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "simulation/component_refs.hpp"
+#include "simulation/basic/component_refs.hpp"
 #include "simulation/component_stage.hpp"
 
 namespace rois::simulation::stage {

@@ -1,5 +1,5 @@
 // The floor map and its document.
-#include "simulation/floor_map.hpp"
+#include "simulation/plan/floor_map.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <iterator>
 
 #include "simulation/world_stage.hpp"
-#include "xml/document.hpp"
-#include "xml/floor_map_document.hpp"
+#include "xml/profiles/document.hpp"
+#include "xml/profiles/floor_map_document.hpp"
 
 namespace rois::simulation {
 namespace {

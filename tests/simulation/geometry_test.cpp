@@ -1,9 +1,9 @@
-#include "simulation/geometry.hpp"
+#include "simulation/plan/geometry.hpp"
 
 #include <gtest/gtest.h>
 
-#include "simulation/random.hpp"
-#include "simulation/wire_units.hpp"
+#include "simulation/world/random.hpp"
+#include "simulation/world/wire_units.hpp"
 
 namespace rois::simulation {
 namespace {

@@ -1,4 +1,4 @@
-#include "simulation/random.hpp"
+#include "simulation/world/random.hpp"
 #include "simulation/world_stage.hpp"
 
 #include <gmock/gmock.h>

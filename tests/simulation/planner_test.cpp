@@ -1,4 +1,4 @@
-#include "simulation/planner.hpp"
+#include "simulation/plan/planner.hpp"
 
 #include "simulation/world_stage.hpp"
 

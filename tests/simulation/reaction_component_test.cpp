@@ -4,7 +4,7 @@
 #include <set>
 
 #include "simulation/component_stage.hpp"
-#include "simulation/reaction_types.hpp"
+#include "simulation/robot/reaction_types.hpp"
 
 namespace rois::simulation::stage {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "simulation/component_stage.hpp"
-#include "simulation/grammar.hpp"
-#include "simulation/scenario.hpp"
+#include "simulation/scenario/scenario.hpp"
+#include "simulation/speech/grammar.hpp"
 
 namespace rois::simulation::stage {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/component_stage.hpp"
-#include "simulation/wire_units.hpp"
+#include "simulation/world/wire_units.hpp"
 
 namespace rois::simulation::stage {
 namespace {

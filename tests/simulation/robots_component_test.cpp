@@ -8,8 +8,8 @@
 #include "files/files.hpp"
 #include "simulation/component_stage.hpp"
 #include "types/data_type.hpp"
-#include "xml/profile_document.hpp"
-#include "xml/schemas.hpp"
+#include "xml/profiles/profile_document.hpp"
+#include "xml/validation/schemas.hpp"
 
 namespace rois::simulation::stage {
 namespace {

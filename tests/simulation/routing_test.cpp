@@ -1,4 +1,4 @@
-#include "simulation/routing.hpp"
+#include "simulation/plan/routing.hpp"
 
 #include <gtest/gtest.h>
 

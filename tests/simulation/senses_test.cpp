@@ -1,4 +1,4 @@
-#include "simulation/senses.hpp"
+#include "simulation/robot/senses.hpp"
 
 #include "simulation/world_stage.hpp"
 

@@ -1,5 +1,5 @@
 // The hall as a component: steered visitors, and time with speed 0.
-#include "simulation/simulated_hall.hpp"
+#include "simulation/adapters/simulated_hall.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

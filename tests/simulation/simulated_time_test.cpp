@@ -1,4 +1,4 @@
-#include "simulation/simulation.hpp"
+#include "simulation/world/simulation.hpp"
 
 #include "simulation/world_stage.hpp"
 

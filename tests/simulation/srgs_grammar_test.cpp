@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "simulation/component_stage.hpp"
-#include "simulation/spoken_words.hpp"
-#include "simulation/srgs_grammar.hpp"
+#include "simulation/speech/spoken_words.hpp"
+#include "simulation/speech/srgs_grammar.hpp"
 
 namespace rois::simulation::stage {
 namespace {

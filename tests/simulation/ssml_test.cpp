@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "simulation/component_stage.hpp"
-#include "simulation/ssml.hpp"
+#include "simulation/speech/ssml.hpp"
 
 namespace rois::simulation::stage {
 namespace {

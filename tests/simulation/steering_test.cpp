@@ -1,5 +1,5 @@
 // Steered visitors.
-#include "simulation/steering.hpp"
+#include "simulation/scenario/steering.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "simulation/component_stage.hpp"
-#include "simulation/media_offers.hpp"
+#include "simulation/streaming/media_offers.hpp"
 
 namespace rois::simulation::stage {
 namespace {

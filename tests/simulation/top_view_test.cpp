@@ -1,4 +1,4 @@
-#include "simulation/top_view.hpp"
+#include "simulation/streaming/top_view.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "files/files.hpp"
-#include "simulation/floor_plan_file.hpp"
-#include "simulation/hall.hpp"
-#include "simulation/scenario_file.hpp"
+#include "simulation/plan/floor_plan_file.hpp"
+#include "simulation/scenario/scenario_file.hpp"
+#include "simulation/world/hall.hpp"
 
 namespace rois::simulation {
 

@@ -7,7 +7,7 @@
 #include "fuzz/mutation.hpp"
 #include "fuzz/samples.hpp"
 #include "speaking.hpp"
-#include "xml/acceptor.hpp"
+#include "xml/tables/acceptor.hpp"
 
 namespace rois::xml {
 namespace {

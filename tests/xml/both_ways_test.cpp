@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "speaking.hpp"
-#include "xml/decoding.hpp"
+#include "xml/codec/decoding.hpp"
 
 namespace rois::xml {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "speaking.hpp"
-#include "xml/grammars.hpp"
-#include "xml/validator.hpp"
+#include "xml/validation/grammars.hpp"
+#include "xml/validation/validator.hpp"
 
 namespace rois::xml {
 namespace {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "speaking.hpp"
-#include "xml/place.hpp"
+#include "xml/codec/place.hpp"
 
 namespace rois::xml {
 namespace {

@@ -13,10 +13,10 @@
 #include <variant>
 
 #include "files/files.hpp"
-#include "xml/codec.hpp"
-#include "xml/document.hpp"
-#include "xml/profile_document.hpp"
-#include "xml/schemas.hpp"
+#include "xml/codec/codec.hpp"
+#include "xml/profiles/document.hpp"
+#include "xml/profiles/profile_document.hpp"
+#include "xml/validation/schemas.hpp"
 
 namespace rois::xml {
 

@@ -1,0 +1,23 @@
+// Makers of the example components (Annex C) and of the stand-in.
+#pragma once
+
+#include <memory>
+
+#include "simulation/basic/robot_component.hpp"
+#include "xml/validation/schemas.hpp"
+
+namespace rois::simulation {
+
+// Validates grammars against the schemas.
+std::unique_ptr<Component> srgs_speech_recognition(Context, std::shared_ptr<xml::Schemas const>);
+std::unique_ptr<Component> person_gender_identification(Context);
+std::unique_ptr<Component> person_age_recognition(Context);
+
+// Navigation of a wheelchair, with brakes and state.
+std::unique_ptr<Component> wheelchair_robot(Context);
+
+// A component without behaviour: commands complete at once and queries are answered, both with the default values of the profile.
+// `whole` includes the messages of the sub components.
+std::unique_ptr<Component> stand_in(Context, ComponentProfile whole);
+
+}  // namespace rois::simulation

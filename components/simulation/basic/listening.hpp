@@ -1,0 +1,54 @@
+// Base of the speech recognition components: follows the speech of people and other robots near the robot.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "simulation/basic/robot_component.hpp"
+#include "simulation/robot/senses.hpp"
+
+namespace rois::simulation {
+
+// Speech that was received from beginning to end.
+struct HeardSpeech {
+    std::string text;
+    std::string language;
+    Instant began;
+    std::optional<HeardSound> from;  // the source of the sound at the beginning
+};
+
+class Listening : public ContinuousFunction {
+public:
+    using ContinuousFunction::ContinuousFunction;
+
+protected:
+    // Whether speech from this point counts.
+    virtual bool listens_to(Point const&) const { return true; }
+
+    // Called when speech begins, and when it ends (also if it was broken off or left the hearing range).
+    virtual void began(Instant when) = 0;
+    virtual void ended(Instant when) = 0;
+    // Called after ended() if the whole speech was received.
+    virtual void heard(HeardSpeech const&, Instant when) = 0;
+
+private:
+    void begin() final;
+    void suspended() final;
+    void resumed() final;
+    void sense(Instant when) final;
+    void begins(Happening const& speech, Instant when);
+    void ends(Happening const& speech, Instant when);
+
+    // An utterance in progress.
+    struct Input {
+        bool whole = true;
+        Instant began;
+        std::optional<HeardSound> from;
+    };
+    std::map<Entity, Input> inputs_;  // after began(), by speaker
+    std::uint64_t read_ = 0;
+    std::uint64_t missed_until_ = 0;  // ignores speech that began at or before this sequence
+};
+
+}  // namespace rois::simulation

@@ -1,0 +1,60 @@
+#include "simulation/plan/floor_map.hpp"
+
+#include "simulation/world/wire_units.hpp"
+
+namespace rois::simulation {
+namespace {
+
+FloorMap::Box drawn(Box const& box) {
+    Point const size = box.high - box.low;
+    return {.x = millimetres(box.low.x()),
+            .y = millimetres(box.low.y()),
+            .width = millimetres(size.x()),
+            .depth = millimetres(size.y())};
+}
+
+FloorMap::Wall drawn(Segment const& wall) {
+    return {.x1 = millimetres(wall.from.x()),
+            .y1 = millimetres(wall.from.y()),
+            .x2 = millimetres(wall.to.x()),
+            .y2 = millimetres(wall.to.y())};
+}
+
+FloorMap::Place drawn(Place const& place) {
+    return {.name = place.name,
+            .x = millimetres(place.pose.position.x()),
+            .y = millimetres(place.pose.position.y()),
+            .heading = degrees(place.pose.heading),
+            .width = millimetres(place.width),
+            .depth = millimetres(place.depth)};
+}
+
+FloorMap::Robot drawn(RobotPlan const& robot) {
+    FloorMap::Robot drawn{.name = robot.name, .radius = millimetres(robot.radius), .frame = {}};
+    if (!robot.frame) return drawn;
+    auto const& [crs, origin, sigma, heading_sigma] = *robot.frame;
+    drawn.frame = {.crs = crs,
+                   .x = millimetres(origin.position.x()),
+                   .y = millimetres(origin.position.y()),
+                   .heading = degrees(origin.heading)};
+    return drawn;
+}
+
+}  // namespace
+
+FloorMap floor_map(FloorPlan const& plan) {
+    FloorMap map{.name = plan.name,
+                 .crs = plan.crs,
+                 .bounds = drawn(plan.bounds),
+                 .walls = {},
+                 .furniture = {},
+                 .places = {},
+                 .robots = {}};
+    for (Segment const& wall : plan.walls) map.walls.push_back(drawn(wall));
+    for (Box const& desk : plan.desks) map.furniture.push_back(drawn(desk));
+    for (Place const& place : plan.places) map.places.push_back(drawn(place));
+    for (RobotPlan const& robot : plan.robots) map.robots.push_back(drawn(robot));
+    return map;
+}
+
+}  // namespace rois::simulation

@@ -1,0 +1,30 @@
+// The reactions of robots: the example codebook Reaction_Type of Annex D.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "simulation/world/pose.hpp"
+
+namespace rois::simulation {
+
+struct ReactionType {
+    std::string_view name;
+    Seconds duration;
+};
+
+// In the order of the annex. The code of the first reaction is "1".
+extern std::array<ReactionType, 50> const reaction_types;
+
+// Returns the code of a reaction given by its code, its name or the name of its gesture, "bow" (names ignore case). If several
+// reactions have the same gesture, returns the first. Empty if unknown.
+std::string reaction_code(std::string_view code_or_name);
+
+// Returns which of the gestures() the reaction looks like; empty if none.
+std::string_view gesture_of(std::string_view code);
+
+// Returns the reaction with this code, which must be valid.
+ReactionType const& reaction_type(std::string_view code);
+
+}  // namespace rois::simulation

@@ -1,0 +1,64 @@
+// The hall as a device of the engine: advances the world as real time passes.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/component.hpp"
+#include "simulation/world/hall.hpp"
+#include "simulation/world/simulated_time.hpp"
+
+namespace rois::simulation {
+
+// Receives every step of the world (20 ms of world time). The simulation's components are observers: from observe() they report
+// measurements and the progress of actions.
+class Observer {
+public:
+    virtual ~Observer() = default;
+    // `when` is the real time of the step, not later than the engine's current time.
+    virtual void observe(Instant when) = 0;
+    // Called by each advance(), after the steps that were due: for work that depends on real time.
+    virtual void time_passed(Instant now);
+};
+
+// Shared by its components. Used by the engine's thread only.
+class Simulation : public Device {
+public:
+    // `speed`: simulated seconds per real second. With 0, world time passes only by let_pass().
+    Simulation(FloorPlan, Scenario, std::uint64_t seed, double speed);
+
+    // Makes the steps that are due. The first call starts the clock and makes the first step. With speed 0, makes at most one
+    // step of the time requested by let_pass().
+    void advance(Instant now) override;
+    bool goes_on() const override { return !time_ && hall_.now() < pass_until_; }
+
+    // Requests more world time, in whole steps, in addition to earlier requests. Returns the world time at its end. Only for
+    // speed 0.
+    WorldTime let_pass(WorldTime);
+    void stand_still();  // cancels all let_pass()
+
+    // Makes one step and notifies the observers with `when`; for tests.
+    void step(Instant when);
+
+    Hall& hall() { return hall_; }
+    Hall const& hall() const { return hall_; }
+    bool runs_by_itself() const { return time_.has_value(); }
+    std::vector<Fault> const& faults() const { return faults_; }
+
+    void join(Observer&);  // they are notified in the order of these calls
+    void part(Observer&);  // not from within observe()
+
+private:
+    void step_of_world(Instant when);
+    void notify_time_passed(Instant now);
+
+    std::vector<Fault> faults_;
+    Hall hall_;
+    std::optional<SimulatedTime> time_;  // nothing: speed 0
+    WorldTime pass_until_{0};
+    bool begun_ = false;
+    std::vector<Observer*> observers_;
+};
+
+}  // namespace rois::simulation

@@ -1,0 +1,40 @@
+// Whether a sensor of a robot detects a person, without noise.
+#pragma once
+
+#include <cmath>
+
+#include "simulation/plan/floor_plan.hpp"
+#include "simulation/world/person.hpp"
+
+namespace rois::simulation {
+
+inline bool reaches(FloorPlan const& plan, Pose const& robot, Point const& place, Metres range, Radians field_of_view) {
+    return distance(robot.position, place) <= range && std::abs(bearing(robot, place)) <= field_of_view / 2 &&
+           plan.in_sight(robot.position, place);
+}
+
+// Whether the person's face looks at the robot within this angle to either side.
+inline bool is_turned_to(Person const& person, Pose const& robot, Radians within) {
+    return std::abs(bearing(person.pose, robot.position)) <= within;
+}
+
+inline bool sees(FloorPlan const& plan, Sensors::People const& sensor, Pose const& robot, Person const& person) {
+    return reaches(plan, robot, person.pose.position, sensor.range, sensor.field_of_view);
+}
+
+inline bool sees_face(FloorPlan const& plan, Sensors::Faces const& sensor, Pose const& robot, Person const& person) {
+    return reaches(plan, robot, person.pose.position, sensor.range, sensor.field_of_view) &&
+           is_turned_to(person, robot, sensor.turned_within);
+}
+
+inline bool recognizes(FloorPlan const& plan, Sensors::Identification const& sensor, Pose const& robot, Person const& person) {
+    return reaches(plan, robot, person.pose.position, sensor.range, sensor.field_of_view) &&
+           is_turned_to(person, robot, sensor.turned_within);
+}
+
+inline bool hears(FloorPlan const& plan, Sensors::Sound const& sensor, Pose const& robot, Point const& place) {
+    Metres const range = plan.in_sight(robot.position, place) ? sensor.range : sensor.range / 2;
+    return distance(robot.position, place) <= range;
+}
+
+}  // namespace rois::simulation

@@ -1,0 +1,51 @@
+// A command of a session, from its acceptance until its result is forgotten.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/commands/deadlines.hpp"
+#include "engine/component.hpp"
+#include "types/codes.hpp"
+#include "types/ids.hpp"
+#include "types/values.hpp"
+
+namespace rois {
+
+class RegisteredComponent;
+class Execution;
+struct Session;
+
+struct Command {
+    enum class State : std::uint8_t { waiting, running, ended };
+
+    CommandHandle handle{};
+    CommandId id;
+    std::string type;
+    ParameterList arguments;                         // with the profile's names
+    Session* session = nullptr;                      // receives the notifications; null once the session has ended
+    std::shared_ptr<RegisteredComponent> component;  // valid also after it has left the engine
+    bool binding_lost = false;                       // released before the command's turn came (decision 13)
+
+    State state = State::waiting;
+    std::optional<Deadlines::Ticket> start_deadline;  // set until the component reports `started`
+    CompletedStatus status = CompletedStatus::ok;     // set at the end, like the members below
+    Results results;
+    std::string reason;  // why the status is not OK, for people; may be empty
+    Steady ended_at;
+
+    // The steps of ending it. Each step is done once. A later tick repeats a step that failed.
+    bool reported = false;  // the journal and the session were notified
+    bool kept = false;      // the result is among the session's results
+    bool finished = false;  // no step is left
+    bool given_up = false;  // it failed for lack of memory: the next tick ends it
+
+    // The command's place in its sequence. Unset for set_parameter outside of a sequence.
+    std::shared_ptr<Execution> execution;  // until the command has ended
+    std::size_t node = 0;
+};
+
+}  // namespace rois

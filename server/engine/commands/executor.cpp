@@ -1,0 +1,440 @@
+#include "engine/commands/executor.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <ranges>
+#include <utility>
+
+#include "engine/commands/parameters.hpp"
+#include "engine/commands/sequence_check.hpp"
+#include "types/texts.hpp"
+
+namespace rois {
+
+namespace {
+
+// The commands of a session that have not finished, in the order in which they were given.
+std::vector<std::shared_ptr<Command>> live_commands(Session const& session) {
+    std::vector<std::shared_ptr<Command>> live;
+    for (auto const& [id, command] : session.commands)
+        if (!command->finished) live.push_back(command);
+    std::ranges::sort(live, {}, [](auto const& command) { return command->handle; });
+    return live;
+}
+
+// An ended session has no lease.
+bool is_proven_alive(Session const* session, Instant now) { return session != nullptr && now.steady < session->lease.end(); }
+
+}  // namespace
+
+// A command and its sequence and component refer to each other. Breaks these cycles for the commands that still run.
+Executor::~Executor() {
+    for (auto const& [handle, command] : live_) {
+        command->execution.reset();
+        command->component->start.reset();
+        command->component->functions.clear();
+        command->component->halting.reset();
+    }
+}
+
+CommandId Executor::fresh_id(Session const& session, std::set<CommandId> const& taken) {
+    while (true) {
+        CommandId id{"c-" + std::to_string(++last_id_)};
+        if (!taken.contains(id) && !session.commands.contains(id)) return id;
+    }
+}
+
+Executor::SharedCommand Executor::make(Session& session, CommandMessage const& message) {
+    auto command = std::make_shared<Command>();
+    auto const component = registry_.find(message.component_ref.code)->shared_from_this();
+    auto const& profiles = *arguments_of(*component, message.command_type);
+    command->handle = CommandHandle{++last_handle_};
+    command->id = message.command_id;
+    command->type = message.command_type;
+    command->session = &session;
+    command->component = component;
+    command->arguments = normalized(profiles, message.arguments);
+    if (!stores_arguments(message.command_type)) command->arguments = with_defaults(profiles, command->arguments);
+    live_.emplace(last_handle_, command);
+    session.commands.emplace(command->id, command);
+    return command;
+}
+
+void Executor::execute(Session& session, CommandUnitSequence const& sequence, Instant now) {
+    auto const before = last_handle_;
+    // When the sequence ends, cancels the delays that are not over.
+    auto const give_up = [this](Execution* over) {
+        for (auto const& delay : over->delays) deadlines_.cancel(delay);
+        delete over;
+    };
+    std::shared_ptr<Execution> execution;
+    try {
+        auto made = std::make_unique<Execution>(sequence, [&](CommandMessage const& message) { return make(session, message); });
+        execution = {made.release(), give_up};
+    } catch (...) {
+        forget_made(session, before);
+        throw;
+    }
+    for (auto const& command : execution->commands()) command->execution = execution;
+    try {
+        give_turns(execution, execution->begin(0), now);
+    } catch (...) {
+        give_up_waiting(*execution);
+        throw;
+    }
+    run_ready(now);
+}
+
+void Executor::run_alone(Session& session, CommandMessage const& message, Instant now) {
+    auto const before = last_handle_;
+    SharedCommand command;
+    try {
+        command = make(session, message);
+    } catch (...) {
+        forget_made(session, before);
+        throw;
+    }
+    attempt(command, [&] { run(command, now); });
+    run_ready(now);
+}
+
+void Executor::give_turns(std::shared_ptr<Execution> const& execution, std::vector<Execution::Turn> const& turns, Instant now) {
+    for (auto const& turn : turns) {
+        if (turn.delay.count() == 0) {
+            ready_.emplace_back(execution, turn.node);
+            continue;
+        }
+        auto const action = [this, waiting = std::weak_ptr{execution}, node = turn.node](Instant then) {
+            auto const alive = waiting.lock();
+            if (!alive) return;
+            ready_.emplace_back(alive, node);
+            run_ready(then);
+        };
+        execution->delays.push_back(deadlines_.add(now.steady + turn.delay, action));
+    }
+}
+
+// Begins all units whose turn has come, and those whose turn comes thereby. A loop, not a recursion, because sequences can be
+// long.
+void Executor::run_ready(Instant now) {
+    if (std::exchange(running_ready_, true)) return;
+    Attempts attempts;
+    while (!ready_.empty()) {
+        auto const [execution, node] = std::move(ready_.front());
+        ready_.pop_front();
+        if (auto const& command = execution->command_at(node)) {
+            attempts([&] { attempt(command, [&] { run(command, now); }); });
+        } else if (!attempts([&] { give_turns(execution, execution->begin(node), now); })) {
+            give_up_waiting(*execution);
+        }
+    }
+    running_ready_ = false;
+    attempts.rethrow();
+}
+
+void Executor::run(SharedCommand const& command, Instant now) {
+    if (command->state != Command::State::waiting || command->given_up) return;
+    if (command->binding_lost || command->component->bound_to != command->session)
+        return end(command, CompletedStatus::abort, "its component was released before its turn came", now);
+    command->state = Command::State::running;
+    journal_->command_begun(*command);
+    if (command->component->moves() && begins_action(command->type) && !is_proven_alive(command->session, now))
+        return end(command, CompletedStatus::abort, "its application gave no sign of life before its turn came", now);
+    if (command->type == "set_parameter") return run_set_parameter(command, now);
+    if (command->type == "start") return run_start(command, now);
+    if (command->type == "stop") return run_stop(command, now);
+    if (command->type == "suspend") return run_suspend(command, now);
+    if (command->type == "resume") return run_resume(command, now);
+    run_function(command, now);
+}
+
+void Executor::run_set_parameter(SharedCommand const& command, Instant now) {
+    auto const& component = *command->component;
+    auto called = store(*command);
+    auto const changed = component.in_own_frame(component.parameters);
+    auto const& parameters = changed ? *changed : component.parameters;
+    if (called == Called::ok) called = component.call([&](Component& c) { c.parameters_changed(parameters, now); });
+    end(command, called, now);
+}
+
+Executor::Called Executor::store(Command const& command) {
+    auto& component = *command.component;
+    auto merged = component.merged(component.parameters, command.arguments);
+    if (!merged) return Called::failed;
+    component.parameters = std::move(*merged);
+    return Called::ok;
+}
+
+void Executor::run_start(SharedCommand const& command, Instant now) {
+    if (store(*command) == Called::failed) return end(command, Called::failed, now);
+    go_on_with_start(command, now);
+}
+
+void Executor::go_on_with_start(SharedCommand const& command, Instant now) {
+    auto& component = *command->component;
+    if (command->state != Command::State::running) return;
+    if (component.activity != RegisteredComponent::Activity::idle)
+        halt(component, CompletedStatus::abort, "another start took its place", now);
+    if (component.halting) return wait_for_halt(command, now);
+    component.activity = RegisteredComponent::Activity::running;
+    component.start = command;
+    component.something_begins();
+    await_start(command, now);
+    auto const arguments = component.for_start(component.parameters, command->arguments);
+    auto const changed = component.in_own_frame(arguments);
+    auto const& parameters = changed ? *changed : arguments;
+    if (component.call([&](Component& c) { c.start(command->handle, parameters, now); }) == Called::ok) return;
+    component.activity = RegisteredComponent::Activity::idle;
+    component.start = nullptr;
+    halt_if_it_moves(component, now);
+    end(command, Called::failed, now);
+}
+
+void Executor::run_stop(SharedCommand const& command, Instant now) {
+    auto& component = *command->component;
+    auto status_of_start = CompletedStatus::abort;
+    if (component.start) component.call([&](Component& c) { status_of_start = c.status_when_stopped(); });
+    halt(component, status_of_start, status_of_start == CompletedStatus::ok ? "" : "it was stopped", now);
+    if (component.halting) return wait_for_halt(command, now);
+    end(command, Called::ok, now);
+}
+
+void Executor::run_suspend(SharedCommand const& command, Instant now) {
+    auto& component = *command->component;
+    if (!component.works())
+        return end(
+            command, CompletedStatus::error,
+            component.suspended == Suspended::all ? "the component is suspended already" : "nothing runs that could be suspended",
+            now);
+    auto const called = component.call([&](Component& c) { c.suspend(now); });
+    if (called == Called::ok) component.suspended = Suspended::all;
+    end(command, called, now);
+}
+
+void Executor::run_resume(SharedCommand const& command, Instant now) {
+    auto& component = *command->component;
+    if (component.suspended == Suspended::nothing)
+        return end(command, CompletedStatus::error, "nothing is suspended that could be resumed", now);
+    auto const called = component.call([&](Component& c) { c.resume(now); });
+    if (called == Called::ok)
+        component.suspended = Suspended::nothing;
+    else
+        halt_if_it_moves(component, now);
+    end(command, called, now);
+}
+
+void Executor::run_function(SharedCommand const& command, Instant now) {
+    auto& component = *command->component;
+    if (command->state != Command::State::running) return;
+    if (component.halting) return wait_for_halt(command, now);
+    component.functions.push_back(command);
+    component.something_begins();
+    await_start(command, now);
+    auto const changed = component.in_own_frame(command->arguments);
+    auto const& arguments = changed ? *changed : command->arguments;
+    auto const called = component.call([&](Component& c) { c.perform(command->handle, command->type, arguments, now); });
+    if (called != Called::failed) return;
+    std::erase(component.functions, command);
+    halt_if_it_moves(component, now);
+    end(command, called, now);
+}
+
+void Executor::await_start(SharedCommand const& command, Instant now) {
+    auto const* message = find_message(command->component->profile(), MessageKind::command, command->type);
+    auto const timeout = message->timeout.value_or(settings_.start_timeout);
+    command->start_deadline =
+        deadlines_.add(now.steady + timeout, [this, handle = command->handle](Instant then) { start_timed_out(handle, then); });
+}
+
+void Executor::start_timed_out(CommandHandle handle, Instant now) {
+    auto const found = live_.find(static_cast<std::uint64_t>(handle));
+    if (found == live_.end() || found->second->state != Command::State::running) return;
+    auto const command = found->second;
+    auto& component = *command->component;
+    std::string const reason = "the command '" + command->type + "' did not start in time";
+    agenda_.add(ErrorOccurred{&component, ErrorType::component_not_responding, reason});
+    command->start_deadline.reset();
+    bool const is_start = component.start == command;
+    std::erase(component.functions, command);
+    Attempts attempts;
+    attempts([&] { halt(component, is_start ? CompletedStatus::timeout : CompletedStatus::abort, reason, now); });
+    attempts([&] { end(command, CompletedStatus::timeout, reason, now); });
+    attempts([&] { run_ready(now); });
+    attempts.rethrow();
+}
+
+void Executor::started(CommandHandle handle) {
+    auto const found = live_.find(static_cast<std::uint64_t>(handle));
+    if (found == live_.end() || found->second->state != Command::State::running) {
+        ++stray_answers_;
+        return;
+    }
+    if (auto const deadline = std::exchange(found->second->start_deadline, {})) deadlines_.cancel(*deadline);
+}
+
+void Executor::completed(CommandEnded& report, Instant now) {
+    auto const found = live_.find(static_cast<std::uint64_t>(report.command));
+    if (found == live_.end() || found->second->state != Command::State::running) {
+        ++stray_answers_;
+        return;
+    }
+    auto const command = found->second;
+    auto& component = *command->component;
+    if (component.check(MessageKind::command, command->type, report.results) == RegisteredComponent::Answer::wrong) {
+        report.status = CompletedStatus::error;
+        report.results = {};
+        report.reason = "its results do not fit the profile";
+    }
+    if (report.status == CompletedStatus::ok) component.clear_failure();
+    std::erase(component.functions, command);
+    follow_up(component, command, report.status == CompletedStatus::ok ? report.afterwards : Afterwards::as_before);
+    end(command, report.status, report.reason, now, std::move(report.results));
+    run_ready(now);
+}
+
+// A `start` halts any running action first, so nothing was active before it. The end of another command does not affect a running
+// `start`.
+void Executor::follow_up(RegisteredComponent& component, SharedCommand const& command, Afterwards afterwards) {
+    using Activity = RegisteredComponent::Activity;
+    bool const starts = component.start == command;
+    if (starts) component.start = nullptr;
+    if (component.start) return;
+    bool const active = afterwards == Afterwards::active ||
+                        (afterwards == Afterwards::as_before && !starts && component.activity == Activity::active);
+    component.activity = active ? Activity::active : Activity::idle;
+    if (!active && component.functions.empty()) component.suspended = Suspended::nothing;
+}
+
+void Executor::end(SharedCommand const& command, Called called, Instant now) {
+    bool const ok = called == Called::ok;
+    end(command, ok ? CompletedStatus::ok : CompletedStatus::error, ok ? "" : "the component failed", now);
+}
+
+// Sets the command's state first. If a later step fails, the next tick finishes it.
+void Executor::end(SharedCommand const& command, CompletedStatus status, std::string_view reason, Instant now, Results results) {
+    if (command->state == Command::State::ended) return;
+    command->state = Command::State::ended;
+    command->status = status;
+    command->results = std::move(results);
+    command->ended_at = now.steady;
+    if (command->start_deadline) deadlines_.cancel(*command->start_deadline);
+    ++completed_by_status_.at(static_cast<std::size_t>(status));
+    attempt(command, [&] {
+        command->reason = reason;
+        finish(command, now);
+    });
+}
+
+// Notifies the session, keeps the results, and continues the sequence.
+void Executor::finish(SharedCommand const& command, Instant now) {
+    if (!command->reported) {
+        journal_->command_ended(*command);
+        if (command->session != nullptr) notifier_.notify(*command->session, Completed{command->id, command->status});
+        command->reported = true;
+    }
+    ParameterList{}.swap(command->arguments);  // from now on, only its results are needed
+    if (command->session != nullptr) remember(command, now);
+    if (auto const execution = std::exchange(command->execution, nullptr)) {
+        try {
+            go_on_in_sequence(execution, *command, now);
+        } catch (...) {
+            give_up_waiting(*execution);
+            throw;
+        }
+    }
+    command->finished = true;
+    live_.erase(static_cast<std::uint64_t>(command->handle));
+}
+
+void Executor::go_on_in_sequence(std::shared_ptr<Execution> const& execution, Command const& ended, Instant now) {
+    auto const turns = execution->command_ended(ended.node, ended.status);
+    for (auto const& aborted : execution->take_aborted())
+        end(aborted, CompletedStatus::abort,
+            "the command " + quoted(ended.id.text) + " of its sequence ended with " + std::string{to_text(ended.status)}, now);
+    give_turns(execution, turns, now);
+}
+
+void Executor::remember(SharedCommand const& command, Instant now) {
+    auto& session = *command->session;
+    if (!command->kept) {
+        session.ended.push_back(command);
+        command->kept = true;
+        if (session.ended.size() == 1) by_age_.emplace(command->ended_at, &session);
+    }
+    forget_old_results(session, now);
+}
+
+void Executor::forget_old_results(Session& session, Instant now) {
+    auto const is_old = [&](Command const& command) {
+        return session.ended.size() > settings_.max_command_results || command.ended_at + settings_.command_results <= now.steady;
+    };
+    forget_while(session, is_old);
+}
+
+void Executor::keep_results(Session& session, std::size_t most) {
+    forget_while(session, [&](Command const&) { return session.ended.size() > most; });
+}
+
+// Removes the oldest results of the session while `is_old` returns true.
+void Executor::forget_while(Session& session, std::function<bool(Command const&)> const& is_old) {
+    if (session.ended.empty() || !is_old(*session.ended.front())) return;
+    forget(session);
+    while (!session.ended.empty() && is_old(*session.ended.front())) {
+        session.commands.erase(session.ended.front()->id);
+        session.ended.pop_front();
+    }
+    if (!session.ended.empty()) by_age_.emplace(session.ended.front()->ended_at, &session);
+}
+
+void Executor::forget_old_results(Instant now) {
+    while (!by_age_.empty() && by_age_.begin()->first + settings_.command_results <= now.steady)
+        forget_old_results(*by_age_.begin()->second, now);
+}
+
+void Executor::forget(Session& session) {
+    if (!session.ended.empty()) by_age_.erase({session.ended.front()->ended_at, &session});
+}
+
+void Executor::release(Session& session, RegisteredComponent& component, Instant now) {
+    halt(component, CompletedStatus::abort, "its component was released", now);
+    for (auto const& command : live_commands(session))
+        if (command->component.get() == &component) command->binding_lost = true;
+    run_ready(now);
+}
+
+void Executor::part(RegisteredComponent& component, Instant now) {
+    Attempts attempts;
+    attempts([&] { halt(component, CompletedStatus::abort, "its component was removed", now); });
+    attempts([&] { forget_halt(component, now); });
+    for (auto const& [handle, command] : live_)
+        if (command->component.get() == &component) command->binding_lost = true;
+    attempts([&] { run_ready(now); });
+    attempts.rethrow();
+}
+
+void Executor::abort_all(Session& session, Instant now) {
+    Attempts attempts;
+    for (auto const& command : live_commands(session)) {
+        bool const ended = command->state == Command::State::ended;
+        attempts([&] { ended ? finish(command, now) : end(command, CompletedStatus::abort, "its session has ended", now); });
+    }
+    attempts([&] { run_ready(now); });
+    attempts.rethrow();
+}
+
+void Executor::stop_all(std::string_view reason, Instant now) {
+    Attempts attempts;
+    for (auto const& [ref, component] : registry_.all()) attempts([&] { halt(*component, CompletedStatus::abort, reason, now); });
+    std::vector<SharedCommand> live;
+    bool const listed = attempts([&] { std::ranges::copy(live_ | std::views::values, std::back_inserter(live)); });
+    if (listed) attempts([&] { end_each(live, CompletedStatus::abort, reason, now); });
+    if (!listed)
+        for (auto const& [handle, command] : live_) give_up(*command);
+    attempts.rethrow();
+}
+
+void Executor::detach_commands(Session& session) {
+    for (auto const& command : live_commands(session)) command->session = nullptr;
+}
+
+}  // namespace rois

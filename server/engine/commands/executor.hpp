@@ -1,0 +1,165 @@
+// Runs commands: single ones for set_parameter, whole sequences for execute. Each command completes exactly once (decisions 8, 9,
+// 12 to 17).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/commands/deadlines.hpp"
+#include "engine/commands/execution.hpp"
+#include "engine/journal.hpp"
+#include "engine/notifications/notifier.hpp"
+#include "engine/registry.hpp"
+#include "engine/settings.hpp"
+
+namespace rois {
+
+class Executor {
+public:
+    Executor(EngineSettings const& settings, Registry const& registry, Agenda& agenda, Deadlines& deadlines, Notifier& notifier,
+             Journal* const& journal)
+        : settings_{settings},
+          registry_{registry},
+          agenda_{agenda},
+          deadlines_{deadlines},
+          notifier_{notifier},
+          journal_{journal} {}
+    ~Executor();
+    Executor(Executor const&) = delete;
+    Executor& operator=(Executor const&) = delete;
+
+    // Begins a sequence. It must have passed SequenceCheck, and all its commands must have ids.
+    void execute(Session&, CommandUnitSequence const&, Instant now);
+
+    // Runs a single command.
+    void run_alone(Session&, CommandMessage const&, Instant now);
+
+    // Returns an id that is new to this session and not in `taken`.
+    CommandId fresh_id(Session const&, std::set<CommandId> const& taken);
+
+    // Reports of components.
+    void started(CommandHandle);
+    void completed(CommandEnded&, Instant now);
+    void halted(RegisteredComponent&, Instant now);
+
+    // Halts the component, even if the engine believes that it is idle, and repeats this until the halt is confirmed (decision
+    // 35). Ends the commands that run there: `start` with this status, commands of the component's own profile with ABORT. Halts
+    // the component also when memory is short; `repair` then ends the remaining commands.
+    void halt(RegisteredComponent&, CompletedStatus status_of_start, std::string_view reason, Instant now);
+
+    // Halts the component, and ends the session's commands that wait for it (decision 6).
+    void release(Session&, RegisteredComponent&, Instant now);
+
+    // Halts a component that leaves the engine, and ends the commands of all sessions that wait for it.
+    void part(RegisteredComponent&, Instant now);
+
+    // Suspends the component, or halts it if that fails. Reports the reason as an error (decision 33).
+    void hold(RegisteredComponent&, std::string_view reason, Instant now);
+
+    // Ends all commands of the session with ABORT. Does not halt components.
+    void abort_all(Session&, Instant now);
+
+    // Lets the session's commands run on without a session: their notifications go nowhere.
+    void detach_commands(Session&);
+
+    // Halts every component, and ends all waiting and running commands of all sessions.
+    void stop_all(std::string_view reason, Instant now);
+
+    // Removes the results that have expired: of the session, or of all.
+    void forget_old_results(Session&, Instant now);
+    void forget_old_results(Instant now);
+
+    // Continues work that an exception interrupted: ends the commands that were given up, and halts their components. Call at
+    // each tick.
+    void repair(Instant now);
+    // Keeps only the results of the session's last `most` commands.
+    void keep_results(Session&, std::size_t most);
+
+    // Removes the session from the search for expired results.
+    void forget(Session&);
+
+    std::array<std::uint64_t, 5> const& completed_by_status() const { return completed_by_status_; }
+    std::uint64_t stray_answers() const { return stray_answers_; }
+
+private:
+    using SharedCommand = std::shared_ptr<Command>;
+
+    using Called = RegisteredComponent::Called;
+    using Suspended = RegisteredComponent::Suspended;
+
+    SharedCommand make(Session&, CommandMessage const&);
+    void give_turns(std::shared_ptr<Execution> const&, std::vector<Execution::Turn> const&, Instant now);
+    void run_ready(Instant now);
+    void run(SharedCommand const&, Instant now);
+    void run_set_parameter(SharedCommand const&, Instant now);
+    void run_start(SharedCommand const&, Instant now);
+    void run_stop(SharedCommand const&, Instant now);
+    void run_suspend(SharedCommand const&, Instant now);
+    void run_resume(SharedCommand const&, Instant now);
+    void run_function(SharedCommand const&, Instant now);
+    void go_on_with_start(SharedCommand const&, Instant now);
+    void halt_if_it_moves(RegisteredComponent&, Instant now);
+    void ask_to_halt(RegisteredComponent&, Instant now);
+    void await_confirmation(RegisteredComponent&, Instant now);
+    void halt_failed(RegisteredComponent&, CompletedStatus, std::string_view reason, Instant now);
+    void halt_again_later(RegisteredComponent&, Instant now);
+    void go_on(RegisteredComponent&, Instant now);
+    void forget_halt(RegisteredComponent&, Instant now);
+    void wait_for_halt(SharedCommand const&, Instant now);
+    void await_start(SharedCommand const&, Instant now);
+    void start_timed_out(CommandHandle, Instant now);
+    static void follow_up(RegisteredComponent&, SharedCommand const&, Afterwards);
+    // `reason`: why the status is not OK, for people.
+    void end(SharedCommand const&, CompletedStatus, std::string_view reason, Instant now, Results = {});
+    void end(SharedCommand const& command, Called called, Instant now);
+    void end_each(std::vector<SharedCommand> const&, CompletedStatus, std::string_view reason, Instant now);
+    void finish(SharedCommand const&, Instant now);
+    void go_on_in_sequence(std::shared_ptr<Execution> const&, Command const& ended, Instant now);
+    template <class What>
+    void attempt(SharedCommand const&, What const&);
+    void repair(RegisteredComponent&, Instant now);
+    void give_up(Command&) noexcept;
+    void give_up_waiting(Execution const&) noexcept;
+    void end_given_up(SharedCommand const&, Instant now);
+    void forget_made(Session&, std::uint64_t after) noexcept;
+    void forget_while(Session&, std::function<bool(Command const&)> const& is_old);
+    Called store(Command const&);
+    void remember(SharedCommand const&, Instant now);
+
+    EngineSettings const& settings_;
+    Registry const& registry_;
+    Agenda& agenda_;
+    Deadlines& deadlines_;
+    Notifier& notifier_;
+    Journal* const& journal_;                                // the engine's; may be replaced before the first session
+    std::unordered_map<std::uint64_t, SharedCommand> live_;  // waiting or running, by handle
+    std::deque<std::pair<std::shared_ptr<Execution>, std::size_t>> ready_;  // units whose turn has come
+    bool running_ready_ = false;
+    bool needs_repair_ = false;                     // a command was given up, or a halt has no deadline
+    std::set<std::pair<Steady, Session*>> by_age_;  // the sessions with results, ordered by the age of their oldest one
+    std::uint64_t last_handle_ = 0;
+    std::uint64_t last_id_ = 0;
+    std::array<std::uint64_t, 5> completed_by_status_{};
+    std::uint64_t stray_answers_ = 0;
+};
+
+// Runs `what`. If it throws, gives up the command: the next tick ends it.
+template <class What>
+void Executor::attempt(SharedCommand const& command, What const& what) {
+    try {
+        what();
+    } catch (...) {
+        give_up(*command);
+        throw;
+    }
+}
+
+}  // namespace rois

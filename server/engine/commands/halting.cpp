@@ -1,0 +1,141 @@
+// Halts components until they confirm that they stand still (decision 35), and holds them (decision 33).
+#include <utility>
+
+#include "engine/commands/executor.hpp"
+
+namespace rois {
+
+namespace {
+
+constexpr std::chrono::milliseconds time_to_confirm{500};
+constexpr std::chrono::milliseconds between_attempts{200};
+
+}  // namespace
+
+// Calls the component first, so that it is halted even if a later step fails.
+void Executor::halt(RegisteredComponent& component, CompletedStatus status_of_start, std::string_view reason, Instant now) {
+    Attempts attempts;
+    attempts([&] { ask_to_halt(component, now); });
+    component.activity = RegisteredComponent::Activity::idle;
+    component.suspended = Suspended::nothing;
+    if (auto const start = std::exchange(component.start, nullptr)) attempts([&] { end(start, status_of_start, reason, now); });
+    attempts([&] { end_each(std::exchange(component.functions, {}), CompletedStatus::abort, reason, now); });
+    for (std::size_t i = 0; component.halting && i < component.halting->waiting.size(); ++i) {
+        auto const waiting = component.halting->waiting[i];
+        if (waiting->type != "stop") attempts([&] { end(waiting, CompletedStatus::abort, reason, now); });
+    }
+    attempts.rethrow();
+}
+
+// For a component that failed to begin an action, and may move nevertheless.
+void Executor::halt_if_it_moves(RegisteredComponent& component, Instant now) {
+    if (component.moves()) halt(component, CompletedStatus::abort, "the component failed", now);
+}
+
+void Executor::ask_to_halt(RegisteredComponent& component, Instant now) {
+    auto answer = Halted::not_yet;
+    auto const report = component.halting ? Report::once : Report::each;
+    auto const called = component.call([&](Component& c) { answer = c.halt(now); }, report);
+    if (component.has_departed()) return;
+    if (called == Called::ok && answer == Halted::confirmed) return go_on(component, now);
+    if (called == Called::failed) return halt_failed(component, CompletedStatus::error, "the component failed to halt", now);
+    if (component.halting && component.halting->failed) return halt_again_later(component, now);
+    if (!component.halting) component.halting.emplace();
+    if (component.halting->due == Deadlines::Ticket{}) await_confirmation(component, now);
+}
+
+void Executor::await_confirmation(RegisteredComponent& component, Instant now) {
+    needs_repair_ = true;  // in case this fails
+    component.halting->due =
+        deadlines_.add(now.steady + time_to_confirm, [this, weak = component.weak_from_this()](Instant then) {
+            auto const late = weak.lock();
+            if (!late || !late->halting || late->halting->failed) return;
+            std::string const reason = "the component did not confirm that it stands still";
+            agenda_.add(ErrorOccurred{late.get(), ErrorType::component_not_responding, reason});
+            halt_failed(*late, CompletedStatus::timeout, reason, then);
+            run_ready(then);
+        });
+}
+
+// Only a confirmed halt ends this state.
+void Executor::halt_failed(RegisteredComponent& component, CompletedStatus status, std::string_view reason, Instant now) {
+    if (!component.halting) component.halting.emplace();
+    bool const first = !std::exchange(component.halting->failed, true);
+    Attempts attempts;
+    if (first) attempts([&] { journal_->halt_failed(component.ref().code, reason); });
+    attempts([&] { halt_again_later(component, now); });
+    attempts([&] { end_each(std::exchange(component.halting->waiting, {}), status, reason, now); });
+    attempts.rethrow();
+}
+
+void Executor::halt_again_later(RegisteredComponent& component, Instant now) {
+    auto& due = component.halting->due;
+    deadlines_.cancel(std::exchange(due, {}));
+    needs_repair_ = true;  // in case this fails
+    due = deadlines_.add(now.steady + between_attempts, [this, weak = component.weak_from_this()](Instant then) {
+        auto const failed = weak.lock();
+        if (!failed || !failed->halting) return;
+        ask_to_halt(*failed, then);
+        run_ready(then);
+    });
+}
+
+void Executor::halted(RegisteredComponent& component, Instant now) {
+    if (!component.halting) ++stray_answers_;
+    go_on(component, now);
+}
+
+void Executor::go_on(RegisteredComponent& component, Instant now) {
+    component.has_stood = true;
+    auto const halting = std::exchange(component.halting, {});
+    if (!halting) return;
+    deadlines_.cancel(halting->due);
+    Attempts attempts;
+    if (halting->failed) {
+        component.clear_failure();
+        attempts([&] { journal_->halted_at_last(component.ref().code); });
+    }
+    for (auto const& command : halting->waiting) {
+        attempts([&] {
+            if (command->type == "stop")
+                end(command, CompletedStatus::ok, {}, now);
+            else if (command->type == "start")
+                attempt(command, [&] { go_on_with_start(command, now); });
+            else
+                attempt(command, [&] { run_function(command, now); });
+        });
+    }
+    attempts([&] { run_ready(now); });
+    attempts.rethrow();
+}
+
+// A `stop`, or a `start` that replaces another one, continues when the halt is confirmed.
+void Executor::wait_for_halt(SharedCommand const& command, Instant now) {
+    auto& halting = *command->component->halting;
+    if (halting.failed) return end(command, CompletedStatus::error, "the component failed to halt", now);
+    halting.waiting.push_back(command);
+}
+
+// For a component that leaves the engine: ends the commands that wait for its halt.
+void Executor::forget_halt(RegisteredComponent& component, Instant now) {
+    auto const halting = std::exchange(component.halting, {});
+    if (!halting) return;
+    deadlines_.cancel(halting->due);
+    end_each(halting->waiting, CompletedStatus::abort, "its component was removed", now);
+}
+
+void Executor::hold(RegisteredComponent& component, std::string_view reason, Instant now) {
+    bool const held = component.call([&](Component& c) { c.suspend(now); }) == Called::ok;
+    if (held) component.suspended = Suspended::all;
+    Attempts attempts;
+    if (!held) attempts([&] { halt(component, CompletedStatus::abort, reason, now); });
+    attempts([&] {
+        agenda_.add(ErrorOccurred{&component, ErrorType::user_defined_error,
+                                  std::string{held ? "its motion is held: " : "its motion was stopped: "}.append(reason).append(
+                                      held ? "; to continue, send resume or a new command" : "")});
+    });
+    attempts([&] { run_ready(now); });
+    attempts.rethrow();
+}
+
+}  // namespace rois

@@ -1,0 +1,138 @@
+#include "engine/commands/sequence_check.hpp"
+
+#include <array>
+#include <utility>
+
+#include "engine/commands/parameters.hpp"
+#include "types/listing.hpp"
+#include "types/texts.hpp"
+
+namespace rois {
+
+namespace {
+
+std::string element(std::string const& path, std::string_view name, std::size_t index) {
+    return (path.empty() ? "" : path + "/") + std::string{name} + "[" + std::to_string(index + 1) + "]";
+}
+
+std::string command_types_of(ComponentProfile const& profile) {
+    auto const is_command = [](MessageProfile const& message) { return message.kind == MessageKind::command; };
+    auto const names = listed(profile.messages | std::views::filter(is_command), &MessageProfile::name);
+    return names.empty() ? "none" : names;
+}
+
+Objection bad_parameter(std::string reason) { return {ReturnCode::bad_parameter, std::move(reason)}; }
+
+Objection failed(RegisteredComponent const& component) {
+    return {ReturnCode::error, "the component " + quoted(component.ref().code) + " failed"};
+}
+
+}  // namespace
+
+std::vector<ParameterProfile> const* arguments_of(RegisteredComponent const& component, std::string_view command_type) {
+    auto const* message = find_message(component.profile(), MessageKind::command, command_type);
+    if (message == nullptr) return nullptr;
+    if (command_type == "set_parameter") return &component.settable();
+    return command_type == "start" ? &component.startable() : &message->arguments;
+}
+
+bool begins_action(std::string_view command_type) {
+    return command_type != "set_parameter" && command_type != "stop" && command_type != "suspend";
+}
+
+bool stores_arguments(std::string_view command_type) { return command_type == "start" || command_type == "set_parameter"; }
+
+std::optional<Objection> SequenceCheck::objection(CommandUnitSequence const& sequence) {
+    return in_list(sequence.command_unit_list, "", "command_unit_list");
+}
+
+std::optional<Objection> SequenceCheck::in_list(std::vector<CommandUnit> const& units, std::string const& path,
+                                                std::string_view name) {
+    auto const around = path.empty() ? "" : path + ": ";
+    if (units.empty()) return bad_parameter(around + "there is no " + std::string{name});
+    auto const before = commands_;
+    for (std::size_t i = 0; i < units.size(); ++i)
+        if (auto problem = in_unit(units[i], element(path, name, i))) return problem;
+    if (commands_ == before)  // tables 10 and 13
+        return bad_parameter(around + "there is no command message in the " + std::string{name} +
+                             ", only delays; at least one is expected");
+    return {};
+}
+
+std::optional<Objection> SequenceCheck::in_unit(CommandUnit const& unit, std::string const& path) {
+    if (unit.delay_time && (*unit.delay_time < 0 || *unit.delay_time > max_delay_time))
+        return bad_parameter(path + ": delay_time must be 0 to " + std::to_string(max_delay_time) + " milliseconds");
+    if (auto const* message = std::get_if<CommandMessage>(&unit.unit)) {
+        auto problem = objection(*message);
+        if (problem) problem->reason.insert(0, path + ": ");
+        return problem;
+    }
+    if (auto const* concurrent = std::get_if<ConcurrentCommands>(&unit.unit)) return in_branches(*concurrent, path);
+    if (auto const* sequential = std::get_if<SequentialCommandUnit>(&unit.unit))
+        return in_list(sequential->command_unit_list, path, "command_unit_list");
+    if (auto const* parallel = std::get_if<ParallelCommandUnit>(&unit.unit))
+        return in_list(parallel->command_unit_list, path, "command_unit_list");
+    return {};
+}
+
+std::optional<Objection> SequenceCheck::in_branches(ConcurrentCommands const& concurrent, std::string const& path) {
+    if (concurrent.branches.empty()) return bad_parameter(path + ": there is no branch");
+    for (std::size_t i = 0; i < concurrent.branches.size(); ++i) {
+        auto const& commands = concurrent.branches[i].command_list;
+        auto problem = concurrent.form == ConcurrentCommands::Form::command_list && commands.size() == 1
+                           ? in_unit(commands.front(), element(path, "command_list", i))
+                           : in_list(commands, element(path, "branch_list", i), "command_list");
+        if (problem) return problem;
+    }
+    return {};
+}
+
+std::optional<Objection> SequenceCheck::objection(CommandMessage const& message) {
+    ++commands_;
+    begins_something_ = begins_something_ || begins_action(message.command_type);
+    auto [component, problem_of_ref] = registry_.meant(message.component_ref);
+    if (component == nullptr) return bad_parameter(std::move(problem_of_ref));
+    if (component->bound_to != &session_)
+        return Objection{ReturnCode::error, "the component " + quoted(component->ref().code) + " is not bound by this session"};
+    if (auto problem = values(message, *component)) return problem;
+    return id(message.command_id);
+}
+
+std::optional<Objection> SequenceCheck::values(CommandMessage const& message, RegisteredComponent& component) {
+    auto const* profiles = arguments_of(component, message.command_type);
+    if (profiles == nullptr)
+        return bad_parameter("the component " + quoted(component.ref().code) + " has no command " + quoted(message.command_type) +
+                             "; it has " + command_types_of(component.profile()));
+    if (auto problem = why_not(*profiles, message.arguments)) return bad_parameter(std::move(*problem));
+    auto parameters = normalized(*profiles, message.arguments);
+    if (auto problem = component.why_no_frame(parameters)) return bad_parameter(std::move(*problem));
+    if (auto problem = component.why_no_codebook(*profiles, parameters)) return bad_parameter(std::move(*problem));
+    if (stores_arguments(message.command_type)) {
+        bool const starts = message.command_type == "start";
+        if (auto problem = starts ? component.why_no_start(parameters) : std::nullopt) return bad_parameter(std::move(*problem));
+        auto const stored = stored_.try_emplace(&component, component.parameters).first;
+        auto merged = component.merged(stored->second, parameters);
+        if (!merged) return failed(component);
+        stored->second = std::move(*merged);
+        parameters = starts ? component.for_start(stored->second, parameters) : stored->second;
+    } else {
+        if (auto problem = why_incomplete(*profiles, parameters)) return bad_parameter(std::move(*problem));
+        parameters = with_defaults(*profiles, parameters);
+    }
+    std::optional<std::string> refusal;
+    auto const changed = component.in_own_frame(parameters);
+    auto const& taken = changed ? *changed : parameters;
+    auto const called = component.call([&](Component& c) { refusal = c.refusal(message.command_type, taken); });
+    if (called == RegisteredComponent::Called::failed) return failed(component);
+    if (refusal) return bad_parameter(std::move(*refusal));
+    return {};
+}
+
+std::optional<Objection> SequenceCheck::id(CommandId const& id) {
+    if (id.text.empty()) return {};
+    if (session_.commands.contains(id)) return bad_parameter("the command_id " + quoted(id.text) + " is in use in this session");
+    if (!ids_.insert(id).second) return bad_parameter("the command_id " + quoted(id.text) + " is there twice");
+    return {};
+}
+
+}  // namespace rois

@@ -1,0 +1,94 @@
+// Compiled conditions (ISO 19143). References are resolved, and numbers, times, geometries and patterns parsed, so matching only
+// compares. For their meaning see docs/conditions.md.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "engine/conditions/candidate.hpp"
+#include "engine/conditions/demand.hpp"
+#include "engine/conditions/vocabulary.hpp"
+#include "types/condition.hpp"
+
+namespace rois {
+
+class Predicate;
+class SortKey;
+
+// A compiled condition without SortBy.
+class Filter {
+public:
+    Filter();  // restricts nothing
+    ~Filter();
+    Filter(Filter&&) noexcept;
+    Filter& operator=(Filter&&) noexcept;
+
+    // Returns the filter, or why the condition is invalid: it names the part that is not supported or unknown to the vocabulary.
+    // Rejects SortBy, which only a Selection supports.
+    static std::variant<Filter, std::string> compile(QueryExpression const&, Vocabulary const&);
+
+    Match match(Candidate const&) const;
+
+    // Returns false if every candidate matches.
+    bool restricts() const { return predicate_ != nullptr; }
+
+    // Returns a canonical text, the same for equivalent conditions (decision 20). Computed at each call.
+    std::string meaning() const;
+
+    // Returns the components that can match, also those with `maybe`; nullopt if any component can. The texts belong to the
+    // filter.
+    std::optional<Demand> demand() const;
+
+    // The number of predicates, as a measure of the cost of a match.
+    std::size_t predicates() const { return predicates_; }
+
+    // The total length of the texts, including the points of geometries, as a measure of memory.
+    std::size_t text_bytes() const { return text_bytes_; }
+
+    // The references to results, in the order in which the condition has them.
+    std::vector<Reference> const& results() const { return results_; }
+
+    // Returns whether the result of a match may depend on the session that asks (`status` and parameters do, decisions 7 and 30).
+    bool depends_on_asker() const { return depends_on_asker_; }
+
+private:
+    friend class Selection;
+    static std::variant<Filter, std::string> compile(std::optional<Condition> const&, Vocabulary const&);
+
+    std::unique_ptr<Predicate const> predicate_;  // null: restricts nothing
+    std::size_t predicates_ = 0;
+    std::size_t text_bytes_ = 0;
+    std::vector<Reference> results_;
+    bool depends_on_asker_ = false;
+};
+
+// A filter with a sort order.
+class Selection {
+public:
+    ~Selection();
+    Selection(Selection&&) noexcept;
+    Selection& operator=(Selection&&) noexcept;
+
+    static std::variant<Selection, std::string> compile(QueryExpression const&, Vocabulary const&);
+
+    Match match(Candidate const& candidate) const { return filter_.match(candidate); }
+    Filter const& filter() const { return filter_; }
+
+    bool sorts() const { return !keys_.empty(); }
+
+    // Returns the indexes of the candidates in sorted order. The sort is stable; candidates without a value come last.
+    std::vector<std::size_t> order(std::vector<Candidate const*> const&) const;
+
+private:
+    Selection();
+
+    Filter filter_;
+    std::vector<std::unique_ptr<SortKey const>> keys_;
+};
+
+}  // namespace rois

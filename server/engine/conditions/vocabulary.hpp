@@ -1,0 +1,103 @@
+// The names that a condition's value references can use (decision 18; docs/conditions.md).
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "engine/frames/places.hpp"
+#include "types/profiles.hpp"
+
+namespace rois {
+
+// How values are compared. `any`: by the type that both values look like. `name`: as texts, without regard to case.
+enum class ValueKind : std::uint8_t { any, number, time, boolean, text, name };
+
+// Returns the text folded for comparison without regard to case.
+std::string folded_name(std::string_view);
+
+// A resolved value reference.
+struct Reference {
+    enum class To : std::uint8_t {
+        component_ref,
+        component_type,
+        engine,
+        robot_id,
+        status,
+        bound,
+        location,
+        parameter,
+        result,
+        located  // all located entities among the results
+    };
+    enum class Part : std::uint8_t { value, code, authority, codebook_ref, version, name, data_type_ref, ref, crs };
+    enum class Items : std::uint8_t { one_each, packed };  // a list of numbers or bools is packed into one text
+    static constexpr std::size_t no_alias = SIZE_MAX;
+
+    To to = To::component_ref;
+    std::string name;          // of the parameter or result, or of the result that the entity is located in; in lower case
+    std::string entity;        // only the entity with this ref; empty: all
+    std::size_t position = 0;  // only the value at this place, counted from 1; 0: all
+    Part part = Part::value;   // the value or one of its attributes
+    ValueKind kind = ValueKind::any;
+    Items items = Items::one_each;
+    std::size_t alias = no_alias;  // index among the types of the group
+};
+
+// A text that is the same for equivalent references.
+std::string canonical(Reference const&);
+
+// Parameters or results by name, without regard to case, with their declared types.
+class Declarations {
+public:
+    struct Declared {
+        std::string name;
+        ValueKind kind = ValueKind::any;
+        Reference::Items items = Reference::Items::one_each;
+    };
+
+    // Declares a name. A name with two different types gets ValueKind::any.
+    void add(ParameterProfile const&);
+    void add(std::span<ParameterProfile const> profiles) {
+        for (auto const& profile : profiles) add(profile);
+    }
+
+    // Finds a declaration, also by the spellings of other versions. Returns null if there is none.
+    Declared const* find(std::string_view name) const;
+
+    bool empty() const { return by_name_.empty(); }
+    auto begin() const { return by_name_.begin(); }
+    auto end() const { return by_name_.end(); }
+
+private:
+    std::map<std::string, Declared, std::less<>> by_name_;
+};
+
+// `parameters`: those of components; null if the condition is not about components. `results`: null if it is not about results.
+// `first`: the meaning of a bare name that both have, and of a spatial operator with one operand. The pointers must outlive the
+// vocabulary, and `places` the compiled filters too.
+struct Vocabulary {
+    enum class First : std::uint8_t { results, parameters };
+
+    Places const* places = nullptr;
+    Declarations const* parameters = nullptr;
+    Declarations const* results = nullptr;
+    First first = First::results;
+    std::string_view main_engine{};  // name of the engine that has all components and sub engines
+
+    // Returns the reference, or why the path is invalid. An alias is the first of several steps.
+    std::variant<Reference, std::string> resolve(std::string_view path, std::span<std::string const> aliases = {}) const;
+
+    // The reference that a spatial or temporal operator with one operand uses; empty if there is none.
+    std::string_view own_position() const;
+    std::string_view own_time() const;
+
+    // All names that can be referred to, for people.
+    std::string known() const;
+};
+
+}  // namespace rois

@@ -1,0 +1,202 @@
+#include "engine/notifications/notification_queue.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace rois {
+
+namespace {
+
+Numbered gap_until(std::uint64_t until, std::uint64_t count) {
+    return {until, std::make_shared<OutgoingNotification const>(Lost{count})};
+}
+
+Lost const* as_lost(Numbered const& entry) { return std::get_if<Lost>(&entry.notification->body); }
+
+// The sequence before this entry; before the first one that it counts, for a `Lost`.
+std::uint64_t before(Numbered const& entry) {
+    auto const* gap = as_lost(entry);
+    return entry.sequence - (gap == nullptr ? 1 : gap->count);
+}
+
+}  // namespace
+
+NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotification const> notification) {
+    std::lock_guard const lock{mutex_};
+    if (waiting_ >= max_waiting_ && !make_room()) overflowed_ = true;
+    if (overflowed_ && std::holds_alternative<ReceiveEvent>(notification->body)) return Pushed::overflow;
+    if (recent_count_ == recent_.size()) settle_recent();
+    recent_[recent_count_++] = {++last_sequence_, std::move(notification)};
+    ++waiting_;
+    return overflowed_ ? Pushed::overflow : Pushed::ok;
+}
+
+// Replaces the oldest waiting event by a `Lost`, merged with a `Lost` right before it. Returns false if there is no waiting
+// event.
+bool NotificationQueue::make_room() {
+    settle_recent();
+    auto const first_waiting = entries_.begin() + static_cast<std::ptrdiff_t>(sent_);
+    auto const event = std::find_if(first_waiting, entries_.end(), [](Numbered const& entry) {
+        return std::holds_alternative<ReceiveEvent>(entry.notification->body);
+    });
+    if (event == entries_.end()) return false;
+    auto const* const gap_before = event == first_waiting ? nullptr : as_lost(*std::prev(event));
+    auto gap = gap_until(event->sequence, gap_before == nullptr ? 1 : gap_before->count + 1);
+    --waiting_;
+    ++lost_;
+    if (gap_before == nullptr) {
+        *event = std::move(gap);
+    } else {
+        *std::prev(event) = std::move(gap);
+        entries_.erase(event);
+    }
+    return true;
+}
+
+void NotificationQueue::keep_last(std::size_t events) {
+    std::lock_guard const lock{mutex_};
+    auto const is_event = [](Numbered const& entry) { return std::holds_alternative<ReceiveEvent>(entry.notification->body); };
+    settle_recent();
+    std::vector<Numbered> kept;
+    kept.reserve(entries_.size() - sent_);
+    std::size_t dropped = 0;
+    auto const first_waiting = entries_.begin() + static_cast<std::ptrdiff_t>(sent_);
+    auto too_many = std::count_if(first_waiting, entries_.end(), is_event) - static_cast<std::ptrdiff_t>(events);
+    for (auto entry = first_waiting; entry != entries_.end(); ++entry) {
+        auto const* gap = kept.empty() ? nullptr : as_lost(kept.back());
+        if (too_many <= 0 || !is_event(*entry)) {
+            kept.push_back(*entry);
+            continue;
+        }
+        --too_many;
+        ++dropped;
+        if (gap != nullptr) {
+            kept.back() = gap_until(entry->sequence, gap->count + 1);
+        } else {
+            kept.push_back(gap_until(entry->sequence, 1));
+        }
+    }
+    // Nothing below throws, so the queue changes as a whole or not at all.
+    waiting_ -= dropped;
+    lost_ += dropped;
+    entries_ = std::move(kept);
+    sent_ = forgotten_ = 0;
+}
+
+std::vector<Numbered> NotificationQueue::read(std::uint64_t after, std::size_t most) {
+    std::vector<Numbered> entries;
+    read(after, most, entries);
+    return entries;
+}
+
+NotificationQueue::Next NotificationQueue::read(std::uint64_t after, std::size_t most, std::vector<Numbered>& into) {
+    std::lock_guard const lock{mutex_};
+    if (is_recent(after) && max_sent_ >= recent_.size()) return read_recent(after, most, into);
+    settle_recent();
+    auto const until = visible_until();
+    auto entry = first_after(after);
+    auto const begin = into.size();
+    if (entry != entries_.end() && entry->sequence <= until && before(*entry) != after) {
+        // The position is before the oldest entry, or inside a gap: begin with a `Lost` that counts from the position.
+        auto const missing_until = as_lost(*entry) == nullptr ? before(*entry) : entry->sequence;
+        if (missing_until > after) into.push_back(gap_until(missing_until, missing_until - after));
+        if (as_lost(*entry) != nullptr) ++entry;
+    }
+    for (; entry != entries_.end() && entry->sequence <= until && into.size() - begin < most; ++entry) into.push_back(*entry);
+    if (into.size() == begin) return after_locked(after);
+    mark_sent(into.back().sequence);
+    forget();
+    return after_locked(into.back().sequence);
+}
+
+// The common case: the reader continues where it stopped, and all entries after that are recent.
+NotificationQueue::Next NotificationQueue::read_recent(std::uint64_t after, std::size_t most, std::vector<Numbered>& into) {
+    auto const until = visible_until();
+    auto last = after;
+    for (; most > 0 && last < until; --most) into.push_back(recent_[++last - recent_.front().sequence]);
+    if (last > after) mark_sent(last);
+    return after_locked(last);
+}
+
+// Moves all recent entries or none: only the growth of entries_ can throw.
+void NotificationQueue::settle_recent() {
+    if (entries_.capacity() < entries_.size() + recent_count_)
+        entries_.reserve(std::max(2 * entries_.size(), entries_.size() + recent_count_));
+    for (std::size_t i = 0; i < recent_count_; ++i) entries_.push_back(std::move(recent_[i]));
+    recent_count_ = 0;
+    forget();
+}
+
+// Most readers continue where the last read stopped: at the first waiting entry.
+std::vector<Numbered>::const_iterator NotificationQueue::first_after(std::uint64_t sequence) const {
+    auto const sent = std::min(sent_, entries_.size());
+    bool const knows_sent = sent == 0 || entries_[sent - 1].sequence <= sequence;
+    auto const begin = entries_.begin() + static_cast<std::ptrdiff_t>(knows_sent ? sent : forgotten_);
+    return std::upper_bound(begin, entries_.end(), sequence,
+                            [](std::uint64_t s, Numbered const& entry) { return s < entry.sequence; });
+}
+
+NotificationQueue::Next NotificationQueue::next(std::uint64_t after) const {
+    std::lock_guard const lock{mutex_};
+    return after_locked(after);
+}
+
+// The sequence of the first entry after this one; 0 if there is none.
+std::uint64_t NotificationQueue::sequence_after(std::uint64_t sequence) const {
+    if (is_recent(sequence)) return sequence < last_sequence_ ? sequence + 1 : 0;
+    auto const entry = first_after(sequence);
+    if (entry != entries_.end()) return entry->sequence;
+    return recent_count_ > 0 ? recent_.front().sequence : 0;
+}
+
+NotificationQueue::Next NotificationQueue::after_locked(std::uint64_t sequence) const {
+    auto const follows = sequence_after(sequence);
+    if (follows != 0 && follows <= visible_until()) return Next::more;
+    if (!shows_closed()) return Next::wait;
+    return overflowed_ ? Next::overflowed : Next::ended;
+}
+
+NotificationQueue::Hold NotificationQueue::hold() {
+    std::lock_guard const lock{mutex_};
+    return holds_.emplace_back(last_sequence_);
+}
+
+bool NotificationQueue::release(Hold hold) {
+    std::lock_guard const lock{mutex_};
+    holds_.erase(std::ranges::lower_bound(holds_, hold));
+    return last_sequence_ > hold || shows_closed();
+}
+
+void NotificationQueue::close() {
+    std::lock_guard const lock{mutex_};
+    closed_ = true;
+}
+
+std::size_t NotificationQueue::waiting() const {
+    std::lock_guard const lock{mutex_};
+    return waiting_;
+}
+
+bool NotificationQueue::closed() const {
+    std::lock_guard const lock{mutex_};
+    return shows_closed();
+}
+
+Numbered const& NotificationQueue::at(std::size_t place) const {
+    return place < entries_.size() ? entries_[place] : recent_[place - entries_.size()];
+}
+
+void NotificationQueue::mark_sent(std::uint64_t until) {
+    for (; sent_ < entries_.size() + recent_count_ && at(sent_).sequence <= until; ++sent_)
+        if (as_lost(at(sent_)) == nullptr) --waiting_;
+}
+
+// All entries must be in entries_.
+void NotificationQueue::forget() {
+    for (; sent_ - forgotten_ > max_sent_; ++forgotten_) entries_[forgotten_].notification.reset();
+    if (forgotten_ * 2 <= entries_.size()) return;
+    entries_.erase(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(forgotten_));
+    sent_ -= std::exchange(forgotten_, 0);
+}
+
+}  // namespace rois

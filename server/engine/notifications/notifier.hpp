@@ -1,0 +1,71 @@
+// Puts notifications into the queues of sessions.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "engine/engine.hpp"
+#include "engine/notifications/prefetch.hpp"
+#include "engine/session.hpp"
+
+namespace rois {
+
+using SharedNotification = std::shared_ptr<OutgoingNotification const>;
+
+class Notifier {
+public:
+    explicit Notifier(Outbox& outbox) : outbox_{outbox} {}
+
+    void notify(Session& session, Notification notification) {
+        notify(session, std::make_shared<OutgoingNotification const>(std::move(notification)));
+    }
+
+    void notify(Session& session, SharedNotification notification) { notify(*session.notifications, std::move(notification)); }
+
+    void notify(NotificationQueue& queue, SharedNotification notification) {
+        auto const lost = queue.lost(), last = queue.last_sequence();
+        bool const known = queue.overflowed();
+        if (queue.push(std::move(notification)) == NotificationQueue::Pushed::overflow && !known) {
+            overflowed_ = true;
+            ++overflows_;
+        }
+        if (queue.last_sequence() == last) return;
+        ++pushed_;
+        lost_ += queue.lost() - lost;
+        outbox_.notify(queue);
+    }
+
+    // Prefetches the memory that `notify` needs, in two steps: what the queue points to, then the readers behind that.
+    static void prefetch_audience(NotificationQueue const& queue) { prefetch(queue.audience().get()); }
+    void prefetch_readers(NotificationQueue const& queue) const { outbox_.approach(queue); }
+
+    // Drops the session's sent notifications, and the oldest waiting events until `events` are left.
+    void keep_last(Session& session, std::size_t events) {
+        auto const lost = session.notifications->lost();
+        session.notifications->keep_last(events);
+        lost_ += session.notifications->lost() - lost;
+    }
+
+    // Marks the end of the session's notifications.
+    void close(Session& session) {
+        session.notifications->close();
+        outbox_.notify(*session.notifications);
+    }
+
+    // Returns whether a queue overflowed since the last call (decision 23).
+    bool take_overflowed() { return std::exchange(overflowed_, false); }
+
+    std::uint64_t pushed() const { return pushed_; }
+    std::uint64_t lost() const { return lost_; }
+    std::uint64_t overflows() const { return overflows_; }  // number of sessions that had to end
+
+private:
+    Outbox& outbox_;
+    bool overflowed_ = false;
+    std::uint64_t pushed_ = 0;
+    std::uint64_t lost_ = 0;
+    std::uint64_t overflows_ = 0;
+};
+
+}  // namespace rois

@@ -1,0 +1,93 @@
+// The subscriptions of all sessions to events (decisions 18 to 21).
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/conditions/filter.hpp"
+#include "engine/frames/perspective.hpp"
+#include "types/ids.hpp"
+#include "types/messages.hpp"
+
+namespace rois {
+
+class NotificationQueue;
+class RegisteredComponent;
+struct Session;
+
+// An event type and a condition, and the sessions that subscribed to this pair.
+struct Subscription {
+    std::uint64_t number = 0;  // in the order of subscribing
+    SubscribeId id;
+    std::string event_type;
+    Filter filter;
+    // The keys in OfType. Kept so that removing the subscription needs no memory.
+    std::string const* meaning = nullptr;
+    std::optional<Demand> demand;
+    struct Subscriber {
+        Session* session;
+        std::uint64_t number;      // number of the session
+        std::uint32_t slot;        // copy of the session's slot in Details, to read it without the session
+        NotificationQueue* queue;  // copy of the session's queue, likewise
+        bool inline_results;
+    };
+    std::vector<Subscriber> subscribers;  // ordered by session number
+};
+
+// A subscription knows its sessions, and a session its subscriptions.
+class Subscriptions {
+public:
+    // Returns the subscription, or null if no session has it.
+    Subscription* find(std::string_view event_type, Filter const&) const;
+
+    // Subscribes a session. The same event type and condition give the same subscription; the last `inline_results` wins.
+    Subscription& add(Session&, std::string const& event_type, Filter, bool inline_results);
+
+    // Has no effect if the session has no subscription with this id.
+    void remove(Session&, SubscribeId const&);
+    void remove_all(Session&);
+
+    // Returns the subscriptions to this event type that the component may concern, in the order of subscribing.
+    std::vector<Subscription*> possible(std::string_view event_type, RegisteredComponent const&) const;
+
+    // Returns the sessions with a subscription that an event of this component may ever match.
+    std::set<Session*> possible_subscribers(RegisteredComponent const&, Perspective& ever) const;
+
+    std::size_t size() const { return by_id_.size(); }
+    std::size_t predicates() const { return predicates_; }  // in the conditions of all subscriptions
+
+private:
+    struct Earlier {
+        bool operator()(Subscription const* a, Subscription const* b) const { return a->number < b->number; }
+    };
+    using InOrder = std::set<Subscription*, Earlier>;
+    using ByText = std::map<std::string, InOrder, std::less<>>;
+
+    // Each subscription is listed under all refs and types that its condition demands, or else in `others`.
+    struct OfType {
+        ByText by_ref;
+        ByText by_type;
+        InOrder others;
+        std::unordered_map<std::string, Subscription*> by_meaning;  // by the canonical text of the filter
+
+        void add(Subscription&);  // changes nothing if it throws
+        void remove(Subscription&) noexcept;
+    };
+
+    Subscription& keep(std::unique_ptr<Subscription>);
+    static void part(Session&, Subscription&);
+    void remove_if_unused(Subscription&) noexcept;
+
+    std::unordered_map<SubscribeId, std::unique_ptr<Subscription>, IdHash> by_id_;
+    std::map<std::string, OfType, std::less<>> by_type_;
+    std::uint64_t last_ = 0;
+    std::size_t predicates_ = 0;
+};
+
+}  // namespace rois

@@ -1,0 +1,41 @@
+// Decodes message trees into messages.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "types/messages.hpp"
+#include "xml/codec/codec.hpp"
+#include "xml/codec/message_tree.hpp"
+
+namespace rois::xml {
+
+// Returns the root elements of requests, in the order of wire.md.
+std::span<std::string_view const> operation_names();
+
+// Returns nothing if the root is not a request.
+std::optional<Request> decode(MessageTree const&);
+
+// Decodes an engine's message that was not validated. Returns nothing if it is not one, or lacks a mandatory part. Leaves out the
+// profiles of get_profile's reply.
+std::optional<Heard> decode_engine_message(MessageTree const&);
+
+// Returns nothing if the root is another element, or has no valid `stopped`.
+std::optional<StopState> decode_stop_state(MessageTree const&);
+
+// Parts of messages. A missing node gives an empty part.
+Identifier decode_identifier(MessageTree::Node);
+ParameterList decode_parameters(MessageTree::Node list, std::string_view element = "parameter");
+CommandUnitSequence decode_sequence(MessageTree::Node command_unit_sequence);
+Results decode_results(MessageTree::Node results);
+QueryExpression decode_condition(MessageTree::Node condition);
+
+// Returns whether the trimmed text is "true" or "1".
+bool decode_boolean(std::string_view);
+
+// Decode a whole number of any length; one that does not fit is saturated.
+std::int64_t decode_integer(std::string_view);
+std::uint64_t decode_unsigned(std::string_view);
+
+}  // namespace rois::xml

@@ -1,0 +1,213 @@
+#include <algorithm>
+#include <array>
+
+#include "xml/codec/decoding.hpp"
+#include "xml/codec/names.hpp"
+#include "xml/codec/numbers.hpp"
+
+namespace rois::xml {
+
+namespace {
+
+using Node = MessageTree::Node;
+
+// Reads the children of a successful reply. Returns false if a mandatory one is missing. One overload for each kind of content.
+bool read(Node, Outcome&) { return true; }
+
+template <class R>
+concept HasResults = requires(R reply) {
+    reply.results;
+};
+template <class R>
+concept HasRef = requires(R reply) {
+    reply.component_ref;
+};
+
+bool read_ref(Node node, Identifier& ref) {
+    ref = decode_identifier(node.child("component_ref"));
+    return !ref.code.empty();
+}
+
+template <class R>
+requires HasResults<R> || HasRef<R>
+bool read(Node node, R& reply) {
+    bool complete = true;
+    if constexpr (HasResults<R>) {
+        complete = static_cast<bool>(node.child("results"));
+        reply.results = decode_results(node.child("results"));
+    }
+    if constexpr (HasRef<R>) complete = read_ref(node, reply.component_ref) && complete;
+    return complete;
+}
+
+bool read(Node node, Connect::Reply& reply) {
+    reply.session.text = node.child_text("session");
+    return !reply.session.text.empty();
+}
+
+bool read(Node node, GetProfile::Reply& reply) {
+    for (auto const entry : node.child("components").children())
+        reply.components.push_back(
+            {entry.attribute_text("ref"), entry.attribute_text("type"), entry.attribute_text("engine"), {}});
+    return static_cast<bool>(node.child("components"));
+}
+
+bool read(Node node, Search::Reply& reply) {
+    for (auto const ref : node.child("component_ref_list").children()) reply.component_ref_list.push_back(decode_identifier(ref));
+    return static_cast<bool>(node.child("component_ref_list"));
+}
+
+bool read(Node node, GetParameter::Reply& reply) {
+    reply.parameters = decode_parameters(node.child("parameters"));
+    return static_cast<bool>(node.child("parameters"));
+}
+
+bool read(Node node, SetParameter::Reply& reply) {
+    reply.command_id.text = node.child_text("command_id");
+    return !reply.command_id.text.empty();
+}
+
+bool read(Node node, Execute::Reply& reply) {
+    reply.command_unit_list = decode_sequence(node.child("CommandUnitSequence"));
+    return static_cast<bool>(node.child("CommandUnitSequence"));
+}
+
+bool read(Node node, Subscribe::Reply& reply) {
+    reply.subscribe_id.text = node.child_text("subscribe_id");
+    return !reply.subscribe_id.text.empty();
+}
+
+template <class R>
+std::optional<Heard> read_reply(Node root) {
+    std::optional<Heard> heard;
+    auto const code = to_code<ReturnCode>(root.attribute("return_code").value_or(""));
+    if (!code) return heard;
+    auto& answered = std::get<Answered>(heard.emplace());
+    answered.request_id = root.attribute_text("request_id");
+    auto& reply = answered.reply.emplace<R>();
+    reply.return_code = *code;
+    if (*code != ReturnCode::ok) {
+        reply.reason = root.child_text("reason");
+    } else if (!read(root, reply)) {
+        heard.reset();
+    }
+    return heard;
+}
+
+using ReadReply = std::optional<Heard> (*)(Node);
+
+template <class... Replies>
+constexpr std::array<ReadReply, sizeof...(Replies)> readers_of(std::variant<Replies...> const*) {
+    return {read_reply<Replies>...};
+}
+constexpr auto reply_readers = readers_of(static_cast<Reply const*>(nullptr));  // in the order of operation_names()
+
+// --- Notifications ---
+
+std::optional<Notification> read_event(Node root) {
+    auto const expire = to_utc(root.child_text("expire"));
+    ReceiveEvent event{.event_id = {root.child_text("event_id")},
+                       .event_type = root.child_text("event_type"),
+                       .subscribe_id = {root.child_text("subscribe_id")},
+                       .expire = expire.value_or(Utc{}),
+                       .component_ref = decode_identifier(root.child("component_ref")),
+                       .results = {}};
+    if (auto const results = root.child("results")) event.results = std::make_shared<Results const>(decode_results(results));
+    if (!expire || event.event_id.text.empty() || event.event_type.empty()) return std::nullopt;
+    return event;
+}
+
+std::optional<Notification> read_error(Node root) {
+    auto const type = to_code<ErrorType>(root.child("error_type").text());
+    if (!type) return std::nullopt;
+    ReceiveError error{{root.child_text("error_id")}, *type, {}};
+    if (auto const ref = root.child("component_ref")) error.component_ref = decode_identifier(ref);
+    return error;
+}
+
+std::optional<Notification> read_completed(Node root) {
+    auto const status = to_code<CompletedStatus>(root.child("status").text());
+    if (!status) return std::nullopt;
+    return Completed{{root.child_text("command_id")}, *status};
+}
+
+std::optional<Notification> read_notification(Node root) {
+    auto const name = root.name();
+    if (name == "receive_event") return read_event(root);
+    if (name == "receive_error") return read_error(root);
+    if (name == "completed") return read_completed(root);
+    if (name == "lost") return Lost{decode_unsigned(root.attribute("count").value_or(""))};
+    if (name == "profile_changed") return ProfileChanged{};
+    return std::nullopt;
+}
+
+std::optional<Heard> read_fault(Node root) {
+    auto const code = to_code<FaultCode>(root.attribute("code").value_or(""));
+    if (!code) return std::nullopt;
+    Fault fault{*code, root.child_text("reason"), {}, root.attribute_text("request_id")};
+    auto const line = root.attribute("line");
+    if (line) fault.place = Place{decode_unsigned(*line), decode_unsigned(root.attribute("column").value_or("1"))};
+    return fault;
+}
+
+// --- Results ---
+
+Located read_located(Node node) {
+    Located located{.of = node.attribute_text("of"),
+                    .ref = node.attribute_text("ref"),
+                    .crs = node.attribute_text("crs"),
+                    .position = {},
+                    .orientation = {},
+                    .certainty = {}};
+    auto const position = decode_numbers(node.child("position").text());
+    if (position.size() == located.position.size()) std::ranges::copy(position, located.position.begin());
+    located.orientation = decode_numbers(node.child("orientation").text());
+    if (auto const reliability = node.child("reliability")) {
+        auto const numbers = decode_numbers(reliability.text());
+        located.certainty = Located::Reliability{numbers.empty() ? 0 : numbers.front()};
+    }
+    if (auto const covariance = node.child("covariance"))
+        located.certainty = Located::Covariance{decode_numbers(covariance.text())};
+    return located;
+}
+
+}  // namespace
+
+Results decode_results(Node results) {
+    Results read{decode_parameters(results, "result"), {}};
+    for (auto const node : results.children()) {
+        if (node.name() == "located") read.located.push_back(read_located(node));
+    }
+    return read;
+}
+
+std::optional<Heard> decode_engine_message(MessageTree const& message) {
+    constexpr std::string_view ending = "_response";
+    auto const root = message.root();
+    if (!root || message.name_space() != message_namespace) return std::nullopt;
+    if (root.name() == "fault") return read_fault(root);
+    if (root.name().ends_with(ending)) {
+        auto const operation = root.name().substr(0, root.name().size() - ending.size());
+        auto const names = operation_names();
+        auto const found = std::ranges::find(names, operation);
+        if (found == names.end()) return std::nullopt;
+        return reply_readers.at(static_cast<std::size_t>(found - names.begin()))(root);
+    }
+    auto const sequence = root.attribute("sequence");
+    auto told = read_notification(root);
+    if (!sequence || !told) return std::nullopt;
+    return Told{decode_unsigned(*sequence), *std::move(told)};
+}
+
+std::optional<StopState> decode_stop_state(MessageTree const& message) {
+    auto const root = message.root();
+    if (!root || message.name_space() != message_namespace || root.name() != "stop_state") return std::nullopt;
+    auto const stopped = root.child("stopped");
+    if (!stopped) return std::nullopt;
+    StopState state{decode_boolean(stopped.text()), {}};
+    for (auto const node : root.children())
+        if (node.name() == "not_halted") state.not_halted.emplace_back(node.text());
+    return state;
+}
+
+}  // namespace rois::xml

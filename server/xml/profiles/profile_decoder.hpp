@@ -1,0 +1,19 @@
+// Decodes the trees of profile documents.
+#pragma once
+
+#include <pugixml.hpp>
+#include <string>
+#include <string_view>
+
+#include "xml/profiles/profile_document.hpp"
+
+namespace rois::xml {
+
+// `root` is an HRIComponentProfile or an HRIEngineProfile of the document `text`. `name` is the document's name in errors and
+// warnings. Throws BadDocument if the profile is invalid.
+ProfileDocument decode_profile(pugi::xml_node root, std::string const& name, std::string_view text);
+
+// Returns "name:line:column".
+std::string at(std::string const& name, Place);
+
+}  // namespace rois::xml
