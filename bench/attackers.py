@@ -1,4 +1,4 @@
-"""The floods of docs/safety.md, each as a program: `attackers.py KIND PORT`. It runs until it is killed."""
+"""The floods of docs/safety.md, and clients that move the robot, each as a program: `attackers.py KIND PORT`. It runs until it is killed."""
 
 import base64
 import itertools
@@ -268,7 +268,34 @@ def long_documents(port):
     each(port, 8, lambda one, _: one.is_connected() and one.post(wrong))
 
 
-KINDS = {
+TURN = unit("move", "start", parameter("rois:parameter", "curve", "int[]", "0 36000"))  # on the spot, a hundred times
+
+
+def leases(port):
+    """Starts motion, is silent until it is held, and resumes it."""
+    one = Line(port)
+    while True:
+        if not one.session:
+            one.post(CONNECT.replace("/>", ' motion_lease_http="1000"/>'))
+        one.is_connected() and one.post(bind("move"))
+        one.post(execute([TURN]))
+        for _ in range(3):
+            time.sleep(1.4)
+            one.post(execute([unit("move", "resume")]))
+
+
+def motions(port):
+    """Starts and stops motion, again and again."""
+    one = Line(port)
+    while True:
+        if one.is_connected():
+            one.post(bind("move"))
+            one.post(execute([TURN]))
+            time.sleep(0.02)
+            one.post(execute([unit("move", "stop")]))
+
+
+FLOODS = {
     one.__name__: one
     for one in (
         requests,
@@ -287,4 +314,4 @@ KINDS = {
 }
 
 if __name__ == "__main__":
-    KINDS[sys.argv[1]](int(sys.argv[2]))
+    {**FLOODS, "leases": leases, "motions": motions}[sys.argv[1]](int(sys.argv[2]))

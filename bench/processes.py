@@ -38,16 +38,16 @@ def free_port():
 
 class Server:
     """A server that runs until `stop`. `seconds_to_ready`: from its start until it answered `health`, or accepted a connection.
-    A server with more than one thread is not pinned."""
+    A server with more than one thread is not pinned. `log`: a file descriptor that gets its output, instead of a file."""
 
-    def __init__(self, name, command, health=None, threads=1):
+    def __init__(self, name, command, health=None, threads=1, log=None):
         self.name = name
         self.load_cores = LOAD_CORES if threads == 1 else set(CORES)
         self.port = free_port()
-        with open(WORK / f"{name}.log", "wb") as log:
+        whole = [str(part).replace("{port}", str(self.port)) for part in command]
+        with open(WORK / f"{name}.log", "wb") as file:
             begun = time.perf_counter()
-            whole = [str(part).replace("{port}", str(self.port)) for part in command]
-            self.process = subprocess.Popen(whole, stdout=log, stderr=log)
+            self.process = subprocess.Popen(whole, stdout=log or file, stderr=log or file)
         self.pid = self.process.pid
         os.sched_setaffinity(self.pid, SERVER_CORES if threads == 1 else set(CORES))
         while not self._answers(health):
@@ -69,10 +69,17 @@ class Server:
 
     def resident_bytes(self):
         """Resident memory, including shared pages."""
+        return self._memory("VmRSS")
+
+    def address_space(self):
+        """The size of its address space in bytes."""
+        return self._memory("VmSize")
+
+    def _memory(self, field):
         for line in pathlib.Path(f"/proc/{self.pid}/status").read_text().splitlines():
-            if line.startswith("VmRSS:"):
+            if line.startswith(f"{field}:"):
                 return int(line.split()[1]) * 1024
-        raise BenchError(f"/proc/{self.pid}/status of {self.name} has no VmRSS: has it ended?")
+        raise BenchError(f"/proc/{self.pid}/status of {self.name} has no {field}: has it ended?")
 
     def stop(self):
         self.process.terminate()

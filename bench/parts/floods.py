@@ -1,61 +1,103 @@
-"""The cost of a flood for the gateway and its other clients: memory, CPU, the p99 of a neighbour's query and of all ways to stop."""
+"""The cost of a flood, of motion leases and of faults: memory, CPU, the p99 of a neighbour's query and of all ways to stop."""
 
+import os
+import resource
 import subprocess
 import sys
 import time
 
 import attackers
-from processes import BIN, CORES, ROOT, Server, running
+from processes import BIN, CORES, ROOT, WORK, BenchError, Server, running
 
 WAYS = ("stop", "release", "disconnect", "stop-all")
 STOPS = [f"{way}_p99_ms" for way in WAYS]
 
 
+UNSTOPPABLE = """<scenario xmlns="urn:x-rois:simulation:hall:1" name="An unstoppable robot">
+  <fault component="move" kind="unstoppable" from="1"/>
+</scenario>
+"""
+
+
 def round(keep, settings):
-    for kind in ("none", *attackers.KINDS):
-        command = [BIN / "rois-gateway", "--listen", "127.0.0.1:{port}", "--log-level", "debug", *settings.gateway]
-        with running(Server(f"gateway-{kind}", command, "/readyz", len(CORES))) as (server,):
+    for kind in ("none", *attackers.FLOODS):
+        with gateway(kind, settings) as (server,):
             keep(f"flood: {kind}", measured(server, kind, settings.seconds * 10))
+    with gateway("leases", settings) as (server,):
+        keep("lease: held and resumed", measured(server, "leases", settings.seconds * 10, WAYS[:3]))  # a stop of everything would end the motion
+    scenario = WORK / "unstoppable.xml"
+    scenario.write_text(UNSTOPPABLE)
+    with gateway("unstoppable", settings, "--scenario", scenario) as (server,):
+        keep("fault: a component does not halt", measured(server, "motions", settings.seconds * 10))
+    reader, writer = os.pipe()
+    with gateway("unread-log", settings, log=writer) as (server,):
+        keep("fault: nobody reads the log", measured(server, "speeches", settings.seconds * 10))
+    os.close(reader)
+    os.close(writer)
+    with gateway("no-memory", settings) as (server,):
+        most = server.address_space() + 1024 * 1024
+        resource.prlimit(server.pid, resource.RLIMIT_AS, (most, resource.RLIM_INFINITY))
+        keep("fault: no memory from the system", measured(server, "bodies", settings.seconds * 10, ("stop", "release", "stop-all")))
 
 
-def measured(server, kind, seconds):
+def gateway(name, settings, *arguments, log=None):
+    command = [BIN / "rois-gateway", "--listen", "127.0.0.1:{port}", "--log-level", "debug", *arguments, *settings.gateway]
+    return running(Server(f"gateway-{name}", command, "/readyz", len(CORES), log))
+
+
+def measured(server, kind, seconds, ways=WAYS):
+    neighbour, stopper = Client(server.port), Client(server.port)
+    open_session(neighbour)
+    open_session(stopper)
     attack = None
     if kind != "none":
         attack = subprocess.Popen([sys.executable, ROOT / "bench" / "attackers.py", kind, str(server.port)], stderr=subprocess.DEVNULL)
     try:
         time.sleep(0.5)
-        return probe(server, seconds)
+        return probe(server, seconds, neighbour, stopper, ways)
     finally:
         if attack:
             attack.kill()
             attack.wait()
 
 
-def probe(server, seconds):
+class Client(attackers.Line):
+    """Reconnects and asks again if its connection was cut: without memory, the gateway cuts connections that wait."""
+
+    def post(self, *request):
+        session = self.session
+        answer = super().post(*request)
+        if not answer:
+            self.session = session
+            answer = super().post(*request)
+        return answer
+
+
+def probe(server, seconds, neighbour, stopper, ways):
     """Alternates between a neighbour that sends queries and a client that stops, on separate connections."""
-    neighbour, stopper = attackers.Line(server.port), attackers.Line(server.port)
     clock = (~server.pid << 3) | 2
     begun, used, most = time.perf_counter(), time.clock_gettime(clock), 0
-    times = {"neighbour": [], **{way: [] for way in WAYS}}
+    times = {"neighbour": [], **{way: [] for way in ways}}
 
     def timed(name, line, *request):
+        if name not in times:
+            return
         sent = time.perf_counter()
         answer = line.post(*request)
         times[name].append(time.perf_counter() - sent)
         if "200 OK" not in answer or ("return_code" in answer and '"OK"' not in answer):
-            raise RuntimeError(f"{name}: {answer}")
+            raise BenchError(f"{name}: {answer or 'the connection was closed'}")
 
     while time.perf_counter() - begun < seconds:
-        if len(times["neighbour"]) % 500 == 0:  # a new session: each "stop-all" queues an error for the old one, which reads nothing
-            open_session(neighbour)
         timed("neighbour", neighbour, attackers.query("engine_status"))
         if not stopper.session:
             open_session(stopper)
-            stopper.post(attackers.bind("navigation"))
+        stopper.post(attackers.bind("navigation"))
         timed("stop", stopper, attackers.execute([attackers.unit("navigation", "stop")]))
         timed("release", stopper, attackers.bind("navigation").replace("bind", "release"))
-        timed("disconnect", stopper, f'<disconnect xmlns="{attackers.MESSAGE}"/>')
-        stopper.session = ""
+        if "disconnect" in ways:
+            timed("disconnect", stopper, f'<disconnect xmlns="{attackers.MESSAGE}"/>')
+            stopper.session = ""
         timed("stop-all", stopper, "", "/rois/stop")
         stopper.post("", "/rois/clear")
         most = max(most, server.resident_bytes())

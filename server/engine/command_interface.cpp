@@ -160,7 +160,8 @@ Reply Engine::Core::perform(Session& session, Execute const& execute, Instant no
     // Each of these commands may leave a `completed` waiting for the session (decisions 12, 23).
     constexpr std::size_t most_without_memory = 16;
     auto const most = settings_.max_waiting_notifications;
-    if (memory_->full() && check.begins_something() && session.live_commands() + check.commands() > most_without_memory)
+    bool const lasts = check.begins_something() || check.delays_something();
+    if (memory_->full() && lasts && session.live_commands() + check.commands() > most_without_memory)
         return refused<Execute::Reply>(ReturnCode::out_of_resources, memory_->refuse("there is no memory for more commands"));
     if (session.live_commands() + check.commands() > most) {
         ++refused_.commands;

@@ -33,11 +33,12 @@ std::string name_of(Command const& command) {
     return session + ": the command " + quoted(command.id.text) + ", " + command.type + " of " + command.component->ref().code;
 }
 
-// A reason, fit for a line: it may repeat what a client said.
+// Prepares a reason for a line of the log. A reason may quote the text of a client; if it is cut inside of such a quotation, the
+// quotation mark at its end keeps the log from counting that text as a cause of its own.
 std::string clean(std::string_view reason) {
     constexpr std::size_t longest = 200;
     auto const with_quotes = quoted(reason, longest);
-    return with_quotes.substr(1, with_quotes.size() - 2);
+    return with_quotes.substr(1, with_quotes.size() - (reason.size() > longest ? 1 : 2));
 }
 
 }  // namespace

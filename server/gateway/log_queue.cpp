@@ -18,17 +18,18 @@ constexpr std::chrono::milliseconds between_looks{100};  // of the thread, while
 constexpr std::size_t atomic_write = 4'096;              // PIPE_BUF: a pipe that is writable takes so much without blocking
 constexpr std::size_t longest_example = 80;
 
-// Of a text without its numbers and without what it quotes (FNV-1a).
-std::uint64_t cause_of(std::string_view text) {
+// Hashes the line (FNV-1a) without digits, and without everything between its first and its last quotation mark: the text of a
+// client may contain such marks itself, so pairs of marks cannot be told apart.
+std::uint64_t cause_of(std::string_view line) {
+    constexpr std::string_view marks = "'\"";
     std::uint64_t hash = 14'695'981'039'346'656'037U;
-    char quote = 0;
-    for (char const c : text) {
-        bool const quoted = quote != 0;
-        if (quoted && c == quote) quote = 0;
-        if (!quoted && (c == '\'' || c == '"')) quote = c;
-        if (quoted || (c >= '0' && c <= '9')) continue;
-        hash = (hash ^ static_cast<unsigned char>(c)) * 1'099'511'628'211U;
-    }
+    auto const add = [&](std::string_view part) {
+        for (char const c : part)
+            if (c < '0' || c > '9') hash = (hash ^ static_cast<unsigned char>(c)) * 1'099'511'628'211U;
+    };
+    auto const first = line.find_first_of(marks);
+    add(line.substr(0, first));
+    if (first != line.npos) add(line.substr(line.find_last_of(marks)));
     return hash;
 }
 

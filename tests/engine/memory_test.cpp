@@ -124,6 +124,17 @@ TEST_F(InMemory, CommandsThatWaitAreFewWithoutAny) {
     EXPECT_EQ(desk.execute(named("s", stop("navigation"))).return_code, ReturnCode::ok);
 }
 
+TEST_F(InMemory, CommandsThatOnlyStopAreFewWithoutAnyIfTheyAreDelayed) {
+    desk.bind("navigation");
+    use(100);
+    for (int i = 0; i < 16; ++i) {
+        auto const later = after(1h, named(std::to_string(i), stop("navigation")));
+        EXPECT_EQ(desk.execute(later).return_code, ReturnCode::ok) << i;
+    }
+    EXPECT_EQ(desk.execute(after(1h, named("one more", stop("navigation")))).return_code, ReturnCode::out_of_resources);
+    EXPECT_EQ(desk.execute(named("s", stop("navigation"))).return_code, ReturnCode::ok);
+}
+
 TEST_F(InMemory, WhatIsKeptForLaterIsDroppedWithoutAny) {
     desk.bind("navigation");
     for (int i = 0; i < 200; ++i) desk.execute(named("s" + std::to_string(i), stop("navigation")));

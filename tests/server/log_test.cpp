@@ -165,6 +165,15 @@ TEST_F(TheLog, HasTenLinesASecondOfOneCause) {
                 HasSubstr("15 more lines like this one were left out: session 10 says 'xxxxxxxxxx'\nsession 77"));
 }
 
+TEST_F(TheLog, CountsLinesWhoseQuotedTextHasQuotationMarksAsOneCause) {
+    LogQueue log{pipe.to_write, limits};
+    plainly(log);
+    for (char letter = 'a'; letter <= 'z'; ++letter)
+        say(log, std::string{"refused 'GET /' of 'it's "} + letter + " \"and' " + letter + "'");
+    log.flush();
+    EXPECT_EQ(std::ranges::count(pipe.read_now(), '\n'), 10);
+}
+
 TEST_F(TheLog, DropsTheOldestLinesAndSaysHowMany) {
     pipe.fill();
     limits.a_second = 1'000;

@@ -62,6 +62,7 @@ std::optional<Objection> SequenceCheck::in_list(std::vector<CommandUnit> const& 
 std::optional<Objection> SequenceCheck::in_unit(CommandUnit const& unit, std::string const& path) {
     if (unit.delay_time && (*unit.delay_time < 0 || *unit.delay_time > max_delay_time))
         return bad_parameter(path + ": delay_time must be 0 to " + std::to_string(max_delay_time) + " milliseconds");
+    delays_something_ = delays_something_ || unit.delay_time.value_or(0) > 0;
     if (auto const* message = std::get_if<CommandMessage>(&unit.unit)) {
         auto problem = objection(*message);
         if (problem) problem->reason.insert(0, path + ": ");

@@ -33,6 +33,9 @@ public:
     // Returns whether one of the commands begins or resumes an action.
     bool begins_something() const { return begins_something_; }
 
+    // Returns whether a unit has a delay. A sequence without delays that begins nothing is over soon.
+    bool delays_something() const { return delays_something_; }
+
     // The ids that the application chose.
     std::set<CommandId> const& ids() const { return ids_; }
 
@@ -47,6 +50,7 @@ private:
     Registry const& registry_;
     std::size_t commands_ = 0;
     bool begins_something_ = false;
+    bool delays_something_ = false;
     std::set<CommandId> ids_;
     std::map<RegisteredComponent const*, ParameterList> stored_;  // for components whose parameters an earlier unit changes
 };
