@@ -12,7 +12,6 @@ import time
 from documents import MESSAGE, ROIS, execute, is_equal, parameter, query, subscribe, unit
 
 BIG = 880_000  # bytes of one text, below the limit of a document
-CONNECT = f'<connect xmlns="{MESSAGE}"/>'
 HOST = "127.0.0.1"
 
 
@@ -71,8 +70,8 @@ class Line:
             rest += part
         return (head + b"\r\n\r\n" + rest).decode()
 
-    def connect(self):
-        answer = self.post(CONNECT)
+    def connect(self, attributes=""):
+        answer = self.post(f'<connect xmlns="{MESSAGE}"{attributes}/>')
         if "<session>" in answer:
             self.session = answer.split("<session>")[1].split("<")[0]
         return bool(self.session)
@@ -179,7 +178,8 @@ def sessions(port):
 
     def act(one, _):
         for _ in range(20):
-            one.post(CONNECT)
+            one.session = ""
+            one.connect()
         one.open()
         idle.append(websocket(port))
         if len(idle) > 300:
@@ -275,9 +275,8 @@ def leases(port):
     """Starts motion, is silent until it is held, and resumes it."""
     one = Line(port)
     while True:
-        if not one.session:
-            one.post(CONNECT.replace("/>", ' motion_lease_http="1000"/>'))
-        one.is_connected() and one.post(bind("move"))
+        if not one.session and one.connect(' motion_lease_http="1000"'):
+            one.post(bind("move"))
         one.post(execute([TURN]))
         for _ in range(3):
             time.sleep(1.4)

@@ -172,6 +172,7 @@ private:
     bool shutting_down_ = false;
     bool everything_is_stopped_ = false;
     std::optional<Steady> stop_reported_;  // when the sessions were last notified
+    bool stop_unreported_ = false;         // there was a later stop: a tick notifies the sessions of it
     std::uint64_t events_published_ = 0;
     std::uint64_t errors_published_ = 0;
     std::uint64_t last_session_ = 0;

@@ -67,6 +67,7 @@ void Engine::Core::tick(Instant now) {
     Attempts attempts;
     if (unsettled_) attempts.note(std::exchange(unsettled_, nullptr));
     attempts([&] { hold_unproven_motion(now); });
+    attempts([&] { report_stop_of_everything(now); });
     if (memory_->full()) attempts([&] { save_memory(now); });
     constexpr int most_turns = 100;  // of devices; the rest waits for the next tick
     auto const goes_on = [&](DeviceState const& state) {
@@ -235,6 +236,7 @@ void Engine::Core::remove(Session& session, Instant now) {
 
 void Engine::Core::stop_everything(Instant now) {
     everything_is_stopped_ = true;
+    stop_unreported_ = true;
     Attempts attempts;
     attempts([&] { executor_.stop_all("everything was stopped", now); });
     attempts([&] { report_stop_of_everything(now); });
@@ -244,9 +246,11 @@ void Engine::Core::stop_everything(Instant now) {
 
 // Any client can stop everything, as often as it likes. Reporting each stop would fill the queues of the sessions.
 void Engine::Core::report_stop_of_everything(Instant now) {
+    if (!stop_unreported_ || !everything_is_stopped_) return;
     if (stop_reported_ && now.steady - *stop_reported_ < std::chrono::seconds{1}) return;
     agenda_.add(everything_was_stopped());
     stop_reported_ = now.steady;
+    stop_unreported_ = false;
 }
 
 std::vector<std::string> Engine::Core::not_halted() const {

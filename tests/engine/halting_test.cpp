@@ -308,6 +308,17 @@ TEST_F(Halting, OfEverythingIsReportedToASessionOnceASecondAtMost) {
     EXPECT_THAT(desk.heard(), ElementsAre("2 USER_DEFINED_ERROR"));
 }
 
+TEST_F(Halting, OfEverythingIsReportedALittleLaterIfTheLastReportWasJustBefore) {
+    world.engine->stop_everything(world.now);
+    world.engine->clear();
+    world.engine->stop_everything(world.now);
+    EXPECT_THAT(desk.heard(), ElementsAre("1 USER_DEFINED_ERROR"));
+    world.advance(1s);
+    EXPECT_THAT(desk.heard(), ElementsAre("2 USER_DEFINED_ERROR"));
+    world.advance(5s);
+    EXPECT_THAT(desk.heard(), IsEmpty());
+}
+
 TEST_F(Halting, ThatFailsIsInTheJournalOnceUntilItSucceeds) {
     struct Halts : Journal {
         std::vector<std::string> said;
