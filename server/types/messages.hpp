@@ -248,6 +248,9 @@ enum class FaultCode : std::uint8_t {
 
 std::string_view to_text(FaultCode);
 
+// Returns the HTTP status of an answer with this fault (wire.md).
+int http_status_of(FaultCode);
+
 // A place in a document. Line and column count from 1; the column counts characters.
 struct Place {
     std::uint64_t line = 1;

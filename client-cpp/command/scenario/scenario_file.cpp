@@ -154,7 +154,7 @@ private:
                         element.token("beside", ""),
                         known_text(element, element.attribute("is", "")),
                         element.number("apart", 0)};
-        if (take.not_in.empty() && element.attribute("apart")) throw element.complain("'apart' belongs to 'not_in'");
+        if (take.not_in.empty() && element.attribute("apart")) throw element.complain("'apart' needs 'not_in'");
         if (take.beside.empty() == element.attribute("is").has_value())
             throw element.complain("'beside' and 'is' belong together");
         return take;
@@ -168,11 +168,11 @@ private:
         for (auto const& [attribute, relation] : relations) {
             auto const operand = element.attribute(attribute);
             if (!operand) continue;
-            if (read) throw element.complain("a 'when' says one thing");
+            if (read) throw element.complain("a 'when' must have exactly one condition");
             read = When{variable, relation, known_text(element, *operand)};
         }
         if (!read)
-            throw element.complain("a 'when' has one of " +
+            throw element.complain("a 'when' needs one of " +
                                    listed(relations, [](auto const& one) { return std::string{one.first}; }));
         if (read->relation == in || read->relation == not_in) known_variable(element, read->operand);
         if (read->relation == empty && !is_true(read->operand)) read->relation = not_empty;

@@ -9,7 +9,7 @@ namespace {
 // The minimum gaps do not apply where the robot is nearer already and moves past.
 constexpr Metres wall_gap = 0.015;   // to walls and desks
 constexpr Metres body_gap = 0.10;    // to people and other robots
-constexpr Metres squeezing = 0.008;  // stopping distance while passing an obstacle that near
+constexpr Metres squeezing = 0.008;  // gap while the robot passes an obstacle that is too near
 constexpr Metres look_ahead = 2.0;   // obstacles farther away are ignored; longer than any stopping distance
 constexpr std::size_t remembered = 16;
 
@@ -114,7 +114,7 @@ Disc Drive::stopping_disc() const {
     return {pose_.position + braking / 2 * unit(pose_.heading), plan_.radius + std::abs(braking) / 2};
 }
 
-Wheels Drive::wheels(Surroundings const& around, Seconds dt) const {
+DriveState Drive::state(Surroundings const& around, Seconds dt) const {
     return {robot_, plan_, *planner_, pose_, twist_, around, dt};
 }
 
@@ -127,7 +127,7 @@ void Drive::roll(Surroundings const& around, Seconds dt) {
     std::optional<Metres> const circle = current_ ? current_->course->circle() : std::nullopt;
     Twist const wanted = steer(around, dt);
     auto const limits = must_stand() ? stopping_limits_ : driving(plan_);
-    Twist const next = wheels(around, dt).next({safe(wanted.linear, wheels(around, dt)), wanted.angular}, limits, circle);
+    Twist const next = state(around, dt).next({safe(wanted.linear, state(around, dt)), wanted.angular}, limits, circle);
     Pose const there = moved(pose_, next, dt);
     if (would_touch(there, around)) {
         twist_ = {};
@@ -141,13 +141,13 @@ bool Drive::must_stand() const { return stopping_ || brakes_ || (current_ && cur
 
 Twist Drive::steer(Surroundings const& around, Seconds dt) {
     if (!current_ || must_stand()) return {};
-    Twist const wanted = current_->course->steer(wheels(around, dt), current_->progress);
+    Twist const wanted = current_->course->steer(state(around, dt), current_->progress);
     if (over(current_->progress.state)) finish(current_->progress.state);
     return wanted;
 }
 
 // Limits the speed so that the robot can stop before an obstacle.
-MetresPerSecond Drive::safe(MetresPerSecond wanted, Wheels const& at) const {
+MetresPerSecond Drive::safe(MetresPerSecond wanted, DriveState const& at) const {
     MetresPerSecond const going = wanted != 0 ? wanted : twist_.linear;
     if (going == 0) return 0;
     Radians const heading = going > 0 ? pose_.heading : wrapped(pose_.heading + std::numbers::pi);
