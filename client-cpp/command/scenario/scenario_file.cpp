@@ -29,9 +29,9 @@ CompletedStatus status_of(std::string_view text) {
     return error;
 }
 
-class Reader {
+class ScenarioParser {
 public:
-    explicit Reader(xml::Element const& root) {
+    explicit ScenarioParser(xml::Element const& root) {
         scenario_.name = root.attribute("name", "");
         scenario_.start = root.token("start", "");
         for (auto const& element : root.children("component")) component(element);
@@ -214,7 +214,7 @@ RobotScenario read_robot_scenario(std::shared_ptr<xml::Schemas const> const& sch
     auto const document = xml::Document::parse(schemas, name, std::move(text));
     auto const root = document.root();
     if (root.name() != "robot_scenario") throw root.complain("this is not a robot scenario: expected the element robot_scenario");
-    return Reader{root}.take();
+    return ScenarioParser{root}.take();
 }
 
 }  // namespace rois::command
