@@ -1,4 +1,4 @@
-// Encodes and decodes the messages of wire.md: the door of server/xml. Encoding is thread-safe; a reader belongs to one thread.
+// The door of server/xml: encodes and decodes the messages of schemas/messages.xsd. Encoding is thread-safe; readers are not.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace rois::xml {
 
 class Schemas;
 
-// Limits of a document, checked before a parser sees it (bad-input 3).
+// Limits of a document, checked before a parser sees it.
 struct DocumentLimits {
     std::size_t bytes = 1 << 20;
     std::size_t depth = 64;

@@ -11,7 +11,7 @@
 
 namespace rois::xml {
 
-// Returns the root elements of requests, in the order of wire.md.
+// Returns the root elements of requests, in the order of Operation.
 std::span<std::string_view const> operation_names();
 
 // Returns nothing if the root is not a request.

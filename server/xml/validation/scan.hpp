@@ -1,4 +1,4 @@
-// Scans a document's bytes before a parser sees them (bad-input 3, 4), and rejects harmful or expensive input. Takes linear time.
+// Scans a document's bytes before a parser sees them, and rejects harmful or expensive input. Takes linear time.
 // The caller checks the limit of bytes.
 #pragma once
 
