@@ -182,7 +182,7 @@ TEST(Navigation, AcceptsANewTargetWithANewStart) {
     EXPECT_NEAR(distance(stage.robot().position, Point{2, 4}), 0, 0.1);
 }
 
-TEST(DriveState, ObeyOneComponentAtATime) {
+TEST(Wheels, ObeyOneComponentAtATime) {
     Stage stage;
     stage["navigation"].start({to({"10000, 4000"})});
     stage.run(1);
@@ -195,7 +195,7 @@ TEST(DriveState, ObeyOneComponentAtATime) {
     EXPECT_EQ(stage.outcome("move"), "OK");
 }
 
-TEST(DriveState, AreIndependentOfOtherRobots) {
+TEST(Wheels, AreIndependentOfOtherRobots) {
     Stage stage{{}, reception_with_two_robots()};
     stage["navigation"].start({to({"6000, 4000"})});
     stage["robot2.move"].start({integers("line", "1000 0")});
