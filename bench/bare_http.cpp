@@ -1,5 +1,5 @@
-// rois-bare-http PORT ANSWER_BYTES [THREADS]: the least that HTTP with keep-alive costs with Boost.Beast: callbacks, reused
-// buffers, the fields of a message in an arena. Reads the request's body and sends ANSWER_BYTES constant bytes.
+// rois-bare-http PORT ANSWER_BYTES [THREADS]: a bare Boost.Beast server, the lower bound of the cost of HTTP with keep-alive:
+// callbacks, reused buffers, the fields of a message in an arena. Reads the request's body and sends ANSWER_BYTES constant bytes.
 #include "asio.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
-// rois-bare-websocket PORT [THREADS]: the least that a WebSocket costs with Boost.Beast: sends each text message back, with
-// callbacks and a reused buffer.
+// rois-bare-websocket PORT [THREADS]: a bare Boost.Beast echo server, the lower bound of the cost of a WebSocket: callbacks and a
+// reused buffer.
 #include "asio.hpp"
 
 #include <boost/beast/core/flat_buffer.hpp>

@@ -1,5 +1,5 @@
-// rois-prebuilt-sender PORT MESSAGE_BYTES: the least that fan-out costs. Each WebSocket is a subscriber. When one of them sends a
-// number, the server prepares that many frames once, and sends them to every other WebSocket in one write.
+// rois-prebuilt-sender PORT MESSAGE_BYTES: the lower bound of the cost of fan-out. Each WebSocket is a subscriber. When one of
+// them sends a number, the server prepares that many frames once, and sends them to every other WebSocket in one write.
 #include "asio.hpp"
 
 #include <boost/beast/core/buffers_to_string.hpp>
@@ -67,7 +67,7 @@ private:
         }
     }
 
-    // The subscribers read quickly: a write that the kernel does not take at once is an error.
+    // Subscribers are expected to read quickly: a partial write is an error.
     void send(std::string const& frames) {
         error_code error;
         auto const sent = stream_.next_layer().write_some(asio::buffer(frames), error);

@@ -1,4 +1,4 @@
-// A component for benchmarks that only answers, so that the gateway itself is measured.
+// A component for benchmarks. It answers with constant values, so that the benchmark measures the gateway.
 #pragma once
 
 #include <memory>
@@ -14,10 +14,10 @@ namespace rois::bench {
 // `fire` (burst), which fires `burst` events. Its `start` completes at once. The stamp is "t" and CLOCK_MONOTONIC in ns.
 ComponentProfile probe_profile();
 
-// The same with other names for the query and the event, which no benchmark uses.
+// The same profile with other names for the query and the event. No benchmark uses them.
 ComponentProfile bystander_profile();
 
-// The profiles that both include as sub components.
+// The profiles that probe and bystander include as sub components.
 std::vector<ComponentProfile> known_profiles();
 
 std::unique_ptr<Component> probe(std::string ref, std::shared_ptr<ComponentProfile const> profile);

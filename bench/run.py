@@ -18,7 +18,7 @@ PARTS = ("requests", "fanout", "memory", "growth", "micro", "client", "console",
 def read_arguments():
     parser = argparse.ArgumentParser(prog="./dev bench", description=__doc__)
     parser.add_argument("what", nargs="*", metavar="WHAT", help=f"the parts to run: {', '.join(PARTS)}; default: all")
-    parser.add_argument("--quick", action="store_true", help="one short round: shows that it works, not what it costs")
+    parser.add_argument("--quick", action="store_true", help="one short round: tests the benchmarks, but the numbers mean nothing")
     parser.add_argument("--rounds", type=int, help="number of rounds; default: 5")
     parser.add_argument("--plots", action="store_true", help="draw docs/performance-growth.svg again")
     parser.add_argument("--gateway", action="append", default=[], metavar="ARGUMENT", help="a further argument of rois-gateway")

@@ -1,6 +1,5 @@
-// rois-stage: the gateway's own libraries, connected as in server/main, with any number of components that only answer. For
-// fan-out, commands and growth.
-// rois-stage PORT THREADS PROBES BYSTANDERS: probe0, probe1, ... and bystander0, bystander1, ...
+// rois-stage: the gateway's own libraries, connected as in server/main, with any number of probes (probe.hpp). For the benchmarks
+// of fan-out, commands and growth. rois-stage PORT THREADS PROBES BYSTANDERS: probe0, probe1, ... and bystander0, bystander1, ...
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -34,7 +33,7 @@ void serve(Setting const& setting) {
     EngineSettings engine_settings;
     engine_settings.max_sessions = 100'000;
     engine_settings.max_predicates = 10'000'000;
-    engine_settings.max_waiting_notifications = 100'000;  // the row of set_parameter over HTTP does not fetch them
+    engine_settings.max_waiting_notifications = 100'000;  // the benchmark of set_parameter over HTTP does not fetch them
     Readers readers;
     Engine engine{profile, known_profiles(), engine_settings, readers, fresh_secret};
     auto const of_probes = std::make_shared<ComponentProfile const>(probe_profile());

@@ -1,4 +1,4 @@
-# Puts files into the program, as
+# Embeds files in the program, as the function
 #   std::map<std::string, std::string_view, std::less<>> const& rois::files::FUNCTION();
 
 # source_with_files(VARIABLE FUNCTION FOLDER FILE...): sets VARIABLE to the text of a source that defines FUNCTION, which maps the path of
@@ -10,7 +10,7 @@ function(source_with_files variable function folder)
     foreach(file IN LISTS ARGN)
         cmake_path(RELATIVE_PATH file BASE_DIRECTORY ${folder} OUTPUT_VARIABLE name)
         set(symbol "rois_${function}_${number}")
-        # A ccache that hashes the source alone would miss a changed .incbin; so the source names the bytes.
+        # ccache hashes the source, not the files of .incbin. So the source contains the hash of each file.
         file(SHA1 ${file} hash)
         string(APPEND text "asm(\".section .rodata /* ${hash} */\\n${symbol}:\\n.incbin \\\"${file}\\\"\\n${symbol}_end:\\n.byte 0\\n.previous\\n\");\n"
             "extern \"C\" const char ${symbol}[] __attribute__((visibility(\"hidden\")));\n"
@@ -29,7 +29,7 @@ function(embed_source target source)
     target_sources(${target} PRIVATE ${source})
 endfunction()
 
-# embed_files(TARGET FUNCTION FOLDER FILE...): files that are there already.
+# embed_files(TARGET FUNCTION FOLDER FILE...): the same for files that exist when CMake runs.
 function(embed_files target function folder)
     set(source ${CMAKE_CURRENT_BINARY_DIR}/embedded_${function}.cpp)
     source_with_files(text ${function} ${folder} ${ARGN})

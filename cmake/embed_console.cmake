@@ -1,4 +1,4 @@
-# cmake -DDIST=folder -DSOURCE=file -P embed_console.cmake: writes the source that has what Vite has built (the names of its assets change
+# cmake -DDIST=folder -DSOURCE=file -P embed_console.cmake: writes a source with the files that Vite has built (their names change
 # with their content), each file as it is and compressed, where that is smaller.
 include(${CMAKE_CURRENT_LIST_DIR}/embed.cmake)
 

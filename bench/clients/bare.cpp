@@ -92,7 +92,7 @@ private:
     pugi::xml_document answer_;
 };
 
-void ask_as_told(Setting const& setting, RoundTrips& trips) {
+void measure(Setting const& setting, RoundTrips& trips) {
     BareClient client{setting, trips};
     if (setting.blocking) {
         client.ask_blocking();
@@ -105,4 +105,4 @@ void ask_as_told(Setting const& setting, RoundTrips& trips) {
 
 }  // namespace rois::bench
 
-int main(int argc, char** argv) { return rois::bench::measure_round_trips(argc, argv, rois::bench::ask_as_told); }
+int main(int argc, char** argv) { return rois::bench::measure_round_trips(argc, argv, rois::bench::measure); }

@@ -32,7 +32,7 @@ Task<> ask(Client& robot, Query query, RoundTrips& trips) {
     } while (trips.next());
 }
 
-void ask_as_told(Setting const& setting, RoundTrips& trips) {
+void measure(Setting const& setting, RoundTrips& trips) {
     auto query = query_of(setting.document);
     Settings settings;
     settings.url = "http://127.0.0.1:" + std::to_string(setting.port);
@@ -47,4 +47,4 @@ void ask_as_told(Setting const& setting, RoundTrips& trips) {
 
 }  // namespace rois::bench
 
-int main(int argc, char** argv) { return rois::bench::measure_round_trips(argc, argv, rois::bench::ask_as_told); }
+int main(int argc, char** argv) { return rois::bench::measure_round_trips(argc, argv, rois::bench::measure); }

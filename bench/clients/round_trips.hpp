@@ -1,4 +1,4 @@
-// Common parts of the compared clients: arguments, duration, and the printed result.
+// The parts that the compared clients share: arguments, duration, and the printed result.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ public:
     // Ends a round trip and begins the next one. Returns false if it was the last.
     bool next();
 
-    // JSON: the CPU time of this process a round trip, round trips a second, latencies.
+    // Returns the CPU time of this process per round trip, round trips per second, and latencies, as JSON.
     std::string json();
 
 private:

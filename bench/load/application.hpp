@@ -43,7 +43,7 @@ std::vector<Application> make_applications(Options const&);
 // With --announce, prints a line when everything is ready.
 void announce(Options const&);
 
-// Whether this document is a notification, not an answer.
+// Returns whether this document is a notification (otherwise an answer).
 bool is_notification(std::string_view document);
 
 }  // namespace rois::bench

@@ -21,7 +21,8 @@ Nanoseconds fired_at(std::string_view event, Nanoseconds otherwise) {
     return std::strtoll(event.data() + mark + 2, nullptr, 10);
 }
 
-// In a round, all subscribers receive all events of a burst. The next round begins after that, or, with --rate, when it is due.
+// A round ends when all subscribers have received all events of a burst. The next round then begins, or, with --rate, when it is
+// due.
 class Rounds {
 public:
     explicit Rounds(Options const& options)
@@ -105,6 +106,6 @@ private:
 
 }  // namespace
 
-void hear_events(Options const& options) { Rounds{options}.run(); }
+void receive_events(Options const& options) { Rounds{options}.run(); }
 
 }  // namespace rois::bench

@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
                 rois::bench::hold(options);
                 break;
             case rois::bench::Options::Mode::fanout:
-                rois::bench::hear_events(options);
+                rois::bench::receive_events(options);
                 break;
         }
         return 0;

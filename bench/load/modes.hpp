@@ -11,7 +11,7 @@ void make_requests(Options const&);
 // Holds silent connections until the standard input ends.
 void hold(Options const&);
 
-// Every connection receives the events that one more connection fires.
-void hear_events(Options const&);
+// Every connection receives events. One additional connection fires them.
+void receive_events(Options const&);
 
 }  // namespace rois::bench

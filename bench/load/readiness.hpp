@@ -13,9 +13,9 @@ namespace rois::bench {
 
 class Readiness {
 public:
-    // `spins`: polls instead of sleeping, so that the server does not have to wake this process, which costs more than many a
-    // request on virtual cores. With more than one socket it polls every 20 µs: polling without a pause contends for the epoll's
-    // lock with the server, and bare servers then cost a quarter more.
+    // `spins`: polls instead of sleeping, so that the server does not have to wake this process. On virtual cores, waking costs
+    // more than most requests. With several sockets, polls every 20 µs: polling without a pause contends with the server for the
+    // lock of the epoll, which raises the cost of bare servers by a quarter.
     explicit Readiness(bool spins);
     ~Readiness();
     Readiness(Readiness const&) = delete;

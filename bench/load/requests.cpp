@@ -133,7 +133,7 @@ private:
         }
     }
 
-    // Idle connections send a request: all of them, or, with --rate, as many as are due.
+    // Lets idle connections send a request: all of them or, with --rate, as many as are due.
     void ask(Nanoseconds at) {
         while (!free_.empty() && (options_.rate == 0 || due_ <= at)) {
             askers_[free_.front()].ask(options_.rate == 0 ? now() : due_);

@@ -19,7 +19,7 @@ namespace {
 
 Identifier ref_of(std::string const& code) { return {code, {}, {}, {}}; }
 
-constexpr auto between_looks = std::chrono::seconds{1};  // at the session file
+constexpr auto between_looks = std::chrono::seconds{1};  // interval of the checks of the session file
 
 // Returns the next update before `until`. Returns nothing also if other commands no longer find this process by the session file.
 std::optional<Update> next(Context& context, Until until) {
@@ -78,7 +78,8 @@ std::string hint_for_bind_any(Context& context, QueryExpression const& condition
     return "; the engine has " + components_and_types(context.components());
 }
 
-// Throws Trouble if the file is missing. The name may be that of a component whose command was forgotten.
+// Throws Trouble if the file is missing. The reason mentions components, because users may forget the command before the name of
+// a component.
 void check_file(std::string const& name) {
     std::error_code unknown;
     bool const is_meant = name == "-" || name.find_first_of("./") != std::string::npos || std::filesystem::exists(name, unknown);
@@ -108,7 +109,7 @@ void bind_each(Context& context, QueryExpression const& condition, std::vector<B
     done.push_back({"bind_any", reply.component_ref, reply});
 }
 
-// Binds all components, or releases them again if one is refused: a shared session would keep them bound.
+// Binds all components. If one is refused, releases the others again, because a shared session would keep them bound.
 std::vector<Bound> bind_all(Context& context, QueryExpression const& condition) {
     auto const free = free_components(context);
     std::vector<Bound> all;

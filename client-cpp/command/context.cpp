@@ -96,7 +96,7 @@ void Context::replace_lost_session(NoSession const& gone) {
     take_session_file();
 }
 
-// Ends the session of a holder that was killed: it would keep its components bound until its timeout.
+// Ends the session of a holder that was killed. Otherwise the session would keep its components bound until its timeout.
 void Context::end_left_session() {
     if (!session_file_ || !session_file_->left()) return;
     auto const& held = *session_file_->left();

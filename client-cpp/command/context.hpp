@@ -35,7 +35,7 @@ public:
     bool holds_session_file() const { return session_file_ != nullptr; }
     // Whether other calls find this process by the session file.
     bool is_found_by_session_file() const { return session_file_ && session_file_->is_there(); }
-    // If this process holds the session file: writes it and ends the parent. Throws Trouble.
+    // If this process holds the session file, writes the file and ends the parent process. Throws Trouble.
     void go_to_background();
 
     // The first call opens or joins the session. Throws Trouble.
@@ -44,9 +44,10 @@ public:
     // one. Throws Trouble.
     void begin_again(NoSession const&);
     std::shared_ptr<xml::Schemas const> schemas();
-    // The recording of --record; null without.
+    // The recording of --record; null without --record.
     std::shared_ptr<RecordingWriter> const& recorded() const { return recorded_; }
-    // With --record: the command works, so the recording replaces the old content of the file. Throws Trouble.
+    // With --record, replaces the old content of the file by the recording. Call when the command has succeeded so far. Throws
+    // Trouble.
     void keep_recording();
 
     // Returns the reply of an operation if it is OK. Otherwise writes the refusal, with the text of `hint` after the engine's
@@ -56,7 +57,7 @@ public:
         return std::get<typename Op::Reply>(checked(std::move(operation), Written::no, hint));
     }
 
-    // The same, and writes the reply.
+    // Like `asked`, and writes the reply.
     template <class Op>
     typename Op::Reply show(Op operation, std::function<std::string()> const& hint = {}) {
         auto reply = checked(std::move(operation), Written::yes, hint);
@@ -72,8 +73,8 @@ public:
     // The engine's components; none if the engine does not answer.
     std::vector<ComponentEntry> components();
 
-    // Reports an error that this program has found itself, like a refusal of that operation by the engine: as a document, or only
-    // the reason for people.
+    // Reports an error that this program has found itself as if the engine had refused the operation: as a document or, for
+    // people, only the reason.
     template <class Op>
     [[noreturn]] void refuse(ReturnCode code, std::string const& reason) {
         typename Op::Reply reply;
@@ -120,7 +121,7 @@ void report_error(Context&, News const&);
 // Asks the engine for the text of an error and prints it on standard error, with the next step if a motion is held.
 void explain(Context&, ReceiveError const&);
 
-// Writes a remark on standard error, for example that a result is empty.
+// Writes a remark, such as "no component matches", on standard error.
 void remark(std::string const& text);
 
 // Returns the end of --for, counted from the start of the program; nothing without --for.

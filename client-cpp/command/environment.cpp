@@ -1,4 +1,4 @@
-#include "command/environment.hpp"
+#include "command/options.hpp"
 
 #include <unistd.h>
 

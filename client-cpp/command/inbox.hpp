@@ -25,7 +25,7 @@ public:
         changed_.notify_all();
     }
 
-    // Whether the queue is closed and empty.
+    // Returns whether the queue is closed and empty.
     bool is_over() {
         std::lock_guard const lock{mutex_};
         return closed_ && waiting_.empty();

@@ -74,7 +74,7 @@ std::vector<SubscribeId> subscribe_to(Context& context, std::vector<std::string>
     bool const all = event_types.empty();
     std::vector<SubscribeId> ids;
     for (auto const& type : all ? known : event_types) {
-        // The condition may name results that only some events have. Without EVENT, leaves out the events that it does not fit.
+        // The condition may name results that only some events have. Without EVENT, skips the events that do not have them.
         auto answer = context.session().request(Subscribe{type, condition, true});
         auto const* const reply = std::get_if<Reply>(&answer);
         auto const* const subscribed = reply != nullptr ? std::get_if<Subscribe::Reply>(reply) : nullptr;

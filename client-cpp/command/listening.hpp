@@ -1,4 +1,4 @@
-// Functions that subscribe, watch and record share.
+// Functions for the commands subscribe, watch and record.
 #pragma once
 
 #include <cstdint>

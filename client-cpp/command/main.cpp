@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "command/context.hpp"
-#include "command/environment.hpp"
+#include "command/options.hpp"
 #include "command/output/terminal.hpp"
 #include "xml/validation/schemas.hpp"
 

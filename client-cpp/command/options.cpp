@@ -101,7 +101,7 @@ private:
         app_.add_flag("--version", raw_.version, "print the version");
     }
 
-    // Errors name a value as the help does.
+    // Error messages name a value as the help does.
     static void name_values(CLI::App& app) {
         for (auto* const option : app.get_options())
             if (auto const& name = option->get_option_text(); !trimmed(name).empty()) option->type_name(name);
@@ -335,18 +335,20 @@ std::string url_of_held_session(Options const& options) {
     }
 }
 
-// Options that name or use a session, given to a command that needs none. Variables are not refused: they are set for the other
-// commands of the shell, and a stop for everything must not fail because of them.
+// Rejects options about a session if the command needs no session. Environment variables are not rejected: they are set for other
+// commands, and a stop for everything must not fail because of them.
 void check_without_session(CLI::App const& app, Options const& options) {
     if (!needs_no_session(options)) return;
     std::vector<std::string> without_effect{"--session", "--http", "--record"};
-    if (options.command == "health") without_effect.emplace_back("--session-file");  // the others find the gateway with it
+    if (options.command == "health")
+        without_effect.emplace_back("--session-file");  // stop-all and clear find the gateway with it
     for (auto const& name : without_effect)
         if (app.get_option(name)->count() > 0)
             throw Trouble{Exit::usage, options.command + " needs no session: " + name + " has no meaning; leave it out"};
 }
 
-// The values of options that come from variables, if the command line has none. Unlike envname, this leaves the options' counts.
+// Takes options that are not on the command line from variables. Unlike CLI11's envname, this does not change the counts of the
+// options.
 void read_variables(Options& options) {
     auto const read = [](char const* variable, std::string& value) {
         if (auto const* const found = std::getenv(variable); found != nullptr && value.empty()) value = found;
@@ -380,7 +382,7 @@ void check(Options const& options, Raw const& raw) {
         throw Trouble{Exit::usage, "--no-wait: without --session the command would end with the program"};
     if (options.command == "bind" && options.words.empty() && options.where.empty() && options.condition_file.empty())
         throw Trouble{Exit::usage, "bind needs components: give REF or --where CONDITION"};
-    bool const unasked = options.command == "replay" || needs_no_session(options) || options.check;  // open no session
+    bool const unasked = options.command == "replay" || needs_no_session(options) || options.check;  // these open no session
     if (has_own_session(options) && !unasked && !(options.session.empty() && options.session_file.empty()))
         throw Trouble{
             Exit::usage,
@@ -418,7 +420,7 @@ std::variant<Options, Printout> read_options(int argc, char const* const* argv) 
     options.deadline = milliseconds_of(raw.timeout);
     options.deadline_is_given = app.get_option("--timeout")->count() > 0;
     if (options.command == "replay" && !options.url.empty())
-        throw Trouble{Exit::usage, "replay serves a recording and asks no gateway: --url has no meaning"};
+        throw Trouble{Exit::usage, "replay serves a recording and needs no gateway: leave out --url"};
     check_without_session(app, options);
     read_variables(options);
     options.url_is_given = !options.url.empty();

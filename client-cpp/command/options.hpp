@@ -17,14 +17,14 @@ namespace rois::command {
 struct Options {
     std::string command;  // "profile", "search", ...
 
-    // Of all commands.
+    // Options of all commands.
     std::string url;
     bool url_is_given = false;  // by --url or ROIS_URL
     std::string token;
     std::string ca_file;
     std::string session;              // session to join; empty: opens one
     std::string session_file;         // names the session that a process in the background holds; empty: none
-    std::optional<HeldSession> held;  // the content of the session file, if `session` is from there
+    std::optional<HeldSession> held;  // the content of the session file, if `session` comes from it
     bool over_http = false;
     std::chrono::milliseconds deadline{10'000};  // of each request
     bool deadline_is_given = false;              // by --timeout
@@ -33,7 +33,7 @@ struct Options {
     std::string colour = "auto";
     std::string record;  // file; empty: none
 
-    // Of some commands (see the help).
+    // Options of some commands (see the help).
     std::string file;
     std::string ref;
     std::string name;                // of a query, an event, a command
@@ -63,8 +63,11 @@ std::variant<Options, Printout> read_options(int argc, char const* const* argv);
 // Sets the session and its gateway. Throws Trouble (usage) if --url or ROIS_URL names another gateway.
 void join(Options&, HeldSession const&);
 
-// Returns whether the command runs in the background: `bind` with a session file. It learns only there whether it opens a session
-// or joins one that another process holds.
+// Returns whether the command runs in the background: `bind` with a session file. Only the background process learns whether it
+// opens a session or joins one that another process holds.
 bool runs_in_background(Options const&);
+
+// Warns on standard error of each ROIS_ variable that no program of the project reads.
+void warn_of_unknown_variables();
 
 }  // namespace rois::command

@@ -20,7 +20,7 @@ CommandId fresh_command_id();
 // writes each end at once. Throws Trouble with the code of the first command that did not end with OK.
 void run(Context&, CommandUnitSequence);
 
-// Asks the engine why a command failed. Returns an empty text if it gives no reason.
+// Asks the engine why a command failed. Returns an empty text if the engine gives no reason.
 std::string reason_of(Context&, CommandId const&);
 
 struct Awaited {

@@ -10,8 +10,8 @@
 
 namespace rois::command {
 
-// Make it before any other thread. The first signal calls the callback. Another one within half a second counts as the same, so
-// that the session can still end properly; a later one ends the program at once.
+// Construct it before any other thread starts. The first signal calls the callback. Another one within half a second counts as
+// the same, so that the session can still end properly; a later one ends the program at once.
 class Signals {
 public:
     Signals();
@@ -19,8 +19,8 @@ public:
     Signals(Signals const&) = delete;
     Signals& operator=(Signals const&) = delete;
 
-    // Sets the function to call at the first signal; calls it now if that has arrived. Without a function, a signal ends the
-    // program at once. The previous function is not called, and does not run, after this has returned.
+    // Sets the function to call at the first signal; calls it at once if that signal has arrived. Without a function, a signal
+    // ends the program. After the return, the previous function neither runs nor is called.
     void on_first(std::function<void()>);
 
     bool raised() const;

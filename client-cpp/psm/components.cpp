@@ -32,6 +32,42 @@ RoIS_HRI::ReturnCode_t get_parameters(std::string const& component_type, EventRe
     return Session::instance().query(component_type, "get_parameter", {}, parameters);
 }
 
+// The parameters of the three localizations.
+RoIS_HRI::ReturnCode_t set_thresholds(std::string const& component_type, RoIS_HRI::Integer detection_threshold,
+                                      RoIS_HRI::Integer minimum_interval) {
+    Arguments arguments;
+    arguments.integer("detection_threshold", detection_threshold);
+    arguments.integer("minimum_interval", minimum_interval);
+    return set_parameters(component_type, arguments);
+}
+
+RoIS_HRI::ReturnCode_t get_thresholds(std::string const& component_type, RoIS_HRI::Integer& detection_threshold,
+                                      RoIS_HRI::Integer& minimum_interval) {
+    EventResults parameters;
+    auto const code = get_parameters(component_type, parameters);
+    if (code != RoIS_HRI::OK) return code;
+    detection_threshold = parameters.integer("detection_threshold");
+    minimum_interval = parameters.integer("minimum_interval");
+    return code;
+}
+
+// The parameters of the two streaming components.
+RoIS_HRI::ReturnCode_t set_stream_parameters(std::string const& component_type, std::string encodings, std::string transports) {
+    Arguments arguments;
+    arguments.text("encoding_parameters", std::move(encodings));
+    arguments.text("transport_parameters", std::move(transports));
+    return set_parameters(component_type, arguments);
+}
+
+RoIS_HRI::ReturnCode_t get_stream_parameters(std::string const& component_type, std::string& encodings, std::string& transports) {
+    EventResults parameters;
+    auto const code = get_parameters(component_type, parameters);
+    if (code != RoIS_HRI::OK) return code;
+    encodings = parameters.text("available_encodings");
+    transports = parameters.text("available_transports");
+    return code;
+}
+
 // Runs a command on a stream until it has completed.
 RoIS_HRI::ReturnCode_t run_stream(std::string const& component_type, std::string command_type, std::string stream_id) {
     EventResults none;
@@ -99,19 +135,11 @@ void Event::deliver(std::string const& event_type, EventResults const& results) 
 namespace Person_Localization {
 
 RoIS_HRI::ReturnCode_t Command::set_parameter(RoIS_HRI::Integer detection_threshold, RoIS_HRI::Integer minimum_interval) {
-    Arguments arguments;
-    arguments.integer("detection_threshold", detection_threshold);
-    arguments.integer("minimum_interval", minimum_interval);
-    return set_parameters(component_type(), arguments);
+    return set_thresholds(component_type(), detection_threshold, minimum_interval);
 }
 
 RoIS_HRI::ReturnCode_t Query::get_parameter(RoIS_HRI::Integer& detection_threshold, RoIS_HRI::Integer& minimum_interval) {
-    EventResults parameters;
-    auto const code = get_parameters(component_type(), parameters);
-    if (code != RoIS_HRI::OK) return code;
-    detection_threshold = parameters.integer("detection_threshold");
-    minimum_interval = parameters.integer("minimum_interval");
-    return code;
+    return get_thresholds(component_type(), detection_threshold, minimum_interval);
 }
 
 void Event::person_localized(RoIS_HRI::DateTime, RoIS_HRI::RoIS_IdentifierList, std::vector<RoLo::Architecture::Data>) {}
@@ -146,19 +174,11 @@ void Event::deliver(std::string const& event_type, EventResults const& results) 
 namespace Face_Localization {
 
 RoIS_HRI::ReturnCode_t Command::set_parameter(RoIS_HRI::Integer detection_threshold, RoIS_HRI::Integer minimum_interval) {
-    Arguments arguments;
-    arguments.integer("detection_threshold", detection_threshold);
-    arguments.integer("minimum_interval", minimum_interval);
-    return set_parameters(component_type(), arguments);
+    return set_thresholds(component_type(), detection_threshold, minimum_interval);
 }
 
 RoIS_HRI::ReturnCode_t Query::get_parameter(RoIS_HRI::Integer& detection_threshold, RoIS_HRI::Integer& minimum_interval) {
-    EventResults parameters;
-    auto const code = get_parameters(component_type(), parameters);
-    if (code != RoIS_HRI::OK) return code;
-    detection_threshold = parameters.integer("detection_threshold");
-    minimum_interval = parameters.integer("minimum_interval");
-    return code;
+    return get_thresholds(component_type(), detection_threshold, minimum_interval);
 }
 
 void Event::face_localized(RoIS_HRI::DateTime, RoIS_HRI::RoIS_IdentifierList, std::vector<RoLo::Architecture::Data>) {}
@@ -183,19 +203,11 @@ void Event::deliver(std::string const& event_type, EventResults const& results) 
 namespace Sound_Localization {
 
 RoIS_HRI::ReturnCode_t Command::set_parameter(RoIS_HRI::Integer detection_threshold, RoIS_HRI::Integer minimum_interval) {
-    Arguments arguments;
-    arguments.integer("detection_threshold", detection_threshold);
-    arguments.integer("minimum_interval", minimum_interval);
-    return set_parameters(component_type(), arguments);
+    return set_thresholds(component_type(), detection_threshold, minimum_interval);
 }
 
 RoIS_HRI::ReturnCode_t Query::get_parameter(RoIS_HRI::Integer& detection_threshold, RoIS_HRI::Integer& minimum_interval) {
-    EventResults parameters;
-    auto const code = get_parameters(component_type(), parameters);
-    if (code != RoIS_HRI::OK) return code;
-    detection_threshold = parameters.integer("detection_threshold");
-    minimum_interval = parameters.integer("minimum_interval");
-    return code;
+    return get_thresholds(component_type(), detection_threshold, minimum_interval);
 }
 
 void Event::sound_localized(RoIS_HRI::DateTime, RoIS_HRI::RoIS_IdentifierList, std::vector<RoLo::Architecture::Data>) {}
@@ -386,10 +398,7 @@ RoIS_HRI::ReturnCode_t Query::get_parameter(std::vector<RoIS_HRI::Integer>& line
 namespace Audio_Streaming {
 
 RoIS_HRI::ReturnCode_t Command::set_parameter(std::string encoding_parameters, std::string transport_parameters) {
-    Arguments arguments;
-    arguments.text("encoding_parameters", std::move(encoding_parameters));
-    arguments.text("transport_parameters", std::move(transport_parameters));
-    return set_parameters(component_type(), arguments);
+    return set_stream_parameters(component_type(), std::move(encoding_parameters), std::move(transport_parameters));
 }
 
 RoIS_HRI::ReturnCode_t Command::connect_stream(std::string& stream_id) { return begin_stream(component_type(), stream_id); }
@@ -407,12 +416,7 @@ RoIS_HRI::ReturnCode_t Command::resume_stream(std::string stream_id) {
 }
 
 RoIS_HRI::ReturnCode_t Query::get_parameter(std::string& available_encodings, std::string& available_transports) {
-    EventResults parameters;
-    auto const code = get_parameters(component_type(), parameters);
-    if (code != RoIS_HRI::OK) return code;
-    available_encodings = parameters.text("available_encodings");
-    available_transports = parameters.text("available_transports");
-    return code;
+    return get_stream_parameters(component_type(), available_encodings, available_transports);
 }
 
 RoIS_HRI::ReturnCode_t Query::get_stream_status(std::string stream_id, RoIS_Common::Stream_Status& status) {
@@ -432,10 +436,7 @@ void Event::deliver(std::string const& event_type, EventResults const& results) 
 namespace Video_Streaming {
 
 RoIS_HRI::ReturnCode_t Command::set_parameter(std::string encoding_parameters, std::string transport_parameters) {
-    Arguments arguments;
-    arguments.text("encoding_parameters", std::move(encoding_parameters));
-    arguments.text("transport_parameters", std::move(transport_parameters));
-    return set_parameters(component_type(), arguments);
+    return set_stream_parameters(component_type(), std::move(encoding_parameters), std::move(transport_parameters));
 }
 
 RoIS_HRI::ReturnCode_t Command::connect_stream(std::string& stream_id) { return begin_stream(component_type(), stream_id); }
@@ -453,12 +454,7 @@ RoIS_HRI::ReturnCode_t Command::resume_stream(std::string stream_id) {
 }
 
 RoIS_HRI::ReturnCode_t Query::get_parameter(std::string& available_encodings, std::string& available_transports) {
-    EventResults parameters;
-    auto const code = get_parameters(component_type(), parameters);
-    if (code != RoIS_HRI::OK) return code;
-    available_encodings = parameters.text("available_encodings");
-    available_transports = parameters.text("available_transports");
-    return code;
+    return get_stream_parameters(component_type(), available_encodings, available_transports);
 }
 
 RoIS_HRI::ReturnCode_t Query::get_stream_status(std::string stream_id, RoIS_Common::Stream_Status& status) {

@@ -23,7 +23,7 @@ constexpr std::chrono::seconds farewell{2};  // how long disconnect waits for a 
 static_assert(static_cast<ReturnCode_t>(ReturnCode::timeout) == RoIS_HRI::TIMEOUT);
 
 Settings settings_of_environment() {
-    Settings settings;  // has ROIS_URL
+    Settings settings;  // its URL comes from ROIS_URL
     if (auto const* const token = std::getenv("ROIS_TOKEN")) settings.token = token;
     return settings;
 }
@@ -149,7 +149,7 @@ ReturnCode_t Session::disconnect() try {
     }
     auto const why = reason();
     leaving.reset();
-    abort_commands();  // the commands whose end the engine could no longer report
+    abort_commands();  // the engine can no longer report their ends
     delivery_.drain();
     set_reason(why);
     std::lock_guard const lock{mutex_};
@@ -160,7 +160,7 @@ ReturnCode_t Session::disconnect() try {
     return RoIS_HRI::ERROR;
 }
 
-// With the lock held: this thread must not hold the last reference of a client that ends meanwhile.
+// Holds the lock, so that this thread cannot own the last reference to a client.
 void Session::give_sign_of_life() const {
     std::lock_guard const lock{mutex_};
     if (client_) client_->alive();
@@ -222,7 +222,7 @@ Task<Answer> Session::exchange(std::shared_ptr<Client> client, std::string docum
         if (ok) note(answered->reply);
         co_return Answer{std::move(answered->reply)};
     }
-    NoAnswer odd{NoAnswer::Why::not_understood, "the gateway's answer is not understood"};
+    NoAnswer odd{NoAnswer::Why::not_understood, "the gateway's answer is not a RoIS message of this operation"};
     co_return Answer{std::move(odd)};
 }
 
@@ -279,7 +279,7 @@ ReturnCode_t Session::bind_any(std::string_view condition, std::string& ref) {
                              [&](BindAny::Reply const& reply, std::string const&) { bound = reply.component_ref.code; });
     if (code != RoIS_HRI::OK) return code;
     ref = bound;
-    return bind(std::move(bound));  // lets the client bind it again in a new session
+    return bind(std::move(bound));  // so that the client binds it again in a new session
 }
 
 ReturnCode_t Session::release(std::string ref) {

@@ -97,7 +97,7 @@ private:
     Session() = default;
 
     std::shared_ptr<Client> client() const;  // null while not connected
-    std::shared_ptr<Client> ready_client();  // the same; activates new receivers
+    std::shared_ptr<Client> ready_client();  // the same, after activating new receivers
     void activate(std::shared_ptr<Client> const&);
     Observers observers();
     void give_sign_of_life() const;
@@ -106,7 +106,7 @@ private:
     // notification.
     static Task<Answer> exchange(std::shared_ptr<Client>, std::string document, std::string& response,
                                  std::function<void(Reply const&)> note);
-    // The same, but sends nothing if the application's XML is not well-formed.
+    // Like `exchange`, but sends nothing if the application's XML is not well-formed.
     RoIS_HRI::ReturnCode_t send_on(std::shared_ptr<Client> const&, std::string_view xml, std::string document,
                                    std::string& response, std::function<void(Reply const&)> note) const;
     RoIS_HRI::ReturnCode_t subscribe_on(std::shared_ptr<Client> const&, std::string const& event_type,
@@ -122,7 +122,7 @@ private:
     void take_gap(Gap const&);
     void take_state(StateChange const&);
     void post(Delivery::Kind, std::function<void()>);
-    void report(std::string text);  // as an error of the library
+    void report(std::string text);  // reports an error of the library to the receivers
     void abort_commands();
     void subscribe_again();
     void deliver_error(std::string const& id, RoIS_Service::ErrorType);

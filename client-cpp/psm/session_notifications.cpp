@@ -98,7 +98,7 @@ void Session::take_gap(Gap const& gap) {
 }
 
 void Session::take_state(StateChange const& change) {
-    if (!client()) return;  // connect() returns its failure
+    if (!client()) return;  // connect() reports its own failure
     if (change.state == State::lost) report("the link is lost: " + change.reason + "; connecting again");
     if (change.state != State::closed) return;
     abort_commands();

@@ -37,7 +37,7 @@ public:
     std::vector<std::string> texts(std::string_view name) const;
     long integer(std::string_view name) const;
     std::vector<long> integers(std::string_view name) const;
-    // The same, with the names of the PSM.
+    // The functions above under the names of the PSM.
     std::string time(std::string_view name) const { return text(name); }
     std::string identifier(std::string_view name) const { return text(name); }
     std::vector<std::string> identifiers(std::string_view name) const { return texts(name); }

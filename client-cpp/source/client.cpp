@@ -1,6 +1,6 @@
 #include "rois/client.hpp"
 
-#include "asked.hpp"
+#include "core/core.hpp"
 #include "rois/blocking.hpp"
 
 namespace rois {

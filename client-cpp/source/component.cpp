@@ -1,6 +1,6 @@
 #include "rois/component.hpp"
 
-#include "asked.hpp"
+#include "core/core.hpp"
 
 namespace rois {
 

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "core.hpp"
+#include "core/core.hpp"
 
 namespace rois {
 

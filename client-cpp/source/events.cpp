@@ -1,6 +1,6 @@
 #include "rois/events.hpp"
 
-#include "core.hpp"
+#include "core/core.hpp"
 
 namespace rois {
 

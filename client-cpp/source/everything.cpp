@@ -1,6 +1,6 @@
 #include "rois/everything.hpp"
 
-#include "byte_stream.hpp"
+#include "links/byte_stream.hpp"
 // Asio first.
 #include <boost/asio/co_spawn.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <thread>
 
-#include "loop.hpp"
+#include "core/loop.hpp"
 #include "xml/codec/codec.hpp"
 
 namespace rois {

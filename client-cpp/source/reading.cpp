@@ -1,7 +1,6 @@
 #include "reading.hpp"
 
 #include "types/texts.hpp"
-#include "xml/codec/numbers.hpp"
 
 namespace rois::client {
 
@@ -20,7 +19,7 @@ std::optional<int> Reading::integer(std::string_view name) const {
     return value ? to_int(*value) : std::nullopt;
 }
 
-std::vector<double> Reading::numbers(std::string_view name) const { return xml::decode_numbers(text(name).value_or("")); }
+std::vector<double> Reading::numbers(std::string_view name) const { return to_doubles(text(name).value_or("")); }
 
 bool Reading::truth(std::string_view name) const {
     auto const value = text(name).value_or("");

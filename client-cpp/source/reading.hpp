@@ -1,4 +1,4 @@
-// Reads and writes typed values of results and parameters, by name. A missing or invalid value is empty.
+// Reads and writes typed values of results and parameters, by name. A missing or invalid value is read as empty.
 #pragma once
 
 #include <chrono>

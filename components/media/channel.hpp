@@ -12,6 +12,7 @@
 
 #include "media/asio.hpp"
 #include "media/media.hpp"
+#include "media/settings.hpp"
 
 namespace rois::media {
 
@@ -37,7 +38,7 @@ public:
     // Returns the film's current picture as JPEG; null before the first one. Reuses the last picture for half a frame.
     std::shared_ptr<std::string const> picture(Clock::time_point now);
 
-    Clock::time_point interest_until;  // until then, a request for a single picture counts as a receiver
+    Clock::time_point interest_until;  // the last request for a single picture counts as a receiver until then
     bool interest_watched = false;
 
 private:
@@ -47,7 +48,7 @@ private:
     std::mutex mutex_;
     std::size_t receivers_ = 0;
     bool reported_receiving_ = false;  // the last state that receptions() returned
-    bool changed_ = false;             // since then
+    bool changed_ = false;             // reception has changed since then
     std::shared_ptr<std::string const> picture_;
     Clock::time_point drawn_;
 };
@@ -75,5 +76,9 @@ private:
     mutable std::mutex mutex_;
     std::map<std::string, std::shared_ptr<Channel>, std::less<>> channels_;
 };
+
+// Serves one HTTP connection of a receiver, which makes a single request. Completes when the receiver leaves, the channel ends or
+// the response is complete. The directory and the settings must live that long.
+Task<> serve_receiver(Socket, Directory const&, Settings const&);
 
 }  // namespace rois::media

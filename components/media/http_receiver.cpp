@@ -1,4 +1,4 @@
-#include "media/http_receiver.hpp"
+#include "media/channel.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-// Serves sound and pictures outside of RoIS messages (RoIS 2.0, audio and video streaming). Independent of RoIS and robots.
+// Serves sound and pictures over HTTP and RTP, for audio and video streaming (RoIS 2.0). Knows neither RoIS messages nor robots.
 #pragma once
 
 #include <cstdint>
@@ -56,7 +56,7 @@ enum class Reception : std::uint8_t { begun, ended };
 // Whether data flows from the start.
 enum class Flow : std::uint8_t { on, held };
 
-// Owns one served medium: destroying the outlet ends it. Used by one thread.
+// Owns one served medium: destroying the outlet ends it. Used by one thread only.
 class Outlet {
 public:
     virtual ~Outlet() = default;
@@ -65,7 +65,7 @@ public:
     // "rtp://127.0.0.1:5004;payload_type=96;ssrc=7".
     virtual std::string const& address() const = 0;
 
-    // Stops and restarts the flow. Receivers stay connected.
+    // Stop and restart the flow. Receivers stay connected.
     virtual void hold() = 0;
     virtual void go_on() = 0;
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "media/asio.hpp"
+#include "media/channel.hpp"
 #include "media/media.hpp"
 #include "media/tone.hpp"
 
@@ -46,5 +47,9 @@ private:
     Beginning now_;
     bool after_silence_ = true;
 };
+
+// Sends a channel by RTP. Completes when the channel ends. RTP does not report receivers, so the channel always counts as
+// received.
+Task<> send_by_rtp(std::shared_ptr<Channel>, Datagrams, asio::ip::udp::endpoint, RtpPackets);
 
 }  // namespace rois::media

@@ -1,4 +1,4 @@
-#include "media/rtp_sender.hpp"
+#include "media/rtp.hpp"
 
 namespace rois::media {
 

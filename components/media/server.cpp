@@ -11,9 +11,7 @@
 #include <utility>
 
 #include "media/channel.hpp"
-#include "media/http_receiver.hpp"
 #include "media/rtp.hpp"
-#include "media/rtp_sender.hpp"
 
 namespace rois::media {
 
@@ -26,7 +24,7 @@ std::string text_of(std::string const& host, std::uint16_t port) {
     return (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
 }
 
-// A server that listens on every address is reached by the loopback address.
+// Returns the loopback address for a server that listens on every address.
 std::string reachable(std::string const& host) {
     if (host == "0.0.0.0") return "127.0.0.1";
     return host == "::" ? "::1" : host;
@@ -141,7 +139,7 @@ private:
             Running& of;
             ~End() {
                 of.accepts_ = false;
-                of.io_.stop();  // `run` begins again
+                of.io_.stop();  // `run` restarts it
             }
         } const end{*this};
         accepts_ = true;

@@ -15,7 +15,7 @@ public:
     // Starts the server on its own thread. `fresh_id` returns a unique, unguessable text of letters, digits, '-' and '_'; serve()
     // calls it. Throws std::runtime_error if the server cannot listen.
     Server(Settings, std::function<std::string()> fresh_id);
-    ~Server() override;  // outlets may outlive the server, but have no receivers then
+    ~Server() override;  // outlets may outlive the server, but then serve nothing
     Server(Server const&) = delete;
     Server& operator=(Server const&) = delete;
 

@@ -17,7 +17,7 @@ struct Settings {
     std::string host = "127.0.0.1";
     std::uint16_t port = 0;  // 0: any free port
     std::string url;         // public URL, "https://robots.example/m"; empty: http://HOST:PORT
-    // Accept a request by its Host and Origin headers. Null: accept all. Called on the server's own thread.
+    // Return whether a request with this Host or Origin header is accepted. Null: accept all. Called on the server's own thread.
     std::function<bool(std::string_view host)> is_own_host;
     std::function<bool(std::string_view origin, std::string_view host)> is_allowed_origin;
     RtpTargets rtp_targets = RtpTargets::loopback;

@@ -1,4 +1,5 @@
-// A queue of the reports that components made through their ports, in order. The engine handles them at the end of its own step.
+// A queue of the reports that components made through their ports, in order. The engine handles them at the end of its current
+// step.
 #pragma once
 
 #include <deque>
@@ -41,7 +42,7 @@ struct ErrorOccurred {
     std::string text;
 };
 
-// The error that all sessions receive when everything is stopped (decision 34).
+// The error that all sessions receive when an application stops everything (decision 34).
 inline ErrorOccurred everything_was_stopped() {
     return {nullptr, ErrorType::user_defined_error,
             "everything was stopped; nothing starts until it is cleared (POST /rois/clear)"};
@@ -57,7 +58,8 @@ public:
     AgendaEntry* front() { return entries_.empty() ? nullptr : &entries_.front(); }
     void pop() { entries_.pop_front(); }
 
-    // Some component's answer to a command could not be stored. RegisteredComponent::answer_lost marks the component.
+    // Records that the answer of some component to a command could not be stored. RegisteredComponent::answer_lost marks the
+    // component.
     void note_lost_answer() noexcept { answers_lost_ = true; }
     bool take_lost_answers() noexcept { return std::exchange(answers_lost_, false); }
 

@@ -81,7 +81,8 @@ Reply Engine::Core::perform(Session& session, Bind const& bind, Instant now) {
     return refused<Bind::Reply>(ReturnCode::out_of_resources, held(*component));
 }
 
-// Decisions 4 and 6: the first free match in the order of preference, or else one that the session has bound already.
+// Decisions 4 and 6: binds the first free match in the order of preference. If none is free, returns a match that the session has
+// bound already.
 Reply Engine::Core::perform(Session& session, BindAny const& bind, Instant now) {
     auto compiled = Selection::compile(bind.condition, vocabulary());
     if (auto* problem = std::get_if<std::string>(&compiled))
@@ -157,7 +158,7 @@ Reply Engine::Core::perform(Session& session, Execute const& execute, Instant no
     if (everything_is_stopped_ && check.begins_something())
         return refused<Execute::Reply>(ReturnCode::error,
                                        "everything was stopped; nothing starts until it is cleared (POST /rois/clear)");
-    // Each of these commands may leave a `completed` waiting for the session (decisions 12, 23).
+    // Each of these commands may add a `completed` to the session's queue (decisions 12, 23).
     constexpr std::size_t most_without_memory = 16;
     auto const most = settings_.max_waiting_notifications;
     bool const lasts = check.begins_something() || check.delays_something();

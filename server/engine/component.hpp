@@ -1,4 +1,4 @@
-// The interface between the engine and its components: a driver, a simulation or another engine implements `Component`.
+// The interface between the engine and its components: drivers, simulations and other engines implement `Component`.
 #pragma once
 
 #include <cstdint>
@@ -28,10 +28,10 @@ struct Codebooks {
 struct ComponentDescription {
     Identifier ref;                                   // code = the instance's name, unique in the engine (decision 25)
     std::string engine;                               // name of the sub engine that it belongs to; empty for the main engine
-    std::shared_ptr<ComponentProfile const> profile;  // as in its document; the engine adds the messages of the sub components
+    std::shared_ptr<ComponentProfile const> profile;  // without the messages of its sub components, which the engine adds
 
-    // The frame in which the component takes positions; empty: the engine's. Positions that it reports name their frame
-    // (codebook_ref, crs).
+    // The frame of the positions that the component receives; empty: the engine's. Positions that the component reports name
+    // their frame themselves (codebook_ref, crs).
     std::string crs;
     // The parameters that hold positions (located data, decision 27). Without a frame, they are in the engine's frame; an unknown
     // frame is rejected. Other parameters count as positions if they name a known frame.
@@ -39,19 +39,20 @@ struct ComponentDescription {
     // The codebooks that each identifier parameter accepts; the engine rejects all others. A codebook that the profile declares
     // for the parameter (codebook_ref of data_type_ref) is accepted too, and is the default.
     std::vector<Codebooks> codebooks{};
-    // Whether the component moves the robot or a part of it. It then acts only while its application gives signs of life
+    // Whether the component moves the robot or a part of it. Such a component acts only while its application gives signs of life
     // (decision 33).
     bool moves = false;
 };
 
 // The state of a component after one of its commands has completed.
 enum class Afterwards : std::uint8_t {
-    as_before,  // the command's own action is over; a continuous function that was active before stays active
+    as_before,  // a continuous function that was active before the command stays active
     active,     // a continuous function is active until it is stopped (detection, recognition, an open stream, ...)
     idle        // no function is active
 };
 
-// The component's answer to `halt`. `confirmed`: it stands still. `not_yet`: it will call ComponentPort::halted.
+// The component's answer to `halt`. `confirmed`: the component stands still. `not_yet`: the component will call
+// ComponentPort::halted.
 enum class Halted : std::uint8_t { confirmed, not_yet };
 
 // How often a repeated failure is reported. `each`: every time. `once`: until the component succeeds or another session binds it.
@@ -65,7 +66,7 @@ class ComponentPort {
 public:
     virtual ~ComponentPort() = default;
 
-    // The command has begun to act. Must be called within the profile's timeout (decision 16). `completed` implies it.
+    // The command has begun to act. Must be called within the profile's timeout (decision 16). `completed` includes it.
     virtual void started(CommandHandle) = 0;
 
     // The command has ended. Must be called once for each command. A report for a command that has already ended is counted and
@@ -79,14 +80,14 @@ public:
     // An event of the profile occurred.
     virtual void event(std::string_view event_type, Results) = 0;
 
-    // Reports an error that may have no command to report it with. `text` is for people.
+    // Reports an error, with or without a command that failed. `text` is for people.
     virtual void error(ErrorType, std::string text, Report = Report::each) = 0;
 };
 
 // A component. The engine calls it from one thread at a time. Calls must return quickly and never block. The engine enforces the
-// rules that all components share (7.6): bindings, `stop` during `start`, parameter values, frames. So it only calls a component
-// for an operation that is allowed now. If a call throws, the command ends with ERROR and the engine reports
-// COMPONENT_INTERNAL_ERROR; other commands are not affected.
+// rules that all components share (7.6): bindings, `stop` during `start`, parameter values, frames. It calls a component only for
+// operations that are allowed now. If a call throws, the command ends with ERROR and the engine reports COMPONENT_INTERNAL_ERROR;
+// other commands are not affected.
 class Component {
 public:
     virtual ~Component() = default;
@@ -96,22 +97,22 @@ public:
     // Called once, before all other functions. The port stays valid as long as the component.
     virtual void attach(ComponentPort&) = 0;
 
-    // Must not return `busy`: the engine reports that itself.
+    // Must not return `busy`: the engine knows who has bound the component, and reports it.
     virtual ComponentStatus status() const = 0;
 
-    // Returns why the component can never carry out this command with these parameters (all that will be stored by then), or
-    // nullopt. Must not depend on the present situation. Called for each unit of a sequence before any of them runs, and for
-    // set_parameter.
+    // Returns why the component can never carry out this command with these parameters, or nullopt. `parameters` has all
+    // parameters that will be stored when the command runs. The answer must not depend on the present situation. Called for each
+    // unit of a sequence before any of them runs, and for set_parameter.
     virtual std::optional<std::string> refusal(std::string_view command_type, ParameterList const& parameters) const = 0;
 
-    // Called after `arrived` was merged into `stored`. Removes from `stored` the values that the new ones replace (the other one
-    // of a pair). Positions are as the application sent them, in any frame.
+    // Called after `arrived` was merged into `stored`. Removes values from `stored` that contradict the new ones, such as the old
+    // `line` when a new `curve` arrives. The positions are still in the frames in which the application sent them.
     virtual void reconcile(ParameterList& stored, ParameterList const& arrived) const;
 
-    // Begins to act with these parameters. The engine never calls this while an earlier start runs: it halts that first.
+    // Begins to act with these parameters. The engine halts a running action before it calls this.
     virtual void start(CommandHandle, ParameterList const& parameters, Instant now) = 0;
 
-    // Ends every running action, function and command of the profile at once. The engine completes the commands, `start` with
+    // Ends every running action, function and command at once. The engine reports the commands as completed, `start` with
     // `status_when_stopped`. The engine may call this at any time, also when the component is idle. It starts nothing on the
     // component until the halt is confirmed. If the component throws, or does not confirm within 0.5 s, the engine calls this
     // again every 0.2 s (decision 35).
@@ -138,11 +139,12 @@ public:
     virtual ParameterList readable_parameters() const { return {}; }
 
     // Answers a query of the profile, except component_status and get_parameter, from data at hand. Returns one row of results
-    // for each thing that it knows; none if it cannot answer. The engine answers with the first row that meets the condition.
+    // for each match, such as one for each stream; none if it cannot answer. The engine answers with the first row that meets the
+    // condition.
     virtual std::vector<Results> query(std::string_view query_type, Instant now);
 };
 
-// Something that moves with time and that several components share, such as a simulated world.
+// An object that several components share and that changes with time, such as a simulated world.
 class Device {
 public:
     virtual ~Device() = default;

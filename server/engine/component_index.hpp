@@ -1,4 +1,4 @@
-// Finds components by ref and type, for the demands of conditions.
+// Finds components by ref and type, for conditions (demand.hpp).
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@ namespace rois {
 
 class RegisteredComponent;
 
-// Iterates over several lists of components: ordered by ref, without duplicates. Invalid once a component comes or goes.
+// Iterates over several lists of components: ordered by ref, without duplicates. Invalid after a component was added or removed.
 class ComponentsInOrder {
 public:
     using List = std::span<RegisteredComponent* const>;  // ordered by ref

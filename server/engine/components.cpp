@@ -1,4 +1,4 @@
-// Components come and go (7.5.3; decisions 12, 13).
+// Adding and removing components (7.5.3; decisions 12, 13).
 #include <algorithm>
 #include <set>
 #include <stdexcept>
@@ -39,7 +39,7 @@ void unlist(EngineProfile& engine, std::set<std::string_view> const& refs) {
 Engine::Core::SharedComponent Engine::Core::made(std::unique_ptr<Component> component,
                                                  std::vector<ComponentProfile> const& known) {
     auto const& description = component->description();
-    // Conditions look for refs without surrounding spaces.
+    // a condition could not find such a ref: it compares trimmed texts
     if (trimmed(description.ref.code) != description.ref.code)
         throw std::runtime_error("the ref " + quoted(description.ref.code) + " begins or ends with white space");
     auto whole = flattened(*description.profile, known);
@@ -49,14 +49,14 @@ Engine::Core::SharedComponent Engine::Core::made(std::unique_ptr<Component> comp
 }
 
 std::shared_ptr<EngineProfile const> Engine::Core::profile() const {
-    if (!told_profile_) told_profile_ = std::make_shared<EngineProfile const>(profile_);
-    return told_profile_;
+    if (!shared_profile_) shared_profile_ = std::make_shared<EngineProfile const>(profile_);
+    return shared_profile_;
 }
 
 void Engine::Core::enter(SharedComponent const& component) {
     auto const& entry = registry_.add(component).entry();
     list(profile_, entry.engine, entry.ref);
-    told_profile_.reset();
+    shared_profile_.reset();
 }
 
 // The component is no longer in the registry. The next tick retries a step that fails.
@@ -79,7 +79,7 @@ void Engine::Core::check(ComponentChange const& change) const {
     std::set<std::string_view> const going{change.going.begin(), change.going.end()};
     std::set<std::string_view> refs;
     for (auto const& ref : change.going)
-        if (registry_.find(ref) == nullptr) throw std::runtime_error("there is no component " + quoted(ref) + " that could go");
+        if (registry_.find(ref) == nullptr) throw std::runtime_error("unknown component " + quoted(ref) + ": it cannot be removed");
     for (auto const& component : change.coming) {
         auto const& ref = component->description().ref.code;
         bool const stays = registry_.find(ref) != nullptr && !going.contains(ref);
@@ -87,8 +87,8 @@ void Engine::Core::check(ComponentChange const& change) const {
     }
 }
 
-// Prepares the change with copies. From the exchange on, the change has happened, and nothing is thrown: the next tick continues
-// with a step that fails, and reports the failure.
+// Prepares the change in copies, and then exchanges them. Nothing is thrown after the exchange: if a later step fails, the next
+// tick repeats it and reports the failure.
 void Engine::Core::change(ComponentChange change, Instant now) {
     check(change);
     settle(now);
@@ -108,12 +108,12 @@ void Engine::Core::change(ComponentChange change, Instant now) {
     std::swap(registry_, registry);
     std::swap(profile_, profile);
     std::swap(known_profiles_, change.known_profiles);
-    told_profile_.reset();
+    shared_profile_.reset();
     if (going.empty() && coming.empty()) return;
     Attempts attempts;
     for (auto const& component : going) attempts([&] { leave(component, now); });
     for (auto const& component : coming)
-        attempts([&] { executor_.halt(*component, CompletedStatus::abort, "it has just come", now); });
+        attempts([&] { executor_.halt(*component, CompletedStatus::abort, "it was just added", now); });
     for (auto const& [id, session] : sessions_) attempts([&, &to = *session] { notifier_.notify(to, notification); });
     attempts([&] { settle(now); });
     if (attempts.failure()) unsettled_ = attempts.failure();

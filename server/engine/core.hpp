@@ -95,7 +95,7 @@ private:
     std::optional<std::string> no_room_for(Session const&, Filter const&, bool shared);
     Reply perform(Session&, Unsubscribe const&, Instant now);
     Reply perform(Session&, GetEventDetail const&, Instant now);
-    // Keeps the first failure of a delivery in `deliveries`, and makes the other deliveries.
+    // Delivers to every receiver, even if one delivery throws. `deliveries` keeps the first exception.
     void publish(EventOccurred const&, Instant now, Attempts& deliveries);
     void publish(ErrorOccurred const&, Instant now, Attempts& deliveries);
     ReceiveError noted(ErrorOccurred const&, Instant now);
@@ -112,14 +112,18 @@ private:
     std::vector<RegisteredComponent*> select(Selection const&, Session const& asker) const;
     struct ToBind {
         std::vector<RegisteredComponent*> components;  // in order of preference
-        // Set if a robot met a group condition, but another session holds this component, which the asker lacks.
+        // Set if a robot meets a group condition but cannot be used, because another session has bound this component of it.
         RegisteredComponent const* held_of_group = nullptr;
     };
-    // Returns the components that match. If the selection neither sorts nor has a group, stops at the first free one. A group
-    // condition selects components of one robot, if the asker has bound or can bind all that the group asks for.
+    // Returns the components that match. If the selection neither sorts nor has a group, stops at the first free component. A
+    // group condition selects components of one robot, if the asker has bound or can bind all that the group asks for.
     ToBind select_to_bind(Selection const&, Session const& asker) const;
     // Removes the results that do not match (decision 19). Returns why the condition is invalid, or nullopt.
     std::optional<std::string> choose(Results&, QueryExpression const&, Declarations const& known, std::string_view id) const;
+    // Sets the results that get_event_detail or get_error_detail returns. Returns why there are none, or nullopt. `kind` is
+    // "event" or "error".
+    std::optional<std::string> choose_details(Results&, Details::Answer const&, std::string_view kind, std::string const& id,
+                                              QueryExpression const&) const;
 
     // Sessions (engine.cpp)
     void end(Session&, std::string_view why, Instant now);
@@ -146,7 +150,8 @@ private:
     FreshSecret fresh_secret_;
     std::vector<ComponentProfile> known_profiles_;
     EngineProfile profile_;
-    mutable std::shared_ptr<EngineProfile const> told_profile_;  // copy that callers share; null until it is asked for
+    mutable std::shared_ptr<EngineProfile const>
+        shared_profile_;  // the copy that callers share; null until the first call of profile()
     Agenda agenda_;
     Places places_;
     Registry registry_;
@@ -162,17 +167,18 @@ private:
     Executor executor_;
     Details events_;
     Details errors_;
-    std::vector<SharedComponent> departed_;  // the agenda may still have their reports
+    std::vector<SharedComponent> departed_;  // removed components; the agenda may still contain reports of them
     Steady details_checked_;
     Steady memory_saved_;
     std::vector<std::uint32_t> free_slots_;  // slots of ended sessions, to be reused (Details::Asker)
     std::optional<Steady> last_tick_;
-    std::exception_ptr unsettled_;  // thrown while settling an operation; the next tick continues the work and rethrows it
+    std::exception_ptr
+        unsettled_;  // exception from `settle` after an operation; the next tick continues the work and rethrows it
     bool sessions_must_end_ = false;
     bool shutting_down_ = false;
     bool everything_is_stopped_ = false;
-    std::optional<Steady> stop_reported_;  // when the sessions were last notified
-    bool stop_unreported_ = false;         // there was a later stop: a tick notifies the sessions of it
+    std::optional<Steady> stop_reported_;  // when the sessions last received the error of a stop of everything
+    bool stop_unreported_ = false;         // a later stop has not been reported yet: a tick will report it
     std::uint64_t events_published_ = 0;
     std::uint64_t errors_published_ = 0;
     std::uint64_t last_session_ = 0;

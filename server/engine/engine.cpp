@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/core.hpp"
-#include "engine/identifiers.hpp"
+#include "types/identifier_length.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
@@ -34,7 +34,7 @@ std::string in_seconds(std::chrono::nanoseconds time) {
 
 }  // namespace
 
-// Checks all reasons to refuse before it performs the operation.
+// Refuses the operation, if there is a reason, before it changes anything.
 std::variant<Reply, Refusal> Engine::Core::handle(SessionId const& id, Operation const& operation, Instant now) {
     if (shutting_down_) return Refusal::shutting_down;
     if (auto const* asked = std::get_if<Connect>(&operation)) return connect(id, *asked, now);
@@ -69,7 +69,7 @@ void Engine::Core::tick(Instant now) {
     attempts([&] { hold_unproven_motion(now); });
     attempts([&] { report_stop_of_everything(now); });
     if (memory_->full()) attempts([&] { save_memory(now); });
-    constexpr int most_turns = 100;  // of devices; the rest waits for the next tick
+    constexpr int most_turns = 100;  // turns of devices in one tick; later turns wait for the next tick
     auto const goes_on = [&](DeviceState const& state) {
         bool more = false;
         attempts([&] { more = state.device->goes_on(); });
@@ -121,7 +121,7 @@ void Engine::Core::hold_unproven_motion(Instant now) {
     settle(now);
 }
 
-// Reports a failing device once, until it succeeds. The next tick advances it again: the cause may have been a lack of memory.
+// Reports a failing device once, until it succeeds again. Each tick retries it, because the cause may have been a lack of memory.
 void Engine::Core::advance_devices(Instant now) {
     Attempts attempts;
     for (auto& [device, failed] : devices_) {
@@ -141,7 +141,8 @@ void Engine::Core::advance_devices(Instant now) {
     attempts.rethrow();
 }
 
-// Handles the agenda, and what handling it adds to it, until it is empty. The next tick retries an entry that fails.
+// Handles the entries of the agenda, also those that are added meanwhile, until it is empty. The next tick retries an entry that
+// fails.
 void Engine::Core::settle(Instant now) {
     Attempts attempts;
     struct Handler {
@@ -210,7 +211,8 @@ void Engine::Core::end_marked_sessions(Instant now, Attempts& attempts) {
     }
 }
 
-// Decision 3. Halts the components first, because they may move. Closes the queue after the last notifications are in it.
+// Decision 3. Halts the components first, because they may move. Closes the notification queue last, so that it contains the ends
+// of the commands.
 void Engine::Core::remove(Session& session, Instant now) {
     Attempts attempts;
     if (settings_.on_session_end == OnSessionEnd::continue_) {
@@ -348,8 +350,8 @@ void Engine::Core::await_end_of_window(Session& session, Steady not_before) {
     session.end_of_window = deadlines_.add(when, [this, id = session.id](Instant then) { end_if_lost(id, then); });
 }
 
-// Checks again later if the session sent something in between (decision 2). Keeps the deadline while a link is open, so that the
-// end of the link can move it without memory.
+// Checks again later if the session sent something in between (decision 2). Keeps the deadline while a link is open: when the
+// link ends, the deadline can be moved without allocating memory.
 void Engine::Core::end_if_lost(SessionId const& id, Instant now) {
     auto* session = find(id);
     if (session == nullptr) return;

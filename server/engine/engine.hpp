@@ -24,9 +24,9 @@ namespace rois {
 class Outbox {
 public:
     virtual ~Outbox() = default;
-    // The session's queue has new entries, or was closed. Must not throw.
+    // Called when the session's queue has new entries, or was closed. Must not throw.
     virtual void notify(NotificationQueue&) = 0;
-    // `notify` follows soon: the implementation may prefetch memory.
+    // Announces a call of `notify`, so that the implementation can prefetch memory.
     virtual void approach(NotificationQueue const&) const {}
 };
 
@@ -37,7 +37,7 @@ enum class Refusal : std::uint8_t { no_session, too_many_sessions, no_memory, sh
 struct ComponentChange {
     std::vector<std::string> going;  // refs of the components to remove
     std::vector<std::unique_ptr<Component>> coming;
-    std::vector<ComponentProfile> known_profiles;  // where sub components are looked up from now on
+    std::vector<ComponentProfile> known_profiles;  // replaces the profiles in which the engine looks up sub components
 };
 
 // Statistics for /metrics, counted since the start.
@@ -53,7 +53,7 @@ struct SessionStatistics {
 struct LimitStatistics {
     std::string_view of;
     std::size_t most = 0;
-    std::uint64_t reached = 0;  // how often it made the gateway reject, drop or end something
+    std::uint64_t reached = 0;  // how often the gateway rejected, dropped or ended something because of it
 };
 
 struct EngineStatistics {
@@ -75,9 +75,9 @@ struct EngineStatistics {
     std::size_t memory_used = 0;    // bytes
 };
 
-// Not thread-safe: the caller serializes all calls (Gateway holds a mutex). Only reading from a NotificationQueue needs no
-// such lock. The engine never reads a clock or opens a file: the caller passes the time, and `steady` must not go back. A call
-// handles everything that it causes before it returns.
+// Not thread-safe: the caller serializes all calls (Gateway holds a mutex). Exception: any thread may read from a
+// NotificationQueue, which has a lock of its own. The engine never reads a clock or opens a file: the caller passes the time, and
+// `steady` must not go back. When a call returns, its consequences have been handled.
 class Engine {
 public:
     // Returns an unguessable text of at least 128 bits that is valid in an XML attribute.
@@ -92,11 +92,12 @@ public:
     // Sets the journal, which must outlive the last call to the engine.
     void report_to(Journal&);
 
-    // Sets the memory budget, which the engine checks before it accepts data to keep. Without one there is no limit. Its owner
-    // measures the memory. It must outlive the last call to the engine.
+    // Sets the memory budget, which the engine checks before it stores data. Without a budget there is no limit. The owner of the
+    // budget measures the memory. The budget must outlive the last call to the engine.
     void keep_within(MemoryBudget&);
 
-    // Call before the first session. Throws std::runtime_error if the ref is taken or a sub component profile is unknown.
+    // Call before the first session. Adds a component. Throws std::runtime_error if its ref is taken or the profile of a sub
+    // component is unknown.
     void add(std::unique_ptr<Component>);
     void add(std::shared_ptr<Device>);
 
@@ -110,9 +111,9 @@ public:
     void describe(Places);
 
     // Performs an operation for the session; the id is empty if the client has none yet. On return, the session's queue holds the
-    // notifications that the operation caused. `Connect` opens a session unless `session` is open. If the limit of sessions is
-    // reached, it ends the session that has been idle for longest (no link, no binding, no subscription), or is refused. `Resume`
-    // only checks that notifications can be read on from `last_sequence`; the caller reads them.
+    // notifications that the operation caused. `Connect` opens a session unless `session` is open. At the limit of sessions,
+    // `Connect` ends the session that has been idle for longest (no link, no binding, no subscription); if no session is idle, it
+    // is refused. `Resume` only checks that notifications can be read on from `last_sequence`; the caller reads them.
     std::variant<Reply, Refusal> handle(SessionId const& session, Operation const&, Instant now);
 
     // Halts all components, which may be moving, and performs the first tick. Call once, before `handle`.
@@ -124,8 +125,8 @@ public:
     // Returns the session's queue, or null. The queue stays readable after the session's end.
     std::shared_ptr<NotificationQueue> notifications(SessionId const&) const;
 
-    // The network layer reports a request, a pong, or a WebSocket or notification stream that opened or closed. Operations renew
-    // the motion lease without such a report.
+    // Signs of life, reported by the network layer: a request or pong was received, a WebSocket or notification stream has opened
+    // or closed. Operations renew the motion lease without such a report.
     void heard_from(SessionId const&, Instant now);
     void heard_pong(SessionId const&, Instant now);
     void link_opened(SessionId const&, Link, Instant now);
@@ -141,8 +142,8 @@ public:
     bool everything_is_stopped() const;
     // Returns the refs of the components that have not confirmed a halt (decision 35).
     std::vector<std::string> not_halted() const;
-    // Returns those of not_halted() that keep the engine from being ready: the halt has failed, is the component's first, or
-    // everything is stopped.
+    // Returns the components of not_halted() that make the engine report "not ready": those whose halt has failed, or is their
+    // first one since the start; all of them while everything is stopped.
     std::vector<std::string> not_ready() const;
 
     // Ends every session. Later operations are refused.

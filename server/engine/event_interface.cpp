@@ -62,19 +62,36 @@ Reply Engine::Core::perform(Session& session, Unsubscribe const& unsubscribe, In
 }
 
 Reply Engine::Core::perform(Session& session, GetEventDetail const& get, Instant now) {
-    auto const found = events_.find(get.event_id.text, session.events, now);
-    if (found.found == Details::Found::unknown)
-        return refused<GetEventDetail::Reply>(ReturnCode::bad_parameter, "unknown event_id " + quoted(get.event_id.text));
-    if (found.found == Details::Found::expired)
-        return refused<GetEventDetail::Reply>(ReturnCode::bad_parameter,
-                                              "the details of the event " + quoted(get.event_id.text) + " have expired");
-    Declarations known;
-    known.add(found.message->results);
     GetEventDetail::Reply reply;
-    reply.results = *found.results;
-    if (auto problem = choose(reply.results, get.condition, known, get.event_id.text))
-        return refused<GetEventDetail::Reply>(ReturnCode::bad_parameter, std::move(*problem));
+    if (auto problem = choose_details(reply.results, events_.find(get.event_id.text, session.events, now), "event",
+                                      get.event_id.text, get.condition))
+        return refused<GetEventDetail::Reply>(ReturnCode::bad_parameter, *std::move(problem));
     return reply;
+}
+
+namespace {
+
+// The results of get_event_detail (those of the event's message) or, without a message, of get_error_detail.
+Declarations declared_details(MessageProfile const* message) {
+    Declarations known;
+    if (message != nullptr) {
+        known.add(message->results);
+        return known;
+    }
+    for (auto const& [name, type] : {std::pair{"component_ref", "RoISIdentifier"}, {"time", "DateTime"}, {"text", "string"}})
+        known.add({.name = name, .data_type_ref = {type, {}, {}, {}}, .default_value = {}, .description = {}});
+    return known;
+}
+
+}  // namespace
+
+std::optional<std::string> Engine::Core::choose_details(Results& results, Details::Answer const& details, std::string_view kind,
+                                                        std::string const& id, QueryExpression const& condition) const {
+    auto const kind_text = std::string{kind};
+    if (details.found == Details::Found::unknown) return "unknown " + kind_text + "_id " + quoted(id);
+    if (details.found == Details::Found::expired) return "the details of the " + kind_text + " " + quoted(id) + " have expired";
+    results = *details.results;
+    return choose(results, condition, declared_details(details.message.get()), id);
 }
 
 namespace {

@@ -1,4 +1,4 @@
-// What the engine reports for the log: sessions, bindings, refused operations and commands.
+// The interface to the log: receives the engine's reports about sessions, bindings, refused operations and commands.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ public:
     virtual void halted_at_last(std::string const& /*ref*/) {}
     // The operation returned a code other than OK.
     virtual void refused(std::uint64_t /*session*/, Operation const&, Outcome const&) {}
-    // The command's turn has come, or it has ended. Its session is null if that has ended.
+    // A command begins to run, or has ended. Its session is null if the session has ended.
     virtual void command_begun(Command const&) {}
     virtual void command_ended(Command const&) {}
 };

@@ -1,4 +1,4 @@
-// The memory that the process may use, and the requests that are refused when little is left (docs/safety.md).
+// Limits the memory of the process: when little is left, requests are refused (docs/safety.md).
 #pragma once
 
 #include <atomic>
@@ -12,8 +12,8 @@
 
 namespace rois {
 
-// Compares the memory that the process uses with a limit. `Measure` returns the total: single allocations are not counted. The
-// work on a long document is reserved beforehand. Thread-safe.
+// Compares the memory that the process uses with a limit. `Measure` returns the total: single allocations are not counted. Memory
+// for the work on a long document is reserved beforehand. Thread-safe.
 class MemoryBudget {
 public:
     using Measure = std::function<std::size_t()>;  // bytes that the process uses now; called on any thread
@@ -34,7 +34,8 @@ public:
     // is dropped.
     bool full() const { return used() >= total_ || exhausted(); }
 
-    // Whether an allocation failed a short time ago, whatever the budget allows. Set by the owner of the budget; any thread.
+    // Whether an allocation failed a short time ago, even if the budget is not used up. Set by the owner of the budget; any
+    // thread.
     bool exhausted() const { return exhausted_.load(std::memory_order_relaxed); }
     void set_exhausted(bool exhausted) noexcept { exhausted_.store(exhausted, std::memory_order_relaxed); }
 
@@ -48,7 +49,7 @@ public:
 
     // Measures the memory.
     void look();
-    // Reports that the gateway keeps so many more bytes. Measures the memory each time that enough bytes were reported.
+    // Reports that the gateway stores `bytes` more bytes. After enough reported bytes, measures the memory again.
     void took(std::size_t bytes) {
         constexpr std::size_t enough = 256 * 1024;
         if (taken_.fetch_add(bytes, std::memory_order_relaxed) + bytes >= enough) look();

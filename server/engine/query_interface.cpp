@@ -51,7 +51,7 @@ std::vector<Possible> possible_answers(std::vector<RegisteredComponent*> const& 
     return found;
 }
 
-// In the order of the selection, which must sort.
+// Sorts by the selection, which must have a sort order.
 std::vector<Possible> in_order(Selection const& selection, std::vector<Possible> found, Perspective& looked_at) {
     std::vector<std::unique_ptr<MessageCandidate>> with_results;
     std::vector<Candidate const*> candidates;
@@ -103,8 +103,8 @@ void join(Results& whole, Results part) {
 
 }  // namespace
 
-// Decision 18: one component that has the query type answers. READY ones come first, then those of the robot that the session
-// works with, then the order of SortBy or the lowest code. Of its rows, the first that matches.
+// Decision 18: one component that has the query type answers. The order is: READY components, then those of the robot that the
+// session works with, then the order of SortBy, or the lowest code. The answer is the first row of the component that matches.
 Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
     auto vocabulary = this->vocabulary(&registry_.results(MessageKind::query, query.query_type));
     vocabulary.first = Vocabulary::First::parameters;
@@ -144,10 +144,11 @@ Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
     return reply;
 }
 
-// One component of each engine answers, in the order of the engines' names: READY before others, then the lowest code. An engine
-// that cannot answer has no position, and its status is ERROR. The answer names the component of the first engine.
+// One component of each engine answers, in the order of the engines' names: READY components before others, then the lowest code.
+// If an engine cannot answer, its position is missing and its status is ERROR. The answer names the component of the first
+// engine.
 Reply Engine::Core::answer_of_whole_engine(Session const& session, std::string const& query_type, Instant now) {
-    using Choice = std::pair<bool, RegisteredComponent*>;  // whether it is not READY
+    using Choice = std::pair<bool, RegisteredComponent*>;  // the bool: is not READY
     std::map<std::string_view, Choice> chosen;             // by engine
     for (auto* component : registry_.with(MessageKind::query, query_type).all()) {
         Choice const choice{component->status_for(&session) != ComponentStatus::ready, component};

@@ -14,7 +14,7 @@ namespace rois {
 
 namespace {
 
-// The parameters of set_parameter, and further ones of the profile.
+// The parameters of set_parameter, and the other parameters of the profile.
 std::vector<ParameterProfile> settable_of(ComponentProfile const& profile) {
     std::vector<ParameterProfile> settable;
     if (auto const* message = find_message(profile, MessageKind::command, "set_parameter")) settable = message->arguments;
@@ -30,15 +30,15 @@ std::vector<ParameterProfile> settable_of(ComponentProfile const& profile) {
     return settable;
 }
 
-// `list`, and the members of `others` that it lacks.
+// Returns `list` with the members of `others` that it lacks.
 std::vector<ParameterProfile> with_others(std::vector<ParameterProfile> list, std::vector<ParameterProfile> const& others) {
     for (auto const& other : others)
         if (find_parameter(list, other.name) == nullptr) list.push_back(other);
     return list;
 }
 
-// Published profiles may name only the parameters. Adds the messages set_parameter and get_parameter, which every component with
-// parameters has, or completes them.
+// Adds or completes the messages set_parameter and get_parameter, which every component with parameters has. Some published
+// profiles list only the parameters.
 void add_parameter_messages(ComponentProfile& profile, std::vector<ParameterProfile> const& settable) {
     if (settable.empty()) return;
     auto const message = [&](MessageKind kind, std::string_view name) -> MessageProfile& {
@@ -148,7 +148,7 @@ void RegisteredComponent::report_failure(std::string_view problem, Report report
     try {
         this->report(ErrorType::component_internal_error, std::string{problem}, report);
     } catch (...) {
-        // The component's status is ERROR nevertheless.
+        // the error may be reported again: its report was lost, and the status is ERROR
         reported_once_.erase(ErrorType::component_internal_error);
     }
 }
@@ -173,7 +173,7 @@ RegisteredComponent::Answer RegisteredComponent::check(MessageKind kind, std::st
     auto const* profiles = results_of(kind, message);
     auto const problem = profiles == nullptr ? "it is not in the profile" : profiles->why_not(results.parameters);
     if (!problem) return Answer::right;
-    report_failure("wrong results of " + quoted(message) + ": " + *problem, report);
+    report_failure("invalid results of " + quoted(message) + ": " + *problem, report);
     return Answer::wrong;
 }
 
@@ -211,7 +211,7 @@ std::optional<ParameterList> RegisteredComponent::all_parameters(Session const* 
         return !bound_by_asker && find_parameter(settable_, known->name) != nullptr;
     });
     if (auto const problem = why_not(readable_, readable.parameters)) {
-        report_failure("wrong parameters: " + *problem, Report::once);
+        report_failure("invalid parameters: " + *problem, Report::once);
         return {};
     }
     readable.parameters = normalized(readable_, readable.parameters);
@@ -235,14 +235,14 @@ std::optional<Located> RegisteredComponent::location() const {
     if (!where || frames_.are_one()) return where;
     auto const problem = frames_.change(*where, frames_.own());
     if (!problem) return where;
-    report_failure("wrong location: " + *problem, Report::once);
+    report_failure("invalid location: " + *problem, Report::once);
     return {};
 }
 
 std::optional<Results> RegisteredComponent::in_engine_frame(Results results, std::string_view message, Report report) const {
     auto const problem = frames_.change_to_own(results);
     if (!problem) return results;
-    report_failure("wrong results of " + quoted(message) + ": " + *problem, report);
+    report_failure("invalid results of " + quoted(message) + ": " + *problem, report);
     return {};
 }
 
@@ -255,7 +255,7 @@ std::optional<std::string> RegisteredComponent::why_no_frame(ParameterList const
     for (auto const& parameter : normalized) {
         auto const& crs = parameter.data_type_ref.codebook_ref;
         if (is_position(parameter.name) && !frames_.know(crs))
-            return "parameter " + quoted(parameter.name) + ": the frame " + quoted(crs, 200) + " is not known here; known are " +
+            return "parameter " + quoted(parameter.name) + ": the frame " + quoted(crs, 200) + " is not known here; expected one of " +
                    listed(frames_.names());
     }
     return {};
@@ -274,7 +274,7 @@ std::optional<std::string> RegisteredComponent::why_no_codebook(std::vector<Para
         if (is_among(known, codebook)) continue;
         return "parameter " + quoted(parameter.name) + ": " + quoted(listed(parameter.values), 100) + " is from the codebook " +
                quoted(codebook, 200) + ", which is unknown here; " +
-               (known.empty() ? "the component has no codebook for it: leave codebook_ref out" : "known are " + listed(known));
+               (known.empty() ? "the component has no codebook for it: leave codebook_ref out" : "expected one of " + listed(known));
     }
     return {};
 }
@@ -366,7 +366,7 @@ void Registry::remove(RegisteredComponent const& component) {
     parameters_.reset();
 }
 
-// The results of the message must be collected again.
+// Marks the collected results of the message as outdated.
 Registry::Providers& Registry::change(MessageProfile const& message) {
     auto& providers = by_message_[message.kind][message.name];
     providers.results.reset();
@@ -397,13 +397,13 @@ RegisteredComponent* Registry::find(std::string_view ref) const {
     return found == components_.end() ? nullptr : found->second.get();
 }
 
-Registry::Meant Registry::meant(Identifier const& ref) const {
+Registry::Lookup Registry::meant(Identifier const& ref) const {
     auto* const component = find(ref.code);
     if (component == nullptr) return {nullptr, "unknown component " + quoted(ref.code)};
     auto const& own = component->ref();
     auto const foreign = [&](std::string_view what, std::string const& given, std::vector<std::string> const& known) {
-        return Meant{nullptr, "the component_ref " + quoted(ref.code) + " has the " + std::string{what} + " " +
-                                  quoted(given, 200) + ", which is not the component's; known are " + listed(known)};
+        return Lookup{nullptr, "the component_ref " + quoted(ref.code) + " has the " + std::string{what} + " " +
+                                   quoted(given, 200) + ", which is not the component's; expected one of " + listed(known)};
     };
     std::vector<std::string> const codebooks{own.codebook_ref.empty() ? component->entry().type : own.codebook_ref};
     bool const known_codebook = ref.codebook_ref.empty() || is_among(codebooks, ref.codebook_ref);
@@ -429,7 +429,7 @@ Registry::Bound Registry::bind(RegisteredComponent& component, Session& session,
     if (component.has_failed_to_halt()) return Bound::not_halted;
     if (component.bound_to == nullptr) {
         component.forget_reported_errors();
-        component.restore_defaults(now);  // what still runs for an ended session (on_session_end) left its own
+        component.restore_defaults(now);  // commands of an ended session may still run (on_session_end), and have set parameters
     }
     session.bound.insert(&component);
     component.bound_to = &session;

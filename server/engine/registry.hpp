@@ -30,7 +30,7 @@ struct UnconfirmedHalt {
     std::vector<std::shared_ptr<Command>> waiting;  // commands that continue once the halt is confirmed; empty if it has failed
 };
 
-// A component with the engine's state about it. Implements the component's port.
+// A component, and what the engine knows about it. Implements the component's port.
 class RegisteredComponent final : public ComponentPort, public std::enable_shared_from_this<RegisteredComponent> {
 public:
     // The state of the component's commands.
@@ -44,13 +44,14 @@ public:
     ComponentEntry const& entry() const { return entry_; }
     // The ref without the name of its sub engine: "navigation" of "robot2.navigation".
     std::string_view code_in_engine() const { return std::string_view{ref_.code}.substr(code_begin_); }
-    // The type, as conditions compare it.
+    // The type in the form that conditions compare.
     std::string const& type_key() const { return type_key_; }
     bool moves() const { return moves_; }
     // Includes the messages of the sub components, and the implied ones (add_parameter_messages).
     ComponentProfile const& profile() const { return *entry_.profile; }
 
-    // Removes the component. The ref and the profile stay readable; calls fail without a report.
+    // Destroys the component, which has left the engine. The ref and the profile stay readable; later calls of the component fail
+    // without a report.
     void depart() { component_.reset(); }
     bool has_departed() const { return component_ == nullptr; }
 
@@ -59,11 +60,12 @@ public:
     template <class What>
     Called call(What const& what, Report = Report::each) const;
 
-    // Checks the results of a message. Wrong ones are reported like an exception (decision 16).
+    // Checks the results of a message against the profile. Invalid results are reported like an exception (decision 16).
     enum class Answer : std::uint8_t { right, wrong };
     Answer check(MessageKind, std::string_view message, Results const&, Report = Report::each) const;
 
-    // Returns the rows of the answer to a query; none if the component failed, cannot answer, or answers against the profile.
+    // Returns the rows of the answer to a query; none if the component failed, cannot answer, or its answer does not fit the
+    // profile.
     std::vector<Results> answer(std::string_view query_type, Instant now) const;
 
     // The status, as `asker` sees it (decision 7).
@@ -87,8 +89,8 @@ public:
     // The parameters for `start`: the stored ones, and its arguments or their defaults.
     ParameterList for_start(ParameterList stored, ParameterList const& arrived) const;
 
-    // For conditions: whether it has the parameter, maybe read-only; whether its events or queries have the result; its position,
-    // nullopt also if it failed.
+    // For conditions: whether the component has the parameter (also a read-only one), whether its events or queries have the
+    // result, and its position (nullopt if it is unknown or the component failed).
     bool has_parameter(std::string_view name) const;
     bool has_result(std::string_view name) const;
     std::optional<Located> location() const;
@@ -96,8 +98,8 @@ public:
     // Returns which position is in an unknown frame, or nullopt. The parameters must be normalized.
     std::optional<std::string> why_no_frame(ParameterList const& normalized) const;
 
-    // Returns which identifier is from a codebook that the component does not know (decision 31), or nullopt. `profiles`: those
-    // that the parameters were checked against. The parameters must be normalized.
+    // Returns which identifier is from a codebook that the component does not know (decision 31), or nullopt. `profiles`: the
+    // parameters' profiles. The parameters must be normalized.
     std::optional<std::string> why_no_codebook(std::vector<ParameterProfile> const& profiles,
                                                ParameterList const& normalized) const;
 
@@ -111,7 +113,7 @@ public:
     bool is_free() const { return bound_to == nullptr && !has_failed_to_halt(); }
     ParameterList parameters;  // stored for the session that has bound it; the defaults without a binding
     Activity activity = Activity::idle;
-    // `all`: everything is suspended. `some`: a command has begun since.
+    // `all`: everything is suspended. `some`: a command has begun after the suspension.
     enum class Suspended : std::uint8_t { nothing, some, all } suspended = Suspended::nothing;
     void something_begins() {
         if (suspended == Suspended::all) suspended = Suspended::some;
@@ -125,12 +127,12 @@ public:
     bool has_failed_to_halt() const { return halting && halting->failed; }
     bool has_stood = false;  // has confirmed a halt at least once
 
-    // There was no memory to keep the component's answer to a command. So its state is unknown.
+    // An answer of the component to a command was lost, because memory was short. The state of the component is unknown.
     bool answer_lost = false;
 
-    // For a command or query that succeeded.
+    // Called after a command or query has succeeded.
     void clear_failure();
-    // For a new binding: errors that were reported once are reported again.
+    // Called for a new binding: errors with Report::once are reported again.
     void forget_reported_errors() { reported_once_.clear(); }
 
     void started(CommandHandle) override;
@@ -197,13 +199,13 @@ public:
 
     RegisteredComponent* find(std::string_view ref) const;  // null when unknown
 
-    // Finds the component that an application means. If there is none, `component` is null and `problem` says why: the code is
-    // unknown, or its codebook or authority belongs to something else (decision 31).
-    struct Meant {
+    // The result of looking up a component_ref. If no component is found, `component` is null and `problem` says why: the code is
+    // unknown, or the codebook or authority does not belong to components (decision 31).
+    struct Lookup {
         RegisteredComponent* component = nullptr;
         std::string problem;
     };
-    Meant meant(Identifier const& component_ref) const;
+    Lookup meant(Identifier const& component_ref) const;
 
     Components const& all() const { return components_; }
     // The components that move the robot.

@@ -24,7 +24,7 @@ namespace rois {
 class RegisteredComponent;
 struct Subscription;
 
-// Owned by the engine. Has state only.
+// Owned by the engine. Plain data without functions.
 struct Session {
     Session(MotionLease::Terms const& terms, Steady now)
         : connected{now}, lease{terms, now}, last_activity{now}, quiet_until{now} {}
@@ -41,10 +41,10 @@ struct Session {
     std::size_t predicates = 0;                                                // total in the conditions of the subscriptions
     std::size_t condition_bytes = 0;                                           // total length of the texts in these conditions
     std::unordered_map<CommandId, std::shared_ptr<Command>, IdHash> commands;  // all known commands (decision 17)
-    std::list<std::shared_ptr<Command>> ended;  // those of `commands` that have ended, in the order of their ends
+    std::list<std::shared_ptr<Command>> ended;  // the ended commands of `commands`, oldest end first
     std::size_t live_commands() const { return commands.size() - ended.size(); }
 
-    // The session's links (decision 2). They cannot count as lost before `quiet_until`.
+    // The session's links (decision 2). Before `quiet_until` they do not count as lost.
     MotionLease lease;
     Steady last_activity;  // the last HTTP request, or the last end of a link
     Steady quiet_until;

@@ -54,7 +54,7 @@ std::variant<Reply, Refusal> Engine::Core::connect(SessionId const& id, Connect 
     session->number = ++last_session_;
     bool const new_slot = free_slots_.empty();
     auto const slot = new_slot ? static_cast<std::uint32_t>(sessions_.size()) : free_slots_.back();
-    if (new_slot) free_slots_.reserve(slot + 1);  // so that the end of a session needs no memory
+    if (new_slot) free_slots_.reserve(slot + 1);  // the end of a session must not allocate
     session->events = {slot, events_.next()};
     session->errors = {slot, errors_.next()};
     session->notifications =
@@ -121,29 +121,11 @@ Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
     return reply;
 }
 
-namespace {
-
-// The results of get_error_detail.
-Declarations error_details() {
-    Declarations known;
-    for (auto const& [name, type] : {std::pair{"component_ref", "RoISIdentifier"}, {"time", "DateTime"}, {"text", "string"}})
-        known.add({.name = name, .data_type_ref = {type, {}, {}, {}}, .default_value = {}, .description = {}});
-    return known;
-}
-
-}  // namespace
-
 Reply Engine::Core::perform(Session& session, GetErrorDetail const& get, Instant now) {
-    auto const found = errors_.find(get.error_id.text, session.errors, now);
-    if (found.found == Details::Found::unknown)
-        return refused<GetErrorDetail::Reply>(ReturnCode::bad_parameter, "unknown error_id " + quoted(get.error_id.text));
-    if (found.found == Details::Found::expired)
-        return refused<GetErrorDetail::Reply>(ReturnCode::bad_parameter,
-                                              "the details of the error " + quoted(get.error_id.text) + " have expired");
     GetErrorDetail::Reply reply;
-    reply.results = *found.results;
-    if (auto problem = choose(reply.results, get.condition, error_details(), get.error_id.text))
-        return refused<GetErrorDetail::Reply>(ReturnCode::bad_parameter, std::move(*problem));
+    if (auto problem = choose_details(reply.results, errors_.find(get.error_id.text, session.errors, now), "error",
+                                      get.error_id.text, get.condition))
+        return refused<GetErrorDetail::Reply>(ReturnCode::bad_parameter, *std::move(problem));
     return reply;
 }
 

@@ -94,7 +94,7 @@ json parse(std::string const& file, std::string const& text) {
         auto parsed = json::parse(text, note, true, true);
         if (!twice.empty())
             throw BadSettings{file + ":" + place_of_key(text, twice, Which::last) + ": " + rois::quoted(twice) +
-                              " is there twice"};
+                              " is given twice"};
         if (parsed.is_object()) return parsed;
     } catch (json::parse_error const& error) {
         auto position = std::min(error.byte - std::min<std::size_t>(error.byte, 1), text.size());

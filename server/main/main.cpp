@@ -31,10 +31,9 @@
 #include "simulation/basic/component_refs.hpp"
 #include "simulation/plan/floor_map.hpp"
 #include "simulation/plan/floor_plan_file.hpp"
-#include "simulation/plan/named_places.hpp"
 #include "simulation/scenario/scenario_file.hpp"
 #include "simulation/world/simulation.hpp"
-#include "xml/profiles/floor_map_document.hpp"
+#include "xml/codec/codec.hpp"
 #include "xml/profiles/profile_document.hpp"
 #include "xml/validation/schemas.hpp"
 
@@ -51,7 +50,7 @@ std::vector<ComponentProfile> read_profiles(std::shared_ptr<xml::Schemas const> 
     return profiles;
 }
 
-// The text of the file, or of the built-in file if none is named.
+// Returns the text of the file, or of the built-in file if the name is empty.
 std::string chosen(std::string const& file, std::string_view built_in) {
     return file.empty() ? std::string{files::simulation().at(std::string{built_in})} : text_of_file(file);
 }
@@ -60,7 +59,7 @@ simulation::Streams streams(Settings const& settings) {
     return settings.media.host.empty() ? simulation::Streams::none : simulation::Streams::served;
 }
 
-// The names of the components that the folder of profiles makes at present.
+// Returns the names of the components that are made from the folder of profiles.
 std::vector<std::string> user_names(std::shared_ptr<xml::Schemas const> const& schemas, Settings const& settings,
                                     std::vector<ComponentProfile> const& own) {
     std::vector<std::string> names;
@@ -94,7 +93,8 @@ std::string_view host_of_url(std::string_view url) {
     return url.substr(0, url.find_first_of(":/"));
 }
 
-// The network settings, with all names of this gateway: those of the key `hosts`, of the machine, and in the keys for addresses.
+// Returns the network settings with all names of this gateway: the names in the key `hosts`, the machine's name, and the names in
+// the keys for addresses.
 net::Settings with_all_hosts(Settings const& settings) {
     auto all = settings.net;
     auto const add = [&](std::string_view name) {
@@ -115,7 +115,7 @@ ClientLimits client_limits(net::Settings const& settings) {
 
 // Raises the limit of open files to the number that all connections need. If the system refuses, accepts fewer connections.
 void make_room_for_connections(net::Settings& net, media::Settings const& media) {
-    constexpr std::size_t own = 64, of_thread = 8;  // other open files, with some reserve
+    constexpr std::size_t own = 64, of_thread = 8;  // open files besides the connections, with some reserve
     auto const others = own + of_thread * net.threads + (media.host.empty() ? 0 : media.max_connections);
     auto const wanted = others + net.max_connections;
     auto const possible = raise_open_files(wanted);

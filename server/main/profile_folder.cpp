@@ -31,12 +31,12 @@ std::vector<std::filesystem::path> documents_in(std::string const& folder) {
     return documents;
 }
 
-// A file, and the places in its document that later checks refer to.
+// A file, and the places in its document that error messages of later checks need.
 struct Read {
     ProfileFile file;
     std::vector<std::string> sub_component_places;
     std::string adapter_place, identifier_place, name_place;
-    bool is_idle = false;  // the gateway has a built-in profile with this URN, and uses that one
+    bool is_idle = false;  // the gateway uses its built-in profile with this URN instead
 };
 
 void refuse(ProfileFile& file, std::string why) {
@@ -76,7 +76,7 @@ Read read(std::shared_ptr<xml::Schemas const> const& schemas, std::filesystem::p
 
 std::string first_place(ProfileFile const& file) { return file.name + ":1:1: "; }
 
-// Refuses a profile that an earlier file has. Ignores, with a warning, the profile of a built-in component.
+// Refuses a profile that an earlier file defines too. Ignores, with a warning, a profile that is built in.
 void refuse_doubles(std::vector<Read>& all, std::vector<ComponentProfile> const& known) {
     for (auto each = all.begin(); each != all.end(); ++each) {
         if (!each->file.profile) continue;
@@ -102,7 +102,7 @@ std::vector<ComponentProfile> with_known(std::vector<Read> const& all, std::vect
     return together;
 }
 
-// Returns why no component can be made of the profile, or nullopt. Called for one file after the other.
+// Returns why no component can be made from the profile, or nullopt. Called for each file, in order.
 using Objection = std::function<std::optional<std::string>(Read const&, std::vector<ComponentProfile> const& known)>;
 
 std::optional<std::string> includes_unknown(Read const& read, std::vector<ComponentProfile> const& known) {

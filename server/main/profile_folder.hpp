@@ -22,9 +22,9 @@ struct ProfileFile {
     std::optional<ComponentProfile> profile;  // as in the document; unset for refused files and engine profiles
 };
 
-// Reads all *.xml of the folder, in the order of their names. Profiles may include the built-in ones (`known`). Refuses a file if
-// its profile is invalid, needs an adapter that does not exist, or would make a component with a name that is taken. Refusing a
-// file affects only the files that include its profile. Throws BadSettings if the folder cannot be read.
+// Reads all *.xml of the folder, in the order of their names. Profiles may include the built-in profiles (`known`). Refuses a
+// file if its profile is invalid, needs an adapter that does not exist, or would make a component with a name that is taken.
+// Refusing a file affects only the files that include its profile. Throws BadSettings if the folder cannot be read.
 std::vector<ProfileFile> read_profile_folder(std::shared_ptr<xml::Schemas const> const&, std::string const& folder,
                                              std::vector<ComponentProfile> const& known, simulation::Streams);
 

@@ -1,6 +1,7 @@
-// Memory for destructors that run while an exception unwinds the stack. An allocation that fails there ends the process:
-// Boost.Asio posts the end of a coroutine in a destructor, for example. So `operator new` takes it from a pool that serves
-// nothing else. The pool uses no physical memory until then. A sanitizer brings an `operator new` of its own.
+// Memory for destructors that run while an exception unwinds the stack. An allocation that fails there ends the process;
+// Boost.Asio, for example, posts the end of a coroutine in a destructor. Therefore `operator new` falls back to a pool that is
+// used only there. The pool takes no physical memory before its first use. Not with a sanitizer, which has an `operator new` of
+// its own.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
 #include <array>

@@ -17,7 +17,7 @@ bool is_refused(ProfileFile const& file) { return file.verdict == ProfileFile::V
 void log(ProfileFile const& file, bool stays) {
     for (auto const& finding : file.findings)
         spdlog::warn("profiles: {}{}{}", is_refused(file) ? "refused: " : "", finding,
-                     is_refused(file) && stays ? "; its previous version stays" : "");
+                     is_refused(file) && stays ? "; its previous version is kept" : "");
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ UserComponents::UserComponents(std::shared_ptr<xml::Schemas const> schemas, simu
       refs_{refs.begin(), refs.end()},
       folder_{std::move(folder)} {}
 
-// The built-in profiles come first, and are found first.
+// Puts the built-in profiles first, so that lookups find them first.
 std::vector<ComponentProfile> UserComponents::with_own(std::vector<ProfileFile> const& found) const {
     auto all = own_;
     for (auto const& file : found) {
@@ -41,8 +41,8 @@ std::vector<ComponentProfile> UserComponents::with_own(std::vector<ProfileFile> 
     return all;
 }
 
-// Returns the files to keep: those that are unchanged, and those whose new version is refused. A file that made no component is
-// tried again: the ref that it needs may be free now.
+// Returns the files to keep: those that are unchanged, and those whose new version is refused. Retries a file without components:
+// the ref that it needs may be free now.
 UserComponents::Files UserComponents::stay(std::vector<ProfileFile> const& found,
                                            std::vector<ComponentProfile> const& known) const {
     Files staying;
@@ -68,11 +68,11 @@ std::vector<std::unique_ptr<Component>> UserComponents::components(ProfileFile c
     try {
         auto made = adapters_.components(profile, known);
         if (made.empty())
-            spdlog::info("profiles: {}: {} names no adapter, and makes no component", file.name, profile.object.identifier);
+            spdlog::info("profiles: {}: {} has no adapter, so no component is made", file.name, profile.object.identifier);
         for (auto const& component : made) {
             auto const& ref = component->description().ref.code;
             if (taken.insert(ref).second) continue;
-            spdlog::warn("profiles: {}: makes no component, because the ref {} is taken", file.name, ref);
+            spdlog::warn("profiles: {}: no component is made, because the ref {} is taken", file.name, ref);
             return {};
         }
         return made;

@@ -16,14 +16,14 @@ namespace rois {
 
 class UserComponents {
 public:
-    // `own`: the built-in profiles. `refs`: of the components that do not come from the user's profiles.
+    // `own`: the built-in profiles. `refs`: the refs of the components that do not come from the user's profiles.
     UserComponents(std::shared_ptr<xml::Schemas const>, simulation::Adapters, std::vector<ComponentProfile> own,
                    std::vector<std::string> const& refs, std::string folder);
 
     // Reads the folder, and returns the changes since the last call. Logs the findings. If a file is refused now, keeps the
     // components that an earlier version of it made. Throws BadSettings, and changes nothing, if the folder cannot be read.
     ComponentChange read();
-    // The change of the last `read` has happened. Without this call, the next `read` returns it again.
+    // Call when the changes of the last `read` have been made. Without this call, the next `read` returns them again.
     void keep();
 
 private:

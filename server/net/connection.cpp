@@ -193,7 +193,7 @@ Connection::Then Connection::reply(Answer&& answer) {
     HttpAnswer http;
     http.body = std::move(answer.document);
     if (answer.fault) {
-        http.status = status_of(answer.fault->code);
+        http.status = http_status_of(answer.fault->code);
         if (http.status == 429) http.set("Retry-After", "1");
         log(*answer.fault, request_line());
     }

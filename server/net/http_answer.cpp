@@ -79,44 +79,6 @@ void append_head(std::string& out, HttpAnswer const& answer) {
 
 }  // namespace
 
-int status_of(FaultCode code) {
-    switch (code) {
-        case FaultCode::not_well_formed:
-        case FaultCode::forbidden_xml:
-            return 400;
-        case FaultCode::invalid:
-            return 422;
-        case FaultCode::no_session:
-        case FaultCode::not_allowed:
-            return 403;
-        case FaultCode::unauthorized:
-            return 401;
-        case FaultCode::not_found:
-            return 404;
-        case FaultCode::method_not_allowed:
-            return 405;
-        case FaultCode::too_slow:
-            return 408;
-        case FaultCode::length_required:
-            return 411;
-        case FaultCode::too_large:
-            return 413;
-        case FaultCode::unsupported_media_type:
-            return 415;
-        case FaultCode::upgrade_required:
-            return 426;
-        case FaultCode::too_many:
-            return 429;
-        case FaultCode::header_too_large:
-            return 431;
-        case FaultCode::uri_too_long:
-            return 414;
-        case FaultCode::shutting_down:
-            return 503;
-    }
-    return 400;
-}
-
 void HttpAnswer::set(std::string_view name, std::string_view value) {
     fields_.append(name).append(": ");
     for (char const c : value) {
@@ -127,7 +89,7 @@ void HttpAnswer::set(std::string_view name, std::string_view value) {
 
 HttpAnswer answer_of(Fault const& fault) {
     HttpAnswer answer;
-    answer.status = status_of(fault.code);
+    answer.status = http_status_of(fault.code);
     answer.body = xml::encode(fault);
     answer.fault = fault;
     return answer;

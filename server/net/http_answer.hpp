@@ -9,9 +9,6 @@
 
 namespace rois::net {
 
-// The status that a fault travels with (wire.md).
-int status_of(FaultCode);
-
 struct HttpAnswer {
     int status = 200;
     std::string_view content_type = "application/xml; charset=utf-8";  // this and the next are texts of the program

@@ -4,29 +4,13 @@
 #include <cstdint>
 #include <cstring>
 
+#include "types/utf8.hpp"
+
 namespace rois::net {
 
 namespace {
 
 constexpr std::uint64_t high_bits = 0x8080808080808080;  // of eight bytes
-
-// The size of the UTF-8 sequence at the front of `s`, or 0 when it is none (RFC 3629).
-std::size_t sequence_size(std::string_view s) {
-    auto const at = [&](std::size_t i) { return i < s.size() ? static_cast<unsigned char>(s[i]) : 0u; };
-    auto const follows = [&](std::size_t i, unsigned low = 0x80, unsigned high = 0xBF) { return at(i) >= low && at(i) <= high; };
-    auto const first = at(0);
-    if (first < 0x80) return 1;
-    if (first >= 0xC2 && first <= 0xDF) return follows(1) ? 2 : 0;
-    if (first >= 0xE0 && first <= 0xEF) {
-        bool const second = follows(1, first == 0xE0 ? 0xA0 : 0x80, first == 0xED ? 0x9F : 0xBF);
-        return second && follows(2) ? 3 : 0;
-    }
-    if (first >= 0xF0 && first <= 0xF4) {
-        bool const second = follows(1, first == 0xF0 ? 0x90 : 0x80, first == 0xF4 ? 0x8F : 0xBF);
-        return second && follows(2) && follows(3) ? 4 : 0;
-    }
-    return 0;
-}
 
 bool begins_with_eight_of_ascii(std::string_view text) {
     std::uint64_t word = 0;
@@ -96,7 +80,7 @@ bool is_utf8(std::string_view text) {
             text.remove_prefix(8);
             continue;
         }
-        auto const size = sequence_size(text);
+        auto const size = first_character(text).length;
         if (size == 0) return false;
         text.remove_prefix(size);
     }

@@ -13,8 +13,8 @@ struct HostAndPort {
     std::uint16_t port = 0;
 };
 
-// Parses "HOST:PORT", with an IPv6 address in brackets. Returns nothing for any other text, also for "*:PORT" and ":PORT", which
-// do not name the addresses.
+// Parses "HOST:PORT", with an IPv6 address in brackets. Returns nothing for any other text. "*:PORT" and ":PORT" are rejected
+// too: they do not say whether IPv4 or IPv6 is meant.
 std::optional<HostAndPort> read_host_and_port(std::string_view);
 
 }  // namespace rois

@@ -26,7 +26,7 @@ enum class ComponentStatus : std::uint8_t { uninitialized, ready, busy, warning,
 
 // The status of a stream (2.0, Stream_Status).
 enum class StreamStatus : std::uint8_t {
-    not_running,    // connected, but has no receiver
+    not_running,    // connected, but without a receiver
     not_connected,  // not yet or no longer connected
     running,
     suspended,

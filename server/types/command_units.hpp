@@ -22,7 +22,7 @@ struct CommandMessage {
 
 struct CommandUnit;
 
-// One branch of ConcurrentCommands; its commands run in sequence. Each is a CommandMessage with an optional delay.
+// One branch of ConcurrentCommands. Its commands run in sequence; each is a CommandMessage with an optional delay.
 struct Branch {
     std::vector<CommandUnit> command_list;
 };
@@ -45,7 +45,7 @@ struct ParallelCommandUnit {
     std::vector<CommandUnit> command_unit_list;
 };
 
-// CommandBase (table 11). `delay_time` is in milliseconds from the unit's turn, saturated to 64 bits.
+// CommandBase (table 11). `delay_time` is the number of milliseconds between the unit's turn and its start, saturated to 64 bits.
 struct CommandUnit {
     std::optional<std::int64_t> delay_time;
     std::variant<DelayOnly, CommandMessage, ConcurrentCommands, SequentialCommandUnit, ParallelCommandUnit> unit;

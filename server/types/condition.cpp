@@ -1,7 +1,10 @@
 #include "types/condition.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+
+#include "types/texts.hpp"
 
 namespace rois {
 
@@ -17,6 +20,33 @@ void Geometry::fit_corners() {
             }
         }
     }
+}
+
+namespace {
+
+struct Unit {
+    std::string_view name;
+    double mm;
+};
+constexpr std::array<Unit, 12> units{{{"mm", 1},
+                                      {"cm", 10},
+                                      {"m", 1'000},
+                                      {"km", 1'000'000},
+                                      {"millimetre", 1},
+                                      {"centimetre", 10},
+                                      {"metre", 1'000},
+                                      {"kilometre", 1'000'000},
+                                      {"millimeter", 1},
+                                      {"centimeter", 10},
+                                      {"meter", 1'000},
+                                      {"kilometer", 1'000'000}}};
+
+}  // namespace
+
+std::optional<double> millimetres_in(std::string_view unit) {
+    auto const* const found = std::ranges::find(units, trimmed(unit), &Unit::name);
+    if (found == units.end()) return {};
+    return found->mm;
 }
 
 }  // namespace rois

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -41,7 +42,7 @@ struct Geometry {
     std::string crs;  // empty: the frame of the other operand
     std::array<double, 3> low{};
     std::array<double, 3> high{};
-    std::uint8_t dimensions = 2;  // 2 or 3; with 2, z is 0 and has no meaning
+    std::uint8_t dimensions = 2;  // 2 or 3; with 2, z is 0 and unused
     Shape shape = Shape::box;
     std::vector<Points> paths{};  // line: its points; circle: its centre; polygon: its border, then the borders of its holes,
                                   // each closed (last point equal to the first)
@@ -111,7 +112,7 @@ struct PropertyIsBetween {
     bool operator==(PropertyIsBetween const&) const = default;
 };
 
-// BBOX is read as Intersects.
+// BBOX is decoded as `intersects`.
 enum class SpatialRelation : std::uint8_t { within, intersects, disjoint, equals, touches, overlaps, crosses, contains };
 
 struct SpatialComparison {
@@ -216,5 +217,9 @@ struct QueryExpression {
     std::vector<SortProperty> sort_by;  // most significant first
     bool operator==(QueryExpression const&) const = default;
 };
+
+// Returns the length of a unit (`uom`) in millimetres: mm, cm, m, km, or their full names (metre, meter). Returns nothing for an
+// unknown unit.
+std::optional<double> millimetres_in(std::string_view unit);
 
 }  // namespace rois

@@ -282,17 +282,17 @@ std::optional<std::string> why_not(DataType const& type, std::span<std::string c
     return {};
 }
 
-std::string as_told(DataType const& type, std::string_view text) {
+std::string reported_form(DataType const& type, std::string_view text) {
     return type.base == BaseType::date_time ? in_utc(text) : std::string{text};
 }
 
 std::vector<std::string> default_values(Identifier const& data_type_ref, std::string_view text) {
     auto const type = DataType::of(data_type_ref);
-    if (!type.list || is_packed(type.base)) return {as_told(type, text)};
+    if (!type.list || is_packed(type.base)) return {reported_form(type, text)};
     std::vector<std::string> values;
     for (std::string_view rest = trimmed(text); !rest.empty();) {
         auto const item = rest.substr(0, rest.find_first_of(" \t\r\n"));
-        values.push_back(as_told(type, item));
+        values.push_back(reported_form(type, item));
         rest = trimmed(rest.substr(item.size()));
     }
     return values;

@@ -52,9 +52,9 @@ std::string to_text(DataType const&);
 // Returns why the values are not of this type (wrong count, not a number, ...), or nothing. The base `other` accepts any text.
 std::optional<std::string> why_not(DataType const&, std::span<std::string const> values);
 
-// Returns a value of this type, or an item of a list, in the form in which the engine reports it: converts times to UTC
-// (decision 28), and changes nothing else.
-std::string as_told(DataType const&, std::string_view text);
+// Returns a value of this type, or an item of a list, in the form in which the engine reports it. Converts times to UTC (decision
+// 28). Returns other values unchanged.
+std::string reported_form(DataType const&, std::string_view text);
 
 // Returns the values of a profile's default value, in the form in which the engine reports them: one value, or for lists of texts
 // one per item (separated by white space).

@@ -11,8 +11,8 @@ namespace rois {
 using Steady = std::chrono::steady_clock::time_point;
 using Utc = std::chrono::system_clock::time_point;
 
-// One moment on two clocks: `steady`, which nothing can set, for deadlines, and `utc` for documents. The network layer passes it
-// to the layers below.
+// One moment on two clocks: `steady`, which never jumps, for deadlines; `utc` for documents. The network layer passes it to the
+// layers below.
 struct Instant {
     Steady steady;
     Utc utc;

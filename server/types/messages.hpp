@@ -42,7 +42,7 @@ struct Connect {
     };
 };
 
-// Takes over a session on a WebSocket and continues after notification `last_sequence` (an extension; wire.md).
+// Takes over a session on a WebSocket and continues after notification `last_sequence` (an extension; docs/clients.md).
 struct Resume {
     SessionId session;
     std::uint64_t last_sequence = 0;
@@ -168,7 +168,7 @@ struct GetEventDetail {
     };
 };
 
-// All operations, in the order of wire.md.
+// All operations, in the order in which they are declared above.
 using Operation =
     std::variant<Connect, Resume, Disconnect, GetProfile, GetErrorDetail, Search, Bind, BindAny, Release, GetParameter,
                  SetParameter, Execute, GetCommandResult, Query, Subscribe, Unsubscribe, GetEventDetail>;
@@ -217,14 +217,14 @@ struct ProfileChanged {};
 
 using Notification = std::variant<ReceiveEvent, ReceiveError, Completed, Lost, ProfileChanged>;
 
-// --- Stop for everything: the answer to /rois/stop and /rois/clear (wire.md, decision 34) ---
+// --- Stop for everything: the answer to /rois/stop and /rois/clear (docs/safety.md, decision 34) ---
 
 struct StopState {
     bool stopped = false;                 // nothing starts until it is cleared
     std::vector<std::string> not_halted;  // refs of components that have not confirmed that they stand still
 };
 
-// --- Fault: the message was rejected before any operation ran (wire.md) ---
+// --- Fault: the message was rejected before any operation ran (docs/clients.md) ---
 
 enum class FaultCode : std::uint8_t {
     not_well_formed,
@@ -247,6 +247,9 @@ enum class FaultCode : std::uint8_t {
 };
 
 std::string_view to_text(FaultCode);
+
+// Returns the HTTP status of an answer with this fault (docs/clients.md).
+int http_status_of(FaultCode);
 
 // A place in a document. Line and column count from 1; the column counts characters.
 struct Place {

@@ -76,7 +76,8 @@ ComponentProfile const* find_profile(std::vector<ComponentProfile> const& known,
 // Returns all matches of find_profile, in the order of `known`.
 std::vector<ComponentProfile const*> find_profiles(std::vector<ComponentProfile> const& known, std::string_view urn_or_name);
 
-// Returns all profiles that match the name of a sub component of `whole`. Returns `whole` itself only if nothing else matches.
+// Returns all profiles that match the name of a sub component of `whole`. Returns `whole` itself only if no other profile
+// matches.
 std::vector<ComponentProfile const*> find_parts(std::vector<ComponentProfile> const& known, ComponentProfile const& whole,
                                                 std::string_view urn_or_name);
 

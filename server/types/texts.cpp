@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "types/utf8.hpp"
+
 namespace rois {
 
 namespace {
@@ -54,7 +56,7 @@ std::size_t whole_characters(std::string_view text, std::size_t longest) {
 
 }  // namespace
 
-// Compares exactly first: most equal texts are identical.
+// Compares the bytes first, because most equal texts are identical.
 bool equal_ignoring_case(std::string_view a, std::string_view b) {
     return a.size() == b.size() && (a == b || std::ranges::equal(a, b, {}, lower, lower));
 }
@@ -67,19 +69,10 @@ std::string lower_case(std::string_view text) {
 
 std::optional<char32_t> take_character(std::string_view& text) {
     if (text.empty()) return {};
-    auto const byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    char32_t const first = byte(0);
-    std::size_t const length = first < 0xC0 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-    char32_t character = length == 1 ? first : first & (0x7FU >> length);
-    for (std::size_t i = 1; i < length; ++i) {
-        if (i >= text.size() || (byte(i) & 0xC0U) != 0x80U) {
-            text.remove_prefix(1);
-            return first;
-        }
-        character = character << 6U | (byte(i) & 0x3FU);
-    }
-    text.remove_prefix(length);
-    return character;
+    auto const character = first_character(text);
+    char32_t const code = character.length == 0 ? static_cast<unsigned char>(text.front()) : character.code;
+    text.remove_prefix(std::max<std::size_t>(character.length, 1));
+    return code;
 }
 
 char32_t folded_case(char32_t c) {
@@ -142,6 +135,16 @@ std::optional<std::int32_t> to_int(std::string_view text) {
     auto const [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (problem != std::errc{} || end != text.data() + text.size()) return {};
     return number;
+}
+
+std::vector<double> to_doubles(std::string_view list) {
+    std::vector<double> numbers;
+    for (list = trimmed(list); !list.empty();) {
+        auto const item = list.substr(0, list.find_first_of(" \t\r\n"));
+        numbers.push_back(to_double(item).value_or(std::nan("")));
+        list = trimmed(list.substr(item.size()));
+    }
+    return numbers;
 }
 
 std::string quoted(std::string_view text, std::size_t longest) {

@@ -6,10 +6,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rois {
 
-// ASCII only: the case of names, URNs and type codes is ignored (decisions 25, 26).
+// Ignore the case of ASCII letters only, as decisions 25 and 26 require for names, URNs and type codes.
 bool equal_ignoring_case(std::string_view, std::string_view);
 std::string lower_case(std::string_view);
 
@@ -17,7 +18,7 @@ std::string lower_case(std::string_view);
 // empty.
 std::optional<char32_t> take_character(std::string_view&);
 
-// Folds the case of letters in Latin (also full-width), Greek, Cyrillic and Armenian, for texts that people write.
+// Folds the case of letters in Latin (also full-width), Greek, Cyrillic and Armenian, for comparing texts that people wrote.
 char32_t folded_case(char32_t);
 std::string folded_case(std::string_view);
 
@@ -28,8 +29,11 @@ std::string_view trimmed(std::string_view);
 std::optional<double> to_double(std::string_view);
 std::optional<std::int32_t> to_int(std::string_view);
 
-// Quotes a text from outside for a reason or a log line. Cuts it to `longest` bytes, replaces control characters, line separators
-// and marks of writing direction by spaces, and invalid UTF-8 by '?'.
+// Parses a list of numbers separated by white space. An item that is not a number becomes NaN.
+std::vector<double> to_doubles(std::string_view list);
+
+// Quotes a text that came from a client or a file, for an error message or a log line. Cuts it to `longest` bytes, replaces
+// control characters, line separators and marks of writing direction by spaces, and invalid UTF-8 by '?'.
 std::string quoted(std::string_view, std::size_t longest = 80);
 
 }  // namespace rois

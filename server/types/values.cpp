@@ -15,7 +15,7 @@ Parameter typed(std::string name, std::string type, std::vector<std::string> val
             .values = std::move(values)};
 }
 
-// An initializer list would copy the text.
+// Returns a vector of one text. An initializer list would copy it.
 std::vector<std::string> one(std::string value) {
     std::vector<std::string> values;
     values.push_back(std::move(value));

@@ -34,7 +34,7 @@ struct Parameter {
     bool operator==(Parameter const&) const = default;
 };
 
-using ParameterList = std::vector<Parameter>;  // ordered; for tables 17, 18 and 19
+using ParameterList = std::vector<Parameter>;  // in the order of the document (tables 17, 18 and 19)
 
 // The pose of one entity in the frame `crs`: position in mm, orientation (roll, pitch, yaw) in degrees counter-clockwise.
 struct Located {
@@ -57,7 +57,7 @@ struct Located {
     bool operator==(Located const&) const = default;
 };
 
-// ResultList (table 17), with the positions among its values also in structured form.
+// ResultList (table 17). Positions are stored twice: as texts in `parameters`, and as structured values in `located`.
 struct Results {
     ParameterList parameters;
     std::vector<Located> located;

@@ -122,7 +122,7 @@ TEST_F(Rois, ChecksItsAddressesBeforeItServes) {
         expect(2, "--listen must be HOST:PORT", {"record", file_named("none.jsonl"), "--listen", address});
     }
     expect(2, "--listen: 1 required HOST:PORT missing", {"replay", file, "--listen"});
-    expect(2, "replay serves a recording and asks no gateway: --url has no meaning", {"replay", file, "--url", "http://there"});
+    expect(2, "replay serves a recording and needs no gateway: leave out --url", {"replay", file, "--url", "http://there"});
     expect(2, "'http://127.0.0.1:99999' is not a URL of a gateway",
            {"record", file_named("none.jsonl"), "--listen", "127.0.0.1:0", "--url", "http://127.0.0.1:99999"});
 }

@@ -73,7 +73,7 @@ TEST_F(Rois, ExplainsAnInvalidScenario) {
              {"<state name='a'><completed to='b'/></state>" + end,
               ":4:1: this state waits for the end of its commands, and has none"},
              {"<state name='a'><at_once to='b'><when variable='x'/></at_once></state>" + end,
-              ":4:33: a 'when' has one of is, is_not"},
+              ":4:33: a 'when' needs one of is, is_not"},
              {"<state name='a'><after seconds='1' to='b'><take variable='x' result='r'/></after></state>" + end,
               "only events and answers have results"},
          }) {

@@ -51,7 +51,7 @@ void the_engine_tells_its_components(Stage& stage) {
     auto const answer = ok(guest.ask("get_profile"));
     auto const refs = refs_in(answer);
     require(!refs.empty(), "an engine has at least one component (table 30): " + answer.whole());
-    require(std::set(refs.begin(), refs.end()).size() == refs.size(), "a component is there twice: " + list(refs));
+    require(std::set(refs.begin(), refs.end()).size() == refs.size(), "a component is listed twice: " + list(refs));
     auto const of_engine = refs_of_engine(answer.root());
     for (auto const& ref : of_engine)
         require(std::ranges::binary_search(refs, ref), "the engine's profile names " + ref + ", the list of components does not");

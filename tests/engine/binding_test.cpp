@@ -398,7 +398,7 @@ TEST(ComponentRef, OfAForeignCodebookOrAuthorityIsRefusedByAllOperations) {
     EXPECT_EQ(bind().return_code, ReturnCode::bad_parameter);
     EXPECT_EQ(bind().reason,
               "the component_ref 'speech_synthesis' has the codebook_ref 'urn:x-test:Other', which is not the "
-              "component's; known are " +
+              "component's; expected one of " +
                   speech.profile.object.identifier);
     EXPECT_EQ(desk.ask(Release{ref}).reason, bind().reason);
     EXPECT_EQ(desk.ask(GetParameter{ref}).reason, bind().reason);
@@ -413,7 +413,7 @@ TEST(ComponentRef, OfAForeignCodebookOrAuthorityIsRefusedByAllOperations) {
     ref.authority = "somebody";
     EXPECT_EQ(bind().reason,
               "the component_ref 'speech_synthesis' has the authority 'somebody', which is not the component's; "
-              "known are OMG");
+              "expected one of OMG");
 }
 
 }  // namespace rois

@@ -294,12 +294,12 @@ TEST_F(Commands, ReportWhetherTheyWaitOrRun) {
 TEST_F(Commands, ReportWhyTheyDidNotEndWithOk) {
     desk.execute(go("first"));
     desk.execute(go("second"));
-    EXPECT_EQ(desk.reason_of("first"), "another start took its place");
+    EXPECT_EQ(desk.reason_of("first"), "another start replaced it");
     desk.execute(go("third"), say("then"));
     desk.release("navigation");
     EXPECT_EQ(desk.reason_of("third"), "its component was released");
     EXPECT_EQ(desk.reason_of("then"), "the command 'third' of its sequence ended with ABORT");
-    EXPECT_EQ(desk.reason_of("second"), "another start took its place");
+    EXPECT_EQ(desk.reason_of("second"), "another start replaced it");
 }
 
 TEST_F(Commands, AreKnownInTheirOwnSessionOnly) {

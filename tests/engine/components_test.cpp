@@ -57,9 +57,9 @@ TEST(UserDefined, CommandsAreCheckedAgainstTheirProfile) {
     EXPECT_THAT(reason({}), HasSubstr("the argument 'pattern' is missing"));
     EXPECT_THAT(reason({value("pattern", "string", {"1"})}), HasSubstr("'pattern' is declared as 'string', its type is int[]"));
     EXPECT_THAT(reason({pattern("1 x")}), HasSubstr("'x' is not of the type int"));
-    EXPECT_THAT(reason({pattern("1"), pattern("2")}), HasSubstr("'pattern' is there twice"));
+    EXPECT_THAT(reason({pattern("1"), pattern("2")}), HasSubstr("'pattern' is given twice"));
     EXPECT_THAT(reason({pattern("1"), integer("speed", 3)}),
-                HasSubstr("unknown parameter 'speed'; known are pattern, brightness"));
+                HasSubstr("unknown parameter 'speed'; expected one of pattern, brightness"));
     EXPECT_THAT(desk.execute(command("burn", "blinker")).reason, HasSubstr("it has blink, start, stop"));
     EXPECT_THAT(desk.heard(), IsEmpty());
 }
@@ -92,7 +92,7 @@ TEST(UserDefined, StartTakesTheArgumentsOfItsProfile) {
     EXPECT_THAT(desk.execute(start("blinker")).reason, HasSubstr("the argument 'times' is missing"));
     EXPECT_THAT(desk.execute(start("blinker", {text("times", "often")})).reason, HasSubstr("its type is int"));
     EXPECT_THAT(desk.execute(start("blinker", {integer("speed", 3)})).reason,
-                HasSubstr("unknown parameter 'speed'; known are times, slowly, colours"));
+                HasSubstr("unknown parameter 'speed'; expected one of times, slowly, colours"));
     EXPECT_EQ(desk.execute(start("blinker", {integer("times", 3), value("colours", "string[]", {"blue"})})).return_code,
               ReturnCode::ok);
     EXPECT_EQ(in_words(world["blinker"].started_with), "times=3 slowly=1 colours=blue");

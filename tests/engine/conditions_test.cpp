@@ -75,7 +75,7 @@ TEST_F(Conditions, NestFreely) {
 
 TEST_F(Conditions, WithAnUnknownReferenceAreRefusedWithTheKnownOnes) {
     EXPECT_EQ(reason(equal("colour", "red")),
-              "the condition refers to 'colour', which is not known here; known are component_ref, component_type, name, engine, "
+              "the condition refers to 'colour', which is not known here; expected one of component_ref, component_type, name, engine, "
               "status, bound, location, Identifier, RobotId, Property/language, Property/routing_policy, Property/speech_text, "
               "Property/SSML_text, Property/synthesizable_languages, Property/target_position, Property/time_limit, "
               "Property/volume");

@@ -70,7 +70,7 @@ TEST_F(Decision11, EveryCommandHasAnIdThatTheAnswerReturns) {
     EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), 3U);
     EXPECT_EQ(ids[0], "mine");
     for (auto const& id : ids) EXPECT_NE(desk.result_of(id), "BAD_PARAMETER") << id;
-    EXPECT_THAT(desk.execute(say("a"), say("a")).reason, HasSubstr("'a' is there twice"));
+    EXPECT_THAT(desk.execute(say("a"), say("a")).reason, HasSubstr("'a' is given twice"));
     EXPECT_EQ(desk.execute(say("mine")).return_code, ReturnCode::bad_parameter) << "it is still known";
     EXPECT_FALSE(desk.set_parameter("speech", {}).command_id.text.empty());
 }

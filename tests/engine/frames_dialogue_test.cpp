@@ -126,10 +126,10 @@ TEST_F(TwoFrames, TargetsMustBeInAKnownFrame) {
     auto const started = desk.execute(start("navigation", target("1, 2", "street")));
     EXPECT_EQ(started.return_code, ReturnCode::bad_parameter);
     EXPECT_EQ(started.reason,
-              "command_unit_list[1]: parameter 'target_position': the frame 'street' is not known here; known are hall, map");
+              "command_unit_list[1]: parameter 'target_position': the frame 'street' is not known here; expected one of hall, map");
     auto const set = desk.set_parameter("robot2.navigation", target("1, 2", "street"));
     EXPECT_EQ(set.return_code, ReturnCode::bad_parameter);
-    EXPECT_THAT(set.reason, HasSubstr("known are hall, map"));
+    EXPECT_THAT(set.reason, HasSubstr("expected one of hall, map"));
     EXPECT_THAT(far.told, IsEmpty());
 }
 
@@ -147,7 +147,7 @@ TEST_F(TwoFrames, ConditionsMayUseEitherFrame) {
     EXPECT_THAT(desk.search(near("location", {spot(3'000, 0, "map")}, 100)), ElementsAre("navigation"));
     EXPECT_THAT(desk.search(near("location", {spot(3'000, 0, "map")}, 99)), IsEmpty());
     EXPECT_THAT(reason(within("location", {box(0, 0, 1, 1, "street")})),
-                HasSubstr("'street', which is not known here; known are hall, map"));
+                HasSubstr("'street', which is not known here; expected one of hall, map"));
 }
 
 TEST_F(TwoFrames, EventsAreSelectedByTheirPositionInEitherFrame) {

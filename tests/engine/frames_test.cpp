@@ -214,11 +214,11 @@ TEST(Frames, ConvertPointsButNotBoxes) {
 
 TEST(Frames, MustBePlaced) {
     EXPECT_EQ(complaint({map(), cart()}), "fine");
-    EXPECT_EQ(complaint({cart()}), "the frame 'cart' is placed in 'map', which is unknown; known are hall, cart");
-    EXPECT_EQ(complaint({map(), map()}), "the frame 'map' is there twice");
+    EXPECT_EQ(complaint({cart()}), "the frame 'cart' is placed in 'map', which is unknown; expected one of hall, cart");
+    EXPECT_EQ(complaint({map(), map()}), "the frame 'map' is given twice");
     auto hall = map();
     hall.crs = "HALL";
-    EXPECT_EQ(complaint({hall}), "the frame 'HALL' is there twice");
+    EXPECT_EQ(complaint({hall}), "the frame 'HALL' is given twice");
     auto round = map();
     round.base = "cart";
     EXPECT_THAT(complaint({round, cart()}), HasSubstr("is placed in itself"));

@@ -110,10 +110,10 @@ TEST_F(Lamp, RefusesTheWrongCount) {
 }
 
 TEST_F(Lamp, RefusesUnknownAndDuplicateParameters) {
-    EXPECT_THAT(set(value("colour", "string", {"red"})), HasSubstr("unknown parameter 'colour'; known are count, ratio, lit"));
+    EXPECT_THAT(set(value("colour", "string", {"red"})), HasSubstr("unknown parameter 'colour'; expected one of count, ratio, lit"));
     auto const twice = desk.set_parameter("lamp", {integer("count", 1), integer("Count", 2)});
     EXPECT_EQ(twice.return_code, ReturnCode::bad_parameter);
-    EXPECT_EQ(twice.reason, "parameter 'Count' is there twice");
+    EXPECT_EQ(twice.reason, "parameter 'Count' is given twice");
     auto const spelt_twice = desk.set_parameter("lamp", {text("grammar", "a"), text("grammer", "b")});
     EXPECT_EQ(spelt_twice.return_code, ReturnCode::bad_parameter);
 }
@@ -136,7 +136,7 @@ TEST_F(Lamp, TakesAnIdentifierWithoutACodebookForOneOfTheDefault) {
 
 TEST_F(Lamp, RefusesAnIdentifierOfAForeignCodebook) {
     EXPECT_EQ(set(reference("Owner", "tanaka", "urn:x-test:staff")),
-              "parameter 'owner': 'tanaka' is from the codebook 'urn:x-test:staff', which is unknown here; known are "
+              "parameter 'owner': 'tanaka' is from the codebook 'urn:x-test:staff', which is unknown here; expected one of "
               "urn:x-test:visitors, urn:x-test:robots");
     EXPECT_EQ(set(references("owners", {"tanaka", "sato"}, "urn:x-test:staff")),
               "parameter 'owners': 'tanaka, sato' is from the codebook 'urn:x-test:staff', which is unknown here; the component "
@@ -168,7 +168,7 @@ TEST(Parameters, KnowTheCodebookThatTheProfileDeclares) {
     EXPECT_EQ(desk.get_parameter("lamp").parameters.front().data_type_ref.codebook_ref, "urn:x-test:staff");
     EXPECT_EQ(desk.set_parameter("lamp", {reference("owner", "r1", "urn:x-test:robots")}).return_code, ReturnCode::ok);
     EXPECT_THAT(desk.set_parameter("lamp", {reference("owner", "x", "urn:x-test:y")}).reason,
-                HasSubstr("known are urn:x-test:staff, urn:x-test:visitors, urn:x-test:robots"));
+                HasSubstr("expected one of urn:x-test:staff, urn:x-test:visitors, urn:x-test:robots"));
 }
 
 // For arguments of `start` and of the component's own commands, in execute. No command of the sequence runs.

@@ -79,7 +79,7 @@ TEST_F(Hall, NamesOfPlacesStandForTheirAreas) {
     EXPECT_THAT(found(near("location", literal("9000, 6000, 90"), 1'000)), ElementsAre("far"))
         << "or a point, as positions are written";
     EXPECT_EQ(reason(within("location", literal("attic"))),
-              "the condition has the place 'attic', which is not known here; known are 'hall', 'desk'");
+              "the condition has the place 'attic', which is not known here; expected one of 'hall', 'desk'");
 }
 
 TEST_F(Hall, AsATextAPositionIsTheNamesOfThePlacesAroundIt) {
@@ -100,7 +100,7 @@ TEST_F(Hall, ARobotIsKnownByItsName) {
 TEST_F(Hall, FramesMustBeKnown) {
     EXPECT_THAT(found(within("location", {box(0, 0, 1'000, 1'000, "HALL")})), ElementsAre("near"));
     EXPECT_EQ(reason(within("location", {box(0, 0, 1, 1, "street")})),
-              "the condition has the frame 'street', which is not known here; known are hall");
+              "the condition has the frame 'street', which is not known here; expected one of hall");
     world["far"].where = at(500, 500, "robot2", "street");
     EXPECT_THAT(found(within("location", {box(0, 0, 1'000, 1'000)})), ElementsAre("near"))
         << "coordinates of two frames cannot be compared";

@@ -117,7 +117,7 @@ TEST_F(Sequence, FillsInNoIdThatTheApplicationGives) {
 
 TEST_F(Sequence, WithADuplicateCommandIdIsRefused) {
     EXPECT_THAT(desk.execute(go("a"), in_sequence({say("b"), say("a")})).reason,
-                "command_unit_list[2]/command_unit_list[2]: the command_id 'a' is there twice");
+                "command_unit_list[2]/command_unit_list[2]: the command_id 'a' is given twice");
     desk.execute(go("a"));
     EXPECT_THAT(desk.execute(say("a")).reason, HasSubstr("is in use in this session"));
     robot.finishes();

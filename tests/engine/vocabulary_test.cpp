@@ -78,7 +78,7 @@ TEST_F(References, ToParametersFollowTheirComponents) {
     ASSERT_EQ(reason(equal("ratio", "1")), "");
     ASSERT_EQ(reason(equal("label", "x")), "");
     world.change({"lamp"}, {});
-    EXPECT_THAT(reason(equal("ratio", "1")), HasSubstr("which is not known here; known are component_ref"));
+    EXPECT_THAT(reason(equal("ratio", "1")), HasSubstr("which is not known here; expected one of component_ref"));
     EXPECT_THAT(reason(equal("ratio", "1")), testing::Not(HasSubstr("labels")));
     auto lamp = named("lamp", desk_lamp);
     std::ranges::find(lamp.profile.parameters, "label", &ParameterProfile::name)->data_type_ref.code = "int";
@@ -96,7 +96,7 @@ TEST_F(References, OfAnotherGrammarAreRefused) {
 TEST_F(References, OfAnUnknownStepAreRefused) {
     for (auto const* path :
          {"colour", "Property/colour", "Result/number", "Property/volume/unit", "Property", "located", "Property[2]/volume"})
-        EXPECT_THAT(reason(equal(path, "x")), HasSubstr("is not known here; known are component_ref")) << path;
+        EXPECT_THAT(reason(equal(path, "x")), HasSubstr("is not known here; expected one of component_ref")) << path;
     EXPECT_THAT(reason(equal("component_ref/@colour", "x")), HasSubstr("attribute"));
     EXPECT_THAT(reason(equal("status/@code", "x")), HasSubstr("attribute"));
     EXPECT_THAT(reason(equal("status[@name='x']", "x")), HasSubstr("predicate"));

@@ -168,7 +168,7 @@ void judge_summary(Tree const& tree, std::vector<Row> const& all, Complaints& co
             for (std::size_t i = 1; i < 5; ++i) said += " " + row[i];
             auto const known = missing.find(row[0]);
             if (known == missing.end()) {
-                complaints.push_back(at(summary, number) + row[0] + " is not a document with rows, or is there twice");
+                complaints.push_back(at(summary, number) + row[0] + " is not a document with rows, or appears twice");
                 return;
             }
             if (said != known->second) complaints.push_back(at(summary, number) + "it should say" + known->second);

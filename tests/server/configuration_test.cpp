@@ -142,7 +142,7 @@ TEST(ConfigurationFile, WithAMistakeIsOneClearLine) {
     expect_complaint(check("{\"engine_name\": \"\xFF\"}"), "FILE:1:18: this is not JSON: invalid string: ill-formed UTF-8 byte");
     expect_complaint(check("[]"), "FILE:1:1: the file must hold one object");
     expect_complaint(check("{\"sim_speed\": 1e999}"), "FILE:1:15: the number is too large");
-    expect_complaint(check("{\n  \"seed\": 1,\n  \"seed\": 2\n}"), "FILE:3:3: 'seed' is there twice");
+    expect_complaint(check("{\n  \"seed\": 1,\n  \"seed\": 2\n}"), "FILE:3:3: 'seed' is given twice");
     expect_complaint(run_gateway({"--config", ""}), "--config must be a FILE");
     expect_complaint(run_gateway({"--config", "/nowhere/at.all"}), "/nowhere/at.all: cannot be read");
     expect_complaint(run_gateway({"--config", "/"}), "/: cannot be read");

@@ -97,7 +97,7 @@ TEST_P(FramesOfRobots, AreTakenFromApplications) {
 TEST_P(FramesOfRobots, MustBeKnown) {
     auto const answer = drive_to("1, 2", "urn:street");
     EXPECT_THAT(answer, IsRefused("BAD_PARAMETER",
-                                  "the frame 'urn:street' is not known here; known are " + hall_frame + ", " + map_frame));
+                                  "the frame 'urn:street' is not known here; expected one of " + hall_frame + ", " + map_frame));
 }
 
 }  // namespace

@@ -45,13 +45,13 @@ TEST_P(Decision31, IdentifiersAreOfAKnownCodebook) {
     EXPECT_THAT(set("reaction", identifier("reaction_ref", "9", "urn:x-test:dances")),
                 IsRefused("BAD_PARAMETER",
                           "parameter 'reaction_ref': '9' is from the codebook 'urn:x-test:dances', which is unknown "
-                          "here; known are " +
+                          "here; expected one of " +
                               reactions));
     EXPECT_THAT(set("follow", identifier("target_object_ref", "tanaka", "urn:x-test:staff")),
                 IsRefused("BAD_PARAMETER", "urn:x-rois:def:codebook:simulation::track"));
     EXPECT_THAT(set("follow", identifier("target_object_ref", "tanaka", "urn:x-rois:def:codebook:simulation::visitor")), IsOk());
     EXPECT_THAT(set("reaction", identifier("reaction_ref", "9", ""), "urn:x-rois:def:component:OMG::Follow"),
-                IsRefused("BAD_PARAMETER", "known are urn:x-rois:def:component:OMG::Reaction"));
+                IsRefused("BAD_PARAMETER", "expected one of urn:x-rois:def:component:OMG::Reaction"));
     EXPECT_THAT(set("reaction", identifier("reaction_ref", "9", ""), "urn:x-rois:def:component:OMG::Reaction"), IsOk());
 }
 

@@ -185,7 +185,7 @@ TEST_P(ProfilesOfUsers, NameTheTagOfAWheelchairInBothPublishedSpellings) {
     EXPECT_EQ(
         desk.set_parameter("wheelchair_robot", {{"behaviour_tag", "string", {"start"}}, {"behavior_tag", "string", {"desk"}}})
             .reason(),
-        "parameter 'behavior_tag' is there twice");
+        "parameter 'behavior_tag' is given twice");
 }
 
 TEST_P(ProfilesOfUsers, BrakeAWheelchair) {
@@ -308,7 +308,7 @@ TEST_P(ProfilesOfUsers, ThatAreBrokenLeaveWhatWas) {
     gateway.signal(SIGTERM);
     auto const log = gateway.wait().error;
     EXPECT_THAT(log, HasSubstr("profiles: refused: broken.xml:1:1: "));
-    EXPECT_THAT(log, HasSubstr("; its previous version stays"));
+    EXPECT_THAT(log, HasSubstr("; its previous version is kept"));
 }
 
 TEST_P(ProfilesOfUsers, OfOneNameTakeTurns) {
@@ -384,7 +384,7 @@ TEST(ProfilesOfUsersSay, InTheLogWhatComesOfThem) {
     gateway.signal(SIGTERM);
     auto const log = gateway.wait().error;
     for (auto const* line :
-         {"a.xml: urn:test::Idle names no adapter, and makes no component", "d.xml: adds the component lamp\n"})
+         {"a.xml: urn:test::Idle has no adapter, so no component is made", "d.xml: adds the component lamp\n"})
         EXPECT_THAT(log, HasSubstr(line));
 }
 

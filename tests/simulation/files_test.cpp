@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "simulation/plan/named_places.hpp"
+#include "simulation/plan/floor_map.hpp"
 
 namespace rois::simulation {
 namespace {

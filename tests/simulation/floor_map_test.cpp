@@ -7,8 +7,8 @@
 #include <iterator>
 
 #include "simulation/world_stage.hpp"
+#include "xml/codec/codec.hpp"
 #include "xml/profiles/document.hpp"
-#include "xml/profiles/floor_map_document.hpp"
 
 namespace rois::simulation {
 namespace {

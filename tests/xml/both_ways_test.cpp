@@ -74,7 +74,7 @@ TEST(BothWays, EverySampleAnswerRoundTrips) {
         } else if (auto const* const fault = std::get_if<Fault>(&*heard)) {
             written = encode(*fault);
         } else {
-            auto const& [sequence, notification] = std::get<Told>(*heard);
+            auto const& [sequence, notification] = std::get<NumberedNotification>(*heard);
             written = std::string{notification_head(notification)} + std::to_string(sequence) + notification_tail(notification);
         }
         EXPECT_EQ(problem(path, written), "") << written;

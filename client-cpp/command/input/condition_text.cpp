@@ -69,9 +69,9 @@ std::optional<std::pair<double, double>> point_of(std::string_view text) {
     return std::pair{*x, *y};
 }
 
-class Reader {
+class ConditionParser {
 public:
-    explicit Reader(std::string_view text) : words_{words_of(text)} {}
+    explicit ConditionParser(std::string_view text) : words_{words_of(text)} {}
 
     QueryExpression whole() {
         QueryExpression whole;
@@ -119,8 +119,8 @@ private:
 
     Condition one() {
         struct Deeper {
-            Reader& reader;
-            explicit Deeper(Reader& r) : reader{r} {
+            ConditionParser& reader;
+            explicit Deeper(ConditionParser& r) : reader{r} {
                 if (++reader.depth_ > 50) reader.fail("too many parentheses");
             }
             ~Deeper() { --reader.depth_; }
@@ -260,6 +260,6 @@ private:
 
 }  // namespace
 
-QueryExpression read_condition(std::string_view text) { return Reader{text}.whole(); }
+QueryExpression read_condition(std::string_view text) { return ConditionParser{text}.whole(); }
 
 }  // namespace rois::command

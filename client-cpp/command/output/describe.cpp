@@ -106,7 +106,7 @@ std::string headline(std::string_view what, std::string_view who, Colour colour,
     return line;
 }
 
-struct Told {
+struct NotificationText {
     bool coloured;
 
     std::string operator()(ReceiveEvent const& event) const {
@@ -170,7 +170,9 @@ std::string values_line(ParameterList const& parameters, bool coloured) {
 
 std::string described(Reply const& reply, bool coloured) { return std::visit(Out{coloured}, reply); }
 
-std::string described(Notification const& notification, bool coloured) { return std::visit(Told{coloured}, notification); }
+std::string described(Notification const& notification, bool coloured) {
+    return std::visit(NotificationText{coloured}, notification);
+}
 
 std::string described(ComponentEntry const& entry, bool coloured) {
     auto text = painted(entry.ref, Colour::value, coloured) + "  " + painted(entry.type, Colour::quiet, coloured) + "\n";

@@ -151,7 +151,7 @@ struct Out {
     void operator()(GetEventDetail::Reply const& reply) const { add_results(object, reply.results); }
 };
 
-struct Told {
+struct NotificationFields {
     Json& object;
 
     void operator()(ReceiveEvent const& event) const {
@@ -206,7 +206,7 @@ Json to_json(Fault const& fault) {
 
 Json to_json(Notification const& notification, std::uint64_t sequence) {
     Json object{{"notification", ""}, {"sequence", sequence}};
-    std::visit(Told{object}, notification);
+    std::visit(NotificationFields{object}, notification);
     return object;
 }
 

@@ -71,32 +71,7 @@ private:
 http::status status_of(std::string const& answer) {
     auto const read = xml::AnswerReader{}.read(answer);
     auto const* const fault = read ? std::get_if<Fault>(&*read) : nullptr;
-    if (fault == nullptr) return http::status::ok;
-    switch (fault->code) {
-        case FaultCode::invalid:
-            return http::status::unprocessable_entity;
-        case FaultCode::no_session:
-        case FaultCode::not_allowed:
-            return http::status::forbidden;
-        case FaultCode::unauthorized:
-            return http::status::unauthorized;
-        case FaultCode::not_found:
-            return http::status::not_found;
-        case FaultCode::method_not_allowed:
-            return http::status::method_not_allowed;
-        case FaultCode::too_large:
-            return http::status::payload_too_large;
-        case FaultCode::unsupported_media_type:
-            return http::status::unsupported_media_type;
-        case FaultCode::upgrade_required:
-            return http::status::upgrade_required;
-        case FaultCode::too_many:
-            return http::status::too_many_requests;
-        case FaultCode::shutting_down:
-            return http::status::service_unavailable;
-        default:
-            return http::status::bad_request;
-    }
+    return fault == nullptr ? http::status::ok : static_cast<http::status>(http_status_of(fault->code));
 }
 
 Fault no_such_session(std::string request_id) {

@@ -1,4 +1,5 @@
-// The sessions that a Front serves. Their Guest answers: a recording (rois replay) or an engine (rois record --listen).
+// The sessions that a Front serves. Each has a Guest that answers its requests: a recording (rois replay) or an engine (rois
+// record --listen).
 #pragma once
 
 #include <chrono>
@@ -21,7 +22,7 @@ class Guest {
 public:
     virtual ~Guest() = default;
 
-    // Takes a request, as text and as read. Calls `reply` once with the document that answers it, now or later.
+    // Takes a request, as text and decoded. Calls `reply` once with the document that answers it, now or later.
     virtual void take(std::string const& document, std::variant<Request, Fault> const& read,
                       std::function<void(std::string)> reply) = 0;
 };
@@ -51,7 +52,7 @@ public:
     void end();
     bool ended() const { return ended_; }
 
-    int connections = 0;          // that receive the notifications
+    int connections = 0;          // connections that receive the notifications
     std::uint64_t websocket = 0;  // number of the WebSocket that has the session; the latest one takes it over
     std::chrono::steady_clock::time_point used = std::chrono::steady_clock::now();
 

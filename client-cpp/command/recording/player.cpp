@@ -122,7 +122,7 @@ void Player::take(std::string const&, std::variant<Request, Fault> const& read, 
     reply(request != nullptr ? answer(*request) : xml::encode(std::get<Fault>(read)));
 }
 
-// Answers the n-th of equal requests with the n-th recorded answer, or with the last one if the recording has fewer.
+// The n-th of equal requests gets the n-th recorded answer, or the last one if the recording has fewer.
 Exchange const* Player::matching(Operation const& operation) {
     auto const take = [&](std::map<std::string, std::vector<std::size_t>> const& all, std::string const& key) -> Exchange const* {
         auto const found = all.find(key);

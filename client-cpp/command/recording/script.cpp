@@ -69,7 +69,7 @@ private:
                                   auto const id = fault.request_id;
                                   answer(std::move(fault), id, document.at);
                               },
-                              [&](xml::Told& told) { tell(std::move(told.notification), document.at); }},
+                              [&](xml::NumberedNotification& told) { tell(std::move(told.notification), document.at); }},
                    *read);
     }
 

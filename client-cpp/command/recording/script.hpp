@@ -33,8 +33,8 @@ struct Exchange {
     std::vector<Later> later;  // in the order of the recording
 };
 
-// One recorded session. `completed` belongs to the exchange of its command. Other notifications belong to the last command before
-// them; if there is none, to their subscription or to `connect`.
+// One recorded session. A notification follows one exchange: `completed` that of its command; any other notification the last
+// command before it or, if there is none, its subscription or `connect`.
 struct Script {
     std::vector<Exchange> exchanges;
     std::map<std::string, std::vector<std::size_t>> exactly;  // exchanges by key, in their order

@@ -29,9 +29,9 @@ CompletedStatus status_of(std::string_view text) {
     return error;
 }
 
-class Reader {
+class ScenarioParser {
 public:
-    explicit Reader(xml::Element const& root) {
+    explicit ScenarioParser(xml::Element const& root) {
         scenario_.name = root.attribute("name", "");
         scenario_.start = root.token("start", "");
         for (auto const& element : root.children("component")) component(element);
@@ -154,7 +154,7 @@ private:
                         element.token("beside", ""),
                         known_text(element, element.attribute("is", "")),
                         element.number("apart", 0)};
-        if (take.not_in.empty() && element.attribute("apart")) throw element.complain("'apart' belongs to 'not_in'");
+        if (take.not_in.empty() && element.attribute("apart")) throw element.complain("'apart' needs 'not_in'");
         if (take.beside.empty() == element.attribute("is").has_value())
             throw element.complain("'beside' and 'is' belong together");
         return take;
@@ -168,11 +168,11 @@ private:
         for (auto const& [attribute, relation] : relations) {
             auto const operand = element.attribute(attribute);
             if (!operand) continue;
-            if (read) throw element.complain("a 'when' says one thing");
+            if (read) throw element.complain("a 'when' must have exactly one condition");
             read = When{variable, relation, known_text(element, *operand)};
         }
         if (!read)
-            throw element.complain("a 'when' has one of " +
+            throw element.complain("a 'when' needs one of " +
                                    listed(relations, [](auto const& one) { return std::string{one.first}; }));
         if (read->relation == in || read->relation == not_in) known_variable(element, read->operand);
         if (read->relation == empty && !is_true(read->operand)) read->relation = not_empty;
@@ -214,7 +214,7 @@ RobotScenario read_robot_scenario(std::shared_ptr<xml::Schemas const> const& sch
     auto const document = xml::Document::parse(schemas, name, std::move(text));
     auto const root = document.root();
     if (root.name() != "robot_scenario") throw root.complain("this is not a robot scenario: expected the element robot_scenario");
-    return Reader{root}.take();
+    return ScenarioParser{root}.take();
 }
 
 }  // namespace rois::command

@@ -11,7 +11,7 @@ namespace rois::command {
 // Thread-safe.
 class Caller {
 public:
-    // The parent of this process. Make it before the program goes to the background, where its parent is another one.
+    // The parent of this process. Construct it before the program goes to the background, where its parent is another process.
     Caller();
 
     // Returns whether the caller runs: it has not ended and is not stopped (SIGSTOP, Ctrl-Z). Returns false if it is not visible

@@ -34,7 +34,7 @@ public:
     // NoSession if the session to join does not exist, std::invalid_argument if the URL is invalid.
     Session(Options const&, std::shared_ptr<RecordingWriter> recorded, Caller const& caller);
 
-    // Whether another process holds it, so that it does not end with the program.
+    // Whether another process holds the session. Then the session does not end with this program.
     bool is_joined() const { return joined_; }
     SessionId id() const { return connection_.session(); }
 
@@ -55,8 +55,9 @@ public:
 private:
     Observers observers(std::shared_ptr<RecordingWriter> recorded);
 
-    // The process whose signs of life let robots of the session move: this program; its caller, if it holds the session for other
-    // commands (`bind`); or another one, if it only listens in a joined session.
+    // The process that gives the signs of life for the robots of the session. `own`: this program. `of_caller`: the caller of
+    // this program, which holds the session for other commands (`bind`). `of_others`: another process; this program only listens
+    // in a joined session.
     enum class Life { own, of_caller, of_others };
     static Life whose_life(Options const&);
     bool is_alive() const;

@@ -42,7 +42,7 @@ public:
     SessionFile(SessionFile const&) = delete;
     SessionFile& operator=(SessionFile const&) = delete;
 
-    // The session that a killed holder left in the file.
+    // The session in the file, if its holder was killed.
     std::optional<HeldSession> const& left() const { return left_; }
 
     // From now on `find_held_session` returns this session. Throws Trouble (usage) if the file cannot be written.
@@ -62,8 +62,9 @@ private:
     std::optional<HeldSession> left_;
 };
 
-// Continues the program in a child process. Make it before any thread. The parent waits, and ends with exit code 0 when the child
-// is ready, or with the child's exit code if that ends first. If the parent is killed before, the child gets SIGTERM.
+// Continues the program in a child process. Construct it before any thread starts. The parent waits, and ends with exit code 0
+// when the child is ready, or with the child's exit code if that ends first. If the parent is killed before, the child gets
+// SIGTERM.
 class Background {
 public:
     Background();

@@ -59,7 +59,7 @@ struct Gap {
     std::vector<std::string> not_restored{};
 };
 
-// A failed attempt to open or resume a session. The connection retries.
+// A failed attempt to open or resume a session. The connection then retries.
 struct FailedAttempt {
     unsigned count = 0;  // failed attempts in a row, this one included
     std::string reason;
@@ -72,12 +72,13 @@ enum class Direction : std::uint8_t { out, in };
 // Called on the client's thread, in order, and never after the connection is destroyed. They must not throw.
 struct Observers {
     std::function<void(StateChange const&)> state{};
-    // Each failed attempt. The last one, after which the connection closes, is reported as the state `closed` instead.
+    // Called for each failed attempt. If the connection closes after an attempt, that attempt is reported as the state `closed`
+    // instead.
     std::function<void(FailedAttempt const&)> attempt_failed{};
     std::function<void(Gap const&)> gap{};
-    // Each notification once. The engine's `lost` is reported here and as a gap.
+    // Called once for each notification. The engine's `lost` is reported here and as a gap.
     std::function<void(Notification const&, std::uint64_t sequence)> notification{};
-    // Each document sent or received, byte for byte, also those that the connection itself needs.
+    // Called for each document sent or received, byte for byte, also for the documents that the connection itself sends.
     std::function<void(Direction, std::string_view document)> tap{};
 };
 
@@ -96,7 +97,7 @@ public:
     Connection(Connection const&) = delete;
     Connection& operator=(Connection const&) = delete;
 
-    State state() const;        // closed as soon as calls fail; observers are notified later, after all else
+    State state() const;        // `closed` as soon as calls fail; the observers are notified last
     SessionId session() const;  // empty before the first session
 
     // Waits until a session is open, for `within` at most (default: Settings::connect_deadline). Returns nothing if it is open,
@@ -119,9 +120,9 @@ public:
 
     // Gives a sign of life. A robot that this session has set in motion stops if the application gives no sign of life for the
     // motion lease (docs/safety.md). Until the first call of `wait` or `alive`, the client's thread gives the signs itself, while
-    // it is not blocked. From then on only `wait` and `alive` count: `wait` gives signs as long as it waits. A program that does
-    // something else for longer than half a lease while a robot moves must call `alive` meanwhile. From any thread; costs little,
-    // and sends nothing while nothing moves.
+    // it is not blocked. From then on only `wait` and `alive` count: `wait` gives signs as long as it waits. A program that
+    // neither waits nor calls operations for longer than half a lease while a robot moves must call `alive`. From any thread;
+    // costs little, and sends nothing while nothing moves.
     void alive();
 
     // The longest time between two calls of `alive`: a fifth of the lease.

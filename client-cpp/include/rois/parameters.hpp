@@ -1,4 +1,4 @@
-// The parameters of the 17 components, with the names of the specification and with units in types. A parameter that is not set
+// The parameters of the 17 components, with the names of the specification and types with units. A parameter that is not set
 // keeps its value. Set them one by one, also inside a co_await:
 //
 //     co_await synthesis.say(Speech().with_speech_text("Welcome.").with_volume(50));

@@ -21,9 +21,9 @@ struct Settings {
     Way way = Way::websocket;
     std::string token{};    // sent as Authorization: Bearer; empty: none
     std::string ca_file{};  // PEM file of certificates to trust beside the system's; empty: none
-    // The session of another program, to share it; empty: an own session. Uses HTTP, since a WebSocket would take the session
-    // over. First receives the notifications that the engine still keeps. The connection does not end the session, and closes
-    // when the session ends.
+    // The session of another program, to share it; empty: an own session. Uses HTTP, because a WebSocket would take over the
+    // session. The connection first receives the notifications that the engine still keeps. It does not end the session, and
+    // closes when the session ends.
     std::string session{};
 
     // How long a robot that this session has set in motion moves on without a sign of life (Connection::alive): at least 1 s, at
@@ -37,10 +37,9 @@ struct Settings {
     std::chrono::milliseconds ping_interval = std::chrono::seconds{5};
     std::chrono::milliseconds stream_silence = std::chrono::seconds{45};
 
-    // Pauses between two attempts. After a link that delivered an answer or a notification, or that lasted for `longest_pause`,
-    // the next attempt follows without a pause. After a link that opened or resumed a session and delivered nothing, it follows
-    // after `first_pause`. Each attempt without a session doubles the pause, up to `longest_pause`. Each pause is cut by up to a
-    // half, at random.
+    // Pauses between two attempts. No pause: after a link that delivered an answer or a notification, or that lasted for
+    // `longest_pause`. `first_pause`: after a link that opened or resumed a session but delivered nothing. Each attempt without a
+    // session doubles the pause, up to `longest_pause`. Each pause is shortened at random, by up to a half.
     std::chrono::milliseconds first_pause = std::chrono::milliseconds{100};
     std::chrono::milliseconds longest_pause = std::chrono::seconds{5};
     std::optional<unsigned> attempts{};  // failed attempts in a row after which the connection closes; empty: never

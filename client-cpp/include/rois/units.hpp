@@ -11,7 +11,7 @@ namespace rois {
 
 namespace detail {
 
-// A number with a unit. Adds and compares only with the same unit.
+// A number with a unit. Can be added to and compared with numbers of the same unit only.
 template <class Self>
 struct Quantity {
     double value = 0;

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "simulation/adapters/example_components.hpp"
-#include "simulation/adapters/faulty_component.hpp"
+#include "simulation/adapters/robot_components.hpp"
 #include "simulation/basic/basic_components.hpp"
 #include "simulation/basic/component_refs.hpp"
 #include "types/listing.hpp"

@@ -13,9 +13,9 @@
 
 namespace rois::simulation {
 
-// Returns the name of the profile's adapter: the one that its metaDataProperty names, urn:x-rois:def:adapter:simulation::<name>,
-// else the one of the first basic component whose profile it includes. Empty if it has none. Sub components are looked up in
-// `known`. Throws std::runtime_error for an unknown adapter.
+// Returns the name of the profile's adapter: the adapter that its metaDataProperty names
+// (urn:x-rois:def:adapter:simulation::<name>), else the adapter of the first basic component whose profile it includes. Empty if
+// it has none. Sub components are looked up in `known`. Throws std::runtime_error for an unknown adapter.
 std::string adapter_of(ComponentProfile const&, std::vector<ComponentProfile> const& known, Streams);
 
 class Adapters {

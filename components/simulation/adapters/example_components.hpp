@@ -1,4 +1,4 @@
-// Makers of the example components (Annex C) and of the stand-in.
+// Makes the example components (Annex C) and stand-ins.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ std::unique_ptr<Component> person_age_recognition(Context);
 // Navigation of a wheelchair, with brakes and state.
 std::unique_ptr<Component> wheelchair_robot(Context);
 
-// A component without behaviour: commands complete at once and queries are answered, both with the default values of the profile.
+// A component without behaviour. Commands complete at once and queries are answered, both with the default values in the profile.
 // `whole` includes the messages of the sub components.
 std::unique_ptr<Component> stand_in(Context, ComponentProfile whole);
 

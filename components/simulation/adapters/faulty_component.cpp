@@ -1,4 +1,4 @@
-#include "simulation/adapters/faulty_component.hpp"
+#include "simulation/adapters/robot_components.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -10,8 +10,8 @@ namespace rois::simulation {
 
 namespace {
 
-// A proxy between the engine and a component. Blocks new work while a fault is active. Running work of a silent component
-// continues; a failed component ends it.
+// A proxy between the engine and a component. While a fault is active, it does not pass on new commands and queries. A silent
+// component continues its running commands; a failed component ends them.
 class FaultyComponent final : public Component, private ComponentPort, private Observer {
 public:
     FaultyComponent(std::unique_ptr<Component> component, std::shared_ptr<Simulation> simulation, std::vector<Fault> faults)
@@ -125,7 +125,7 @@ private:
         });
     }
 
-    // The engine's status is the status of system_information, faults included.
+    // Replaces the status in an answer of engine_status by the status with faults.
     std::vector<Results> with_status(std::string_view query_type, std::vector<Results> rows) const {
         if (query_type != "engine_status") return rows;
         for (auto& row : rows)

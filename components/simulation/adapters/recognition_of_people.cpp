@@ -35,7 +35,7 @@ private:
             if (person == nullptr || !can_report(*person) || !reported_.insert(recognized.person).second) continue;
             news.push_back(person);
             refs.push_back(recognized.track);
-            auto const sighting = std::ranges::find(seen, recognized.person, &SeenPerson::person);
+            auto const sighting = std::ranges::find(seen, recognized.person, &Seen::person);
             if (sighting != seen.end())
                 results.located.push_back(
                     located_entity("person_ref", recognized.track, sighting->pose, 0, sighting->covariance));
@@ -80,7 +80,7 @@ public:
 
 private:
     static constexpr double sigma = 3;  // years
-    static constexpr int margin = 6;    // to either side of the estimate
+    static constexpr int margin = 6;    // years to either side of the estimate
 
     bool can_report(Person const& person) const override { return person.age.has_value(); }
 

@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "simulation/adapters/faulty_component.hpp"
 #include "simulation/basic/basic_components.hpp"
 #include "types/texts.hpp"
 

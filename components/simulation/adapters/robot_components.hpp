@@ -16,4 +16,8 @@ namespace rois::simulation {
 std::vector<std::unique_ptr<Component>> robot_components(std::shared_ptr<Simulation> const&, std::shared_ptr<media::Media> const&,
                                                          std::vector<ComponentProfile> const& profiles);
 
+// Wraps the component if the scenario has faults for it, to test applications against a defective robot; else returns it
+// unchanged.
+std::unique_ptr<Component> with_faults(std::unique_ptr<Component>, std::shared_ptr<Simulation> const&);
+
 }  // namespace rois::simulation

@@ -26,7 +26,7 @@ std::span<BasicComponent const> basic_components() {
 }
 
 std::span<BasicComponent const> basic_components(Streams streams) {
-    constexpr std::size_t that_stream = 2;  // the last two
+    constexpr std::size_t that_stream = 2;  // the last two of the list
     auto const all = basic_components();
     return streams == Streams::served ? all : all.first(all.size() - that_stream);
 }

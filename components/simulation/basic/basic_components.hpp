@@ -1,4 +1,5 @@
-// The basic components (7.6, and the two of RoIS 2.0). Each maker is defined in the file of its name.
+// The basic components (7.6) and the two streaming components of RoIS 2.0. Each function that makes one is defined in the source
+// file of its name.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +31,7 @@ std::unique_ptr<Component> audio_streaming(Context);
 std::unique_ptr<Component> video_streaming(Context);
 
 struct BasicComponent {
-    std::string_view ref;       // as in table 31: "navigation"
+    std::string_view ref;       // its name in table 31: "navigation"
     std::string_view urn_name;  // the last part of its profile's URN
     std::unique_ptr<Component> (*make)(Context);
 };

@@ -14,7 +14,7 @@ inline constexpr std::string_view visitor = "urn:x-rois:def:codebook:simulation:
 // Names of robots.
 inline constexpr std::string_view robot = "urn:x-rois:def:codebook:simulation::robot";
 
-// The codes of the three codebooks above together.
+// Contains the codes of the three codebooks above.
 inline constexpr std::string_view entity = "urn:x-rois:def:codebook:simulation::entity";
 
 // Gestures of visitors and robots: gestures().

@@ -17,7 +17,8 @@ std::string component_ref(std::string_view component, std::string_view engine);
 // Whether the text is an XML name without dots and colons.
 bool is_name(std::string_view);
 
-// Returns the refs of all basic components of all robots, with the streaming ones, and of the components with these names.
+// Returns the refs of all basic components of all robots, the streaming components included, and of the user-defined components
+// with these names.
 std::vector<std::string> component_refs(FloorPlan const&, std::vector<std::string> const& names = {});
 
 // Whether this is the name of a basic component, the streaming ones included.

@@ -13,17 +13,17 @@ public:
     DriveAction(Context context, std::string_view owner) : Action{with_motion(std::move(context))}, owner_{owner} {}
 
 protected:
-    // Begins a motion. If another component drives, ends the action with OUT_OF_RESOURCES.
+    // Begins a motion. If another component is using the drive, ends the action with OUT_OF_RESOURCES.
     void drive(Motion);
     // The progress of the motion; `ended` if there is none.
     Progress progress() const;
-    // Returns for how long an obstacle or the brakes have blocked the robot without interruption. Call it once a step.
+    // Returns for how long an obstacle or the brakes have blocked the robot without interruption. Call this once in each step.
     WorldTime blocked(MotionState);
     // Describes the blockage, for messages.
     std::string blocking_reason() const;
 
     bool wheels_are_busy() const;
-    // Names the other component, for messages.
+    // Says which component is using the drive, for messages.
     std::string wheels_busy_reason() const;
 
     // WARNING while the robot is obstructed, or a motion waits for the release of the brakes.

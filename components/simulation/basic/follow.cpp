@@ -10,7 +10,7 @@ namespace {
 
 // How long Follow waits for a missing target, in world time.
 constexpr WorldTime patience{30'000};
-// How long Follow waits for an unknown target, in real time. `patience` applies too, and ends first if the simulation runs fast.
+// How long Follow waits for an unknown target, in real time. `patience` applies too; in a fast simulation it ends first.
 constexpr std::chrono::milliseconds time_to_be_known{5'000};
 
 class Follow final : public DriveAction {
@@ -111,7 +111,7 @@ private:
     }
 
     std::string ref_;
-    std::string codebook_;  // of ref_; empty: any
+    std::string codebook_;  // of ref_; the codebook of ref_; empty: any
     Metres distance_ = 0;
     WorldTime limit_{};  // 0: none
     std::optional<Entity> whom_;

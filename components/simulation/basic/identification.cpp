@@ -30,7 +30,7 @@ private:
         Results results;
         for (auto const& person : people) {
             ids.push_back(person.ref);
-            auto const sighting = std::ranges::find(seen, person.person, &SeenPerson::person);
+            auto const sighting = std::ranges::find(seen, person.person, &Seen::person);
             if (sighting == seen.end()) continue;
             results.located.push_back(located_entity("person_ref", person.ref, sighting->pose, 0, sighting->covariance));
         }

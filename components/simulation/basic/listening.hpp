@@ -1,4 +1,4 @@
-// Base of the speech recognition components: follows the speech of people and other robots near the robot.
+// Base of the speech recognition components. Collects the speech of people and other robots near the robot.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@
 
 namespace rois::simulation {
 
-// Speech that was received from beginning to end.
+// Speech that the robot received from beginning to end.
 struct HeardSpeech {
     std::string text;
     std::string language;
     Instant began;
-    std::optional<HeardSound> from;  // the source of the sound at the beginning
+    std::optional<HeardSound> from;  // the source of the sound when the speech began
 };
 
 class Listening : public ContinuousFunction {
@@ -23,7 +23,7 @@ public:
     using ContinuousFunction::ContinuousFunction;
 
 protected:
-    // Whether speech from this point counts.
+    // Whether the component recognizes speech from this point.
     virtual bool listens_to(Point const&) const { return true; }
 
     // Called when speech begins, and when it ends (also if it was broken off or left the hearing range).

@@ -59,26 +59,22 @@ Context with_threshold(Context context, std::int32_t lowest) {
     return context;
 }
 
+// `measured`: all measurements of one sensor.
+template <class Measured>
+std::vector<Sighting> sightings_of(Measured measured) {
+    std::vector<Sighting> sightings;
+    for (auto& each : measured) sightings.push_back({std::move(each.ref), each.pose, each.height, each.covariance});
+    return sightings;
+}
+
 // The position of a person is on the floor: height 0.
 std::vector<Sighting> people(Hall const& hall, RobotId robot) {
-    std::vector<Sighting> sightings;
-    for (auto& seen : people_seen(hall, robot)) sightings.push_back({std::move(seen.ref), seen.pose, 0, seen.covariance});
+    auto sightings = sightings_of(people_seen(hall, robot));
+    for (auto& sighting : sightings) sighting.height = 0;
     return sightings;
 }
-
-std::vector<Sighting> faces(Hall const& hall, RobotId robot) {
-    std::vector<Sighting> sightings;
-    for (auto& seen : faces_seen(hall, robot))
-        sightings.push_back({std::move(seen.ref), seen.pose, seen.height, seen.covariance});
-    return sightings;
-}
-
-std::vector<Sighting> sounds(Hall const& hall, RobotId robot) {
-    std::vector<Sighting> sightings;
-    for (auto& heard : sounds_heard(hall, robot))
-        sightings.push_back({std::move(heard.ref), heard.pose, heard.height, heard.covariance});
-    return sightings;
-}
+std::vector<Sighting> faces(Hall const& hall, RobotId robot) { return sightings_of(faces_seen(hall, robot)); }
+std::vector<Sighting> sounds(Hall const& hall, RobotId robot) { return sightings_of(sounds_heard(hall, robot)); }
 
 // Removes the orientation, also from the covariance.
 Located without_orientation(Located entity) {

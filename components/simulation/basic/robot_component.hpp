@@ -67,7 +67,7 @@ protected:
     // Reads a position in the robot's frame or the name of a place. Returns nothing if the text is neither.
     std::optional<Target> target(std::string_view text) const;
 
-    // Called after every step of the world: first watch(), for work of inactive components too, then on_step().
+    // Called after every step of the world: first watch(), also while the component is inactive, then on_step().
     virtual void watch(Instant) {}
     virtual void on_step(Instant when) = 0;
     void time_passed(Instant) override {}
@@ -102,7 +102,7 @@ public:
     void parameters_changed(ParameterList const&, Instant now) final;
 
 protected:
-    // Forgets all earlier reports: everything sensed from now on is new.
+    // Resets the reports: everything sensed from now on counts as new.
     virtual void begin() = 0;
     // Applies new parameters; called before begin(), and on changes while active.
     virtual void apply(ParameterList const&) {}
@@ -139,7 +139,7 @@ protected:
     // Whether all motion has ended after stop(). Only then is `halt` confirmed.
     virtual bool has_stopped() const { return true; }
 
-    // Completes the command. The caller has stopped the action, or it stops by itself. `reason` explains a status other than OK.
+    // Completes the command. The action must have been stopped or stop by itself. `reason` explains a status other than OK.
     void end(CompletedStatus, std::string reason = {});
     WorldTime elapsed() const { return elapsed_; }
 

@@ -41,7 +41,7 @@ struct Sensors {
         Radians turned_within = from_degrees(50);
     } identification;
     struct Sound {
-        Metres range = 8.0;  // a wall in between halves it
+        Metres range = 8.0;  // halved by a wall in between
         Metres sigma = 0.25;
     } sound;
     struct Gestures {
@@ -53,7 +53,7 @@ struct Sensors {
 // The frame of a robot's own map.
 struct RobotFrame {
     std::string crs;
-    Pose origin;  // the true one, in the hall
+    Pose origin;  // the true origin, in the hall's frame
     // Standard deviations of the origin, for conversions between the frames.
     Metres sigma = 0;
     Radians heading_sigma = 0;
@@ -69,7 +69,7 @@ struct RobotPlan {
     RadiansPerSecond max_turn_rate = 1.6;
     double max_turn_acceleration = 3.0;  // rad/s^2
     Sensors sensors;
-    std::optional<RobotFrame> frame;  // of its components' positions; absent: the hall's
+    std::optional<RobotFrame> frame;  // the frame of its components' positions; absent: the hall's frame
 
     // Braking takes at most this world time from any speed.
     static constexpr Seconds time_to_stop = 0.3;
@@ -102,7 +102,8 @@ struct FloorPlan {
     bool can_go_straight(Point const& from, Point const& to, Metres radius) const;
 };
 
-// The first error of a plan (no entrance, a place within a wall, a duplicate name, ...); nothing if the plan is valid.
+// The first error of a plan (no entrance, a place within a wall, a duplicate name, ...). flaw() returns nothing if the plan is
+// valid.
 struct PlanFlaw {
     enum class Of : std::uint8_t { plan, place, robot } of = Of::plan;
     std::size_t index = 0;  // of the place or robot

@@ -298,7 +298,8 @@ std::vector<Point> Planner::improved(Pose const& from, std::vector<Point> way, R
         return i == 0 ? from.position : i <= crossing.over.size() ? crossing.over[i - 1] : crossing.to;
     };
     auto const can_go = [&](std::size_t a, std::size_t b) {
-        bool const next = b == a + 1 ? b < known : a + 1 == known && b > crossing.over.size();  // a leg of the original path
+        bool const next =
+            b == a + 1 ? b < known : a + 1 == known && b > crossing.over.size();  // whether this is a leg of the original path
         if (next) return true;
         return (!leads_away || a != 0) && straight(point(a), point(b), kept_clear);
     };

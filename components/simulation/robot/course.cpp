@@ -6,7 +6,7 @@
 namespace rois::simulation {
 namespace {
 
-// A motion is complete within both tolerances. They only save the last small steps.
+// A motion is complete within both tolerances, which save the last, very small steps.
 constexpr Metres at_place = 0.0002;
 constexpr Radians at_heading = from_degrees(0.1);
 
@@ -25,7 +25,7 @@ Seconds shortest(double way, double speed, double acceleration) {
     return 2 * std::sqrt(way / acceleration);
 }
 
-// The speed at which a way from standstill to standstill takes this time.
+// The maximum speed with which a way from standstill to standstill takes exactly this time.
 double pace(double way, double acceleration, Seconds time) {
     double const reach = acceleration * time;
     return (reach - std::sqrt(std::max(0.0, reach * reach - 4 * acceleration * way))) / 2;
@@ -35,8 +35,9 @@ MetresPerSecond paced(MetresPerSecond speed, std::optional<MetresPerSecond> cons
     return fastest ? std::min(speed, *fastest) : speed;
 }
 
-// Whether the robot drives at less than half the wanted speed. stand() would mistake a slow motion for a stalled one.
-bool is_slower_than(MetresPerSecond wanted, Wheels const& wheels) { return std::abs(wheels.twist.linear) < wanted / 2; }
+// Whether the robot drives at less than half the wanted speed. stand() cannot be used here: it would take a slow motion for a
+// stalled one.
+bool is_slower_than(MetresPerSecond wanted, DriveState const& state) { return std::abs(state.twist.linear) < wanted / 2; }
 
 // Sums up the turns of a robot, also beyond a half turn.
 class Turned {
@@ -63,10 +64,10 @@ public:
     void take(Seconds time, RobotPlan const& plan) { fastest_ = pace(std::abs(turn_), plan.max_turn_acceleration, time); }
 
     // Returns nothing when the turn is complete.
-    std::optional<Twist> steer(Wheels const& wheels) {
-        Radians const left = turn_ - turned_.by(wheels.pose.heading);
-        if (std::abs(left) < at_heading && wheels.stand()) return std::nullopt;
-        RadiansPerSecond const rate = wheels.rate_to_stop_in(left);
+    std::optional<Twist> steer(DriveState const& state) {
+        Radians const left = turn_ - turned_.by(state.pose.heading);
+        if (std::abs(left) < at_heading && state.stand()) return std::nullopt;
+        RadiansPerSecond const rate = state.rate_to_stop_in(left);
         return Twist{0, fastest_ ? std::clamp(rate, -*fastest_, *fastest_) : rate};
     }
 
@@ -80,30 +81,30 @@ class LineCourse : public Course {
 public:
     explicit LineCourse(Line line) : line_(line), turn_(line.turn) {}
 
-    Twist steer(Wheels const& wheels, Progress& progress) override {
+    Twist steer(DriveState const& state, Progress& progress) override {
         if (!track_) {
-            if (!wheels.stand()) return {};
-            track_ = Pose{wheels.pose.position, wrapped(wheels.pose.heading + line_.turn)};
-            if (!is_free(wheels)) {
+            if (!state.stand()) return {};
+            track_ = Pose{state.pose.position, wrapped(state.pose.heading + line_.turn)};
+            if (!is_free(state)) {
                 progress.state = MotionState::unreachable;
                 return {};
             }
-            if (line_.duration) take(*line_.duration, wheels.plan);
+            if (line_.duration) take(*line_.duration, state.plan);
         }
         if (!turned_) {
-            if (auto const twist = turn_.steer(wheels)) return *twist;
+            if (auto const twist = turn_.steer(state)) return *twist;
             turned_ = true;
         }
-        return drive(wheels, progress);
+        return drive(state, progress);
     }
 
 private:
-    bool is_free(Wheels const& wheels) const {
+    bool is_free(DriveState const& state) const {
         if (line_.distance == 0) return true;
         Point const end = track_->position + line_.distance * unit(track_->heading);
         Radians const heading = line_.distance < 0 ? wrapped(track_->heading + std::numbers::pi) : track_->heading;
-        return wheels.around.plan().can_go_straight(track_->position, end, wheels.plan.radius) &&
-               !wall_is_too_near(wheels.around.plan(), end, heading, wheels.plan.radius);
+        return state.around.plan().can_go_straight(track_->position, end, state.plan.radius) &&
+               !wall_is_too_near(state.around.plan(), end, heading, state.plan.radius);
     }
 
     // Slows down both parts of the motion equally.
@@ -116,23 +117,23 @@ private:
         turn_.take(turning * slower, plan);
     }
 
-    Twist drive(Wheels const& wheels, Progress& progress) {
-        Point const gone = frame(*track_).inverse() * wheels.pose.position;
+    Twist drive(DriveState const& state, Progress& progress) {
+        Point const gone = frame(*track_).inverse() * state.pose.position;
         Metres const left = line_.distance - gone.x();
         bool const there = std::abs(left) < at_place || left * line_.distance <= 0;
-        MetresPerSecond const speed = there ? 0 : paced(wheels.speed_to_stop_in(std::abs(left)), fastest_);
-        stall_.update(wheels, is_slower_than(speed, wheels));
+        MetresPerSecond const speed = there ? 0 : paced(state.speed_to_stop_in(std::abs(left)), fastest_);
+        stall_.update(state, is_slower_than(speed, state));
         progress.state = stall_.is_stalled() ? MotionState::obstructed : MotionState::moving;
-        if (there && wheels.stand()) progress.state = MotionState::arrived;
+        if (there && state.stand()) progress.state = MotionState::arrived;
         if (there) return {};
-        return {sign(left) * speed, back_on_track(wheels, gone.y())};
+        return {sign(left) * speed, back_on_track(state, gone.y())};
     }
 
-    // The turn may leave an error of at_heading: corrects the heading while driving, and steers back to the line.
-    RadiansPerSecond back_on_track(Wheels const& wheels, Metres aside) const {
-        Radians const off = wrapped(wheels.pose.heading - track_->heading);
+    // The turn may leave an error of at_heading: correct the heading while driving, and steer back to the line.
+    RadiansPerSecond back_on_track(DriveState const& state, Metres aside) const {
+        Radians const off = wrapped(state.pose.heading - track_->heading);
         Radians const aim = -std::clamp(aside, -0.1, 0.1) * sign(line_.distance);
-        return wheels.stand() ? 0 : 2 * (aim - off);
+        return state.stand() ? 0 : 2 * (aim - off);
     }
 
     Line line_;
@@ -152,38 +153,38 @@ public:
         return curve_.radius * sign(curve_.turn);
     }
 
-    Twist steer(Wheels const& wheels, Progress& progress) override {
+    Twist steer(DriveState const& state, Progress& progress) override {
         if (!started_) {
-            if (!wheels.stand()) return {};
+            if (!state.stand()) return {};
             started_ = true;
-            if (!is_free(wheels)) {
+            if (!is_free(state)) {
                 progress.state = MotionState::unreachable;
                 return {};
             }
-            if (curve_.duration) take(*curve_.duration, wheels.plan);
+            if (curve_.duration) take(*curve_.duration, state.plan);
         }
-        if (curve_.radius != 0) return drive(wheels, progress);
-        auto const twist = on_the_spot_.steer(wheels);
+        if (curve_.radius != 0) return drive(state, progress);
+        auto const twist = on_the_spot_.steer(state);
         if (!twist) progress.state = MotionState::arrived;
         return twist.value_or(Twist{});
     }
 
 private:
-    bool is_free(Wheels const& wheels) const {
+    bool is_free(DriveState const& state) const {
         constexpr Metres apart = 0.03;
         Radians const angle = std::min(std::abs(curve_.turn), 2 * std::numbers::pi);
-        Radians const side = wheels.pose.heading + sign(curve_.turn) * std::numbers::pi / 2;
+        Radians const side = state.pose.heading + sign(curve_.turn) * std::numbers::pi / 2;
         // Forwards, the centre is on the side of the turn; backwards, on the other side.
-        Point const centre = wheels.pose.position + curve_.radius * unit(side);
+        Point const centre = state.pose.position + curve_.radius * unit(side);
         Metres const length = std::abs(curve_.radius) * angle;
         for (Metres gone = 0; gone <= length + apart; gone += apart) {
             Radians const part = length > 0 ? angle * std::min(1.0, gone / length) : 0;
             Point const at = centre - curve_.radius * unit(side + sign(curve_.turn) * part);
-            if (wheels.around.plan().clearance(at) < wheels.plan.radius) return false;
+            if (state.around.plan().clearance(at) < state.plan.radius) return false;
         }
         Point const end = centre - curve_.radius * unit(side + curve_.turn);
-        Radians const heading = wheels.pose.heading + curve_.turn + (curve_.radius < 0 ? std::numbers::pi : 0);
-        return length == 0 || !wall_is_too_near(wheels.around.plan(), end, wrapped(heading), wheels.plan.radius);
+        Radians const heading = state.pose.heading + curve_.turn + (curve_.radius < 0 ? std::numbers::pi : 0);
+        return length == 0 || !wall_is_too_near(state.around.plan(), end, wrapped(heading), state.plan.radius);
     }
 
     void take(Seconds time, RobotPlan const& plan) {
@@ -197,16 +198,16 @@ private:
             fastest_ = pace(way, acceleration, time);
     }
 
-    Twist drive(Wheels const& wheels, Progress& progress) {
+    Twist drive(DriveState const& state, Progress& progress) {
         Metres const radius = std::abs(curve_.radius);
-        Radians const left = std::abs(curve_.turn) - sign(curve_.turn) * turned_.by(wheels.pose.heading);
+        Radians const left = std::abs(curve_.turn) - sign(curve_.turn) * turned_.by(state.pose.heading);
         bool const there = left * radius < at_place && left < at_heading;
         MetresPerSecond const fastest_to_stop =
-            std::min(wheels.speed_to_stop_in(left * radius), std::abs(wheels.rate_to_stop_in(left)) * radius);
+            std::min(state.speed_to_stop_in(left * radius), std::abs(state.rate_to_stop_in(left)) * radius);
         MetresPerSecond const speed = there ? 0 : paced(fastest_to_stop, fastest_);
-        stall_.update(wheels, is_slower_than(speed, wheels));
+        stall_.update(state, is_slower_than(speed, state));
         progress.state = stall_.is_stalled() ? MotionState::obstructed : MotionState::moving;
-        if (there && wheels.stand()) progress.state = MotionState::arrived;
+        if (there && state.stand()) progress.state = MotionState::arrived;
         return {sign(curve_.radius) * speed, 0};
     }
 
@@ -220,18 +221,18 @@ private:
 
 class StayCourse : public Course {
 public:
-    Twist steer(Wheels const&, Progress&) override { return {}; }
+    Twist steer(DriveState const&, Progress&) override { return {}; }
 };
 
 }  // namespace
 
-bool Wheels::stand() const { return std::abs(twist.linear) < 0.005 && std::abs(twist.angular) < 0.01; }
+bool DriveState::stand() const { return std::abs(twist.linear) < 0.005 && std::abs(twist.angular) < 0.01; }
 
-MetresPerSecond Wheels::speed_to_stop_in(Metres left) const {
+MetresPerSecond DriveState::speed_to_stop_in(Metres left) const {
     return std::min(plan.max_speed, braking(left, plan.max_acceleration, dt));
 }
 
-RadiansPerSecond Wheels::rate_to_stop_in(Radians left) const {
+RadiansPerSecond DriveState::rate_to_stop_in(Radians left) const {
     return sign(left) * std::min(plan.max_turn_rate, braking(std::abs(left), plan.max_turn_acceleration, dt));
 }
 
@@ -242,7 +243,7 @@ Accelerations stopping(RobotPlan const& plan) {
             std::max(plan.max_turn_acceleration, plan.max_turn_rate / RobotPlan::time_to_stop)};
 }
 
-Twist Wheels::next(Twist const& wanted, Accelerations const& limits, std::optional<Metres> circle) const {
+Twist DriveState::next(Twist const& wanted, Accelerations const& limits, std::optional<Metres> circle) const {
     double const acceleration = circle ? std::min(limits.linear, limits.angular * std::abs(*circle)) : limits.linear;
     MetresPerSecond const linear = towards(twist.linear, wanted.linear, acceleration * dt);
     if (circle) return {linear, linear / *circle};
@@ -257,8 +258,8 @@ Pose moved(Pose const& from, Twist const& twist, Seconds time) {
     return {from.position + chord * unit(from.heading + turned / 2), wrapped(from.heading + turned)};
 }
 
-void StallDetector::update(Wheels const& wheels, bool wants_to_move) {
-    waited_ = wants_to_move && wheels.stand() ? waited_ + wheels.dt : 0;
+void StallDetector::update(DriveState const& state, bool wants_to_move) {
+    waited_ = wants_to_move && state.stand() ? waited_ + state.dt : 0;
 }
 
 std::unique_ptr<Course> course_of(Line line) { return std::make_unique<LineCourse>(line); }

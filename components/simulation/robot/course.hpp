@@ -18,8 +18,8 @@ struct Accelerations {
 Accelerations driving(RobotPlan const&);
 Accelerations stopping(RobotPlan const&);
 
-// The robot's state in one step of `dt`, as input of a course.
-struct Wheels {
+// The state of a robot's drive at the beginning of a step of length `dt`: the input of a course.
+struct DriveState {
     RobotId robot;
     RobotPlan const& plan;
     Planner const& planner;
@@ -32,14 +32,15 @@ struct Wheels {
     MetresPerSecond speed_to_stop_in(Metres) const;   // the highest speed that allows a stop within this distance
     RadiansPerSecond rate_to_stop_in(Radians) const;  // the highest turn rate that allows a stop at this angle
 
-    // Returns the twist after this step: the wanted one within these limits, on the circle of this signed radius if given.
+    // Returns the twist after this step: as near to the wanted twist as the limits allow. If `circle` is given, keeps the robot
+    // on the circle with this signed radius.
     Twist next(Twist const& wanted, Accelerations const&, std::optional<Metres> circle = std::nullopt) const;
 };
 
 // Returns the pose after a motion with constant twist.
 Pose moved(Pose const& from, Twist const&, Seconds);
 
-// Whether a wall or desk ahead is too near to drive on along `heading`.
+// Whether a wall or desk is too near to continue along `heading`.
 bool wall_is_too_near(FloorPlan const&, Point const& at, Radians heading, Metres radius);
 
 // The course of one motion.
@@ -48,7 +49,7 @@ public:
     virtual ~Course() = default;
 
     // Returns the wanted twist, without regard to acceleration limits and obstacles. Updates `progress`.
-    virtual Twist steer(Wheels const&, Progress& progress) = 0;
+    virtual Twist steer(DriveState const&, Progress& progress) = 0;
 
     // The signed radius of the circle that the robot must keep, also while it brakes; nothing if it may turn freely.
     virtual std::optional<Metres> circle() const { return std::nullopt; }
@@ -60,10 +61,10 @@ std::unique_ptr<Course> course_of(Line);
 std::unique_ptr<Course> course_of(Curve);
 std::unique_ptr<Course> course_of(Stay);
 
-// Detects wheels that stand although the course wants to move.
+// Detects a robot that stands although its course wants it to move.
 class StallDetector {
 public:
-    void update(Wheels const&, bool wants_to_move);
+    void update(DriveState const&, bool wants_to_move);
     bool is_stalled() const { return waited_ > 0.6; }
     Seconds waited() const { return waited_; }
     void reset() { waited_ = 0; }

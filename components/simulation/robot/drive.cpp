@@ -9,7 +9,7 @@ namespace {
 // The minimum gaps do not apply where the robot is nearer already and moves past.
 constexpr Metres wall_gap = 0.015;   // to walls and desks
 constexpr Metres body_gap = 0.10;    // to people and other robots
-constexpr Metres squeezing = 0.008;  // stopping distance while passing an obstacle that near
+constexpr Metres squeezing = 0.008;  // gap while the robot passes an obstacle that is too near
 constexpr Metres look_ahead = 2.0;   // obstacles farther away are ignored; longer than any stopping distance
 constexpr std::size_t remembered = 16;
 
@@ -114,7 +114,7 @@ Disc Drive::stopping_disc() const {
     return {pose_.position + braking / 2 * unit(pose_.heading), plan_.radius + std::abs(braking) / 2};
 }
 
-Wheels Drive::wheels(Surroundings const& around, Seconds dt) const {
+DriveState Drive::wheels(Surroundings const& around, Seconds dt) const {
     return {robot_, plan_, *planner_, pose_, twist_, around, dt};
 }
 
@@ -147,7 +147,7 @@ Twist Drive::steer(Surroundings const& around, Seconds dt) {
 }
 
 // Limits the speed so that the robot can stop before an obstacle.
-MetresPerSecond Drive::safe(MetresPerSecond wanted, Wheels const& at) const {
+MetresPerSecond Drive::safe(MetresPerSecond wanted, DriveState const& at) const {
     MetresPerSecond const going = wanted != 0 ? wanted : twist_.linear;
     if (going == 0) return 0;
     Radians const heading = going > 0 ? pose_.heading : wrapped(pose_.heading + std::numbers::pi);

@@ -50,13 +50,13 @@ public:
     void brake(bool on) { brakes_ = on; }
     bool brakes_are_on() const { return brakes_; }
 
-    // Limits the speed of all motions, at most to max_speed of the robot's plan. Nothing: to that max_speed.
+    // Limits the speed of all motions, at most to max_speed of the robot's plan. Without a value, removes the limit.
     void limit_speed(std::optional<MetresPerSecond>);
 
     // Whether the robot neither drives nor turns.
     bool stands() const { return twist_.linear == 0 && twist_.angular == 0; }
 
-    // Whether the robot still rolls after stop().
+    // Whether the robot still moves after stop().
     bool is_stopping() const { return stopping_; }
 
     RobotId robot() const { return robot_; }
@@ -83,9 +83,9 @@ private:
     void finish(MotionState);
     bool must_stand() const;
     void roll(Surroundings const&, Seconds dt);
-    Wheels wheels(Surroundings const&, Seconds dt) const;
+    DriveState wheels(Surroundings const&, Seconds dt) const;
     Twist steer(Surroundings const&, Seconds dt);
-    MetresPerSecond safe(MetresPerSecond wanted, Wheels const&) const;
+    MetresPerSecond safe(MetresPerSecond wanted, DriveState const&) const;
     bool would_touch(Pose const&, Surroundings const&) const;
 
     RobotId robot_;

@@ -76,7 +76,8 @@ public:
     virtual ~Surroundings() = default;
     virtual FloorPlan const& plan() const = 0;
     virtual std::optional<Pose> pose_of(Entity) const = 0;
-    // All people and other robots; the same, with the floor that the robots need to stop; only those that stand still.
+    // The obstacles of a robot are all people and the other robots. obstacles_with_stopping_room() adds the floor that the robots
+    // need to stop; standing_obstacles() has only the obstacles that stand still.
     virtual std::vector<Disc> obstacles(RobotId) const = 0;
     virtual std::vector<Disc> obstacles_with_stopping_room(RobotId) const = 0;
     virtual std::vector<Disc> standing_obstacles(RobotId) const = 0;

@@ -9,7 +9,7 @@ namespace {
 // The number of measurements for the first mean. The moving mean afterwards has a third of the sensor's noise.
 constexpr int settling = 5;
 
-// In standard deviations of the sensor. Equals five standard deviations of the difference of two smoothed positions.
+// In standard deviations of the sensor. This is five standard deviations of the difference between two smoothed positions.
 constexpr double noise = 2.5;
 
 }  // namespace

@@ -46,31 +46,38 @@ std::vector<std::pair<Person const*, std::string>> tracked_people(Hall const& ha
     return tracked;
 }
 
-}  // namespace
-
-std::vector<SeenPerson> people_seen(Hall const& hall, RobotId robot) {
-    Sensors::People const& sensor = sensors_of(hall, robot).people;
-    std::vector<SeenPerson> seen;
+// Measures the tracked people with a sensor of this kind. `is_seen` sets the ref and the height.
+template <class Abilities, class IsSeen>
+std::vector<Seen> seen_by(Hall const& hall, RobotId robot, Sensor kind, Abilities const& sensor, IsSeen is_seen) {
+    std::vector<Seen> all;
     for (auto const& [person, track] : tracked_people(hall, robot)) {
-        if (!sees(hall.plan(), sensor, hall.robot(robot).pose, *person)) continue;
-        Pose const pose =
-            measured(person->pose, sensor.sigma, sensor.heading_sigma, noise(hall, robot, Sensor::people, person->id));
-        seen.push_back({person->id, track, pose, person->height, covariance(sensor.sigma, sensor.heading_sigma)});
+        Seen seen{.person = person->id, .ref = {}, .pose = {}, .height = 0, .covariance = {}};
+        if (!is_seen(*person, track, seen)) continue;
+        seen.pose = measured(person->pose, sensor.sigma, sensor.heading_sigma, noise(hall, robot, kind, person->id));
+        seen.covariance = covariance(sensor.sigma, sensor.heading_sigma);
+        all.push_back(std::move(seen));
     }
-    return seen;
+    return all;
 }
 
-std::vector<SeenFace> faces_seen(Hall const& hall, RobotId robot) {
+}  // namespace
+
+std::vector<Seen> people_seen(Hall const& hall, RobotId robot) {
+    Sensors::People const& sensor = sensors_of(hall, robot).people;
+    return seen_by(hall, robot, Sensor::people, sensor, [&](Person const& person, std::string const& track, Seen& seen) {
+        seen.ref = track;
+        seen.height = person.height;
+        return sees(hall.plan(), sensor, hall.robot(robot).pose, person);
+    });
+}
+
+std::vector<Seen> faces_seen(Hall const& hall, RobotId robot) {
     Sensors::Faces const& sensor = sensors_of(hall, robot).faces;
-    std::vector<SeenFace> seen;
-    for (auto const& [person, track] : tracked_people(hall, robot)) {
-        if (!sees_face(hall.plan(), sensor, hall.robot(robot).pose, *person)) continue;
-        Pose const pose =
-            measured(person->pose, sensor.sigma, sensor.heading_sigma, noise(hall, robot, Sensor::faces, person->id));
-        seen.push_back(
-            {person->id, renamed(track, "face"), pose, person->face_height(), covariance(sensor.sigma, sensor.heading_sigma)});
-    }
-    return seen;
+    return seen_by(hall, robot, Sensor::faces, sensor, [&](Person const& person, std::string const& track, Seen& seen) {
+        seen.ref = renamed(track, "face");
+        seen.height = person.face_height();
+        return sees_face(hall.plan(), sensor, hall.robot(robot).pose, person);
+    });
 }
 
 std::vector<RecognizedPerson> people_recognized(Hall const& hall, RobotId robot) {

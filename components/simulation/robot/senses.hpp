@@ -9,25 +9,16 @@
 
 namespace rois::simulation {
 
-// A person in range, in the field of view and in sight.
-struct SeenPerson {
+// The measurement of a person or a face in range, in the field of view and in sight.
+struct Seen {
     PersonId person;
-    std::string ref;  // the temporary name, "person-3"
-    Pose pose;        // measured
-    Metres height;
+    std::string ref;  // the temporary name: "person-3", "face-3"
+    Pose pose;        // of a face: its heading
+    Metres height;    // of the person, or of the face above the floor
     Covariance covariance;
 };
-std::vector<SeenPerson> people_seen(Hall const&, RobotId);
-
-// A face in range, in the field of view and in sight that is turned to the robot.
-struct SeenFace {
-    PersonId person;
-    std::string ref;  // "face-3" for "person-3"
-    Pose pose;        // measured; the heading of the face
-    Metres height;    // of the face above the floor
-    Covariance covariance;
-};
-std::vector<SeenFace> faces_seen(Hall const&, RobotId);
+std::vector<Seen> people_seen(Hall const&, RobotId);
+std::vector<Seen> faces_seen(Hall const&, RobotId);  // faces that are turned to the robot
 
 // A person who is near enough and turned to the robot, so that the robot can identify them.
 struct RecognizedPerson {

@@ -1,4 +1,4 @@
-// Decides who enters the hall and when: the roles of the scenario, round after round, and random visitors.
+// Decides which visitors enter the hall, and when: the roles of the scenario, round after round, and random visitors.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Scenarios: who enters the hall and what they do there. Plain values; scenario_file.hpp reads them from a file.
+// Scenarios: the visitors of the hall and their actions. Plain values; scenario_file.hpp reads them from a file.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +26,9 @@ struct Walk {
     Whereabouts to;
 };
 struct Face {
-    Whereabouts whom;  // until the next walk, face or ignore
+    Whereabouts whom;  // the person looks at it until the next walk, face or ignore
 };
-struct Ignore {};  // from now on, does not look at robots or answer them
+struct Ignore {};  // from now on, the person neither looks at robots nor answers them
 struct Say {
     std::string language;  // ISO 639-1
     std::string text;
@@ -65,7 +65,7 @@ enum class Gender : std::uint8_t { not_known = 0, male = 1, female = 2, not_appl
 // One person of a scenario.
 struct Role {
     std::string id;        // permanent, "tanaka"
-    bool known = false;    // robots can identify the person by `id`
+    bool known = false;    // robots can identify the person
     std::string language;  // default of what they say, ISO 639-1
     Metres height = 1.68;
     MetresPerSecond speed = 1.1;

@@ -43,13 +43,13 @@ public:
     void step(VisitorSurroundings&);
 
 protected:
-    // Does the visitor's own actions of one step.
+    // Performs one step of the visitor's own actions.
     virtual void play(VisitorSurroundings&);
 
     Role const& role() const { return role_; }
     void say(std::string text, std::string language, VisitorSurroundings&);
     void make_gesture(std::string id, VisitorSurroundings&);
-    // Walks one step towards a target, or beside it if it is occupied. Returns `waiting` also if there is no room.
+    // Walks one step towards a target, or beside it if it is occupied. Also returns `waiting` if there is no room.
     Walker::Step go(Whereabouts const&, VisitorSurroundings&);
     // Stops walking, and turns to `heading` while no robot attends to the visitor.
     void stand(std::optional<Radians> heading);

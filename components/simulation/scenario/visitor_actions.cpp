@@ -91,7 +91,7 @@ Visitor::Doing Visitor::act(Ignore const&, VisitorSurroundings&) {
 
 Visitor::Doing Visitor::act(Say const& words, VisitorSurroundings& around) {
     if (action_fresh_) {
-        still_to_wait_ = 10;  // at most, for other speech to end
+        still_to_wait_ = 10;  // seconds to wait for other speech to end
         said_ = false;
     }
     if (said_) return person_.speaking ? Doing::still : Doing::done;
@@ -161,7 +161,7 @@ Point Visitor::somewhere(VisitorSurroundings const& around) {
     return person_.pose.position;
 }
 
-// Updates which robot approaches this visitor, and which one attends to them.
+// Updates approaching_ and talks_with_.
 void Visitor::mind_robots(VisitorSurroundings const& around) {
     approaching_.reset();
     talks_with_.reset();

@@ -28,7 +28,8 @@ public:
     // An empty text means `default`.
     static std::variant<Grammar, Flaw> read(std::string_view grammar, std::string_view rule);
 
-    // Returns the matching phrase as the grammar writes it, with `default` the speech itself. Nothing if no phrase matches.
+    // Returns the matching phrase as the grammar writes it, or, for `default`, the speech itself. Returns nothing if no phrase
+    // matches.
     std::optional<std::string> match(std::string_view speech) const;
 
 private:

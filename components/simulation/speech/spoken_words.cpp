@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "types/texts.hpp"
+#include "types/utf8.hpp"
 
 namespace rois::simulation {
 namespace {
@@ -17,13 +18,6 @@ constexpr std::array<std::string_view, 8> wide_punctuation{"\u3000", "\u3001", "
 bool is_narrow_punctuation(char c) { return std::string_view{".,!?:;\"'()-"}.find(c) != std::string_view::npos; }
 bool is_blank(char c) { return std::string_view{" \t\r\n"}.find(c) != std::string_view::npos; }
 
-// Returns the length in bytes of the first character.
-std::size_t character_length(std::string_view text) {
-    auto const first = static_cast<unsigned char>(text.front());
-    std::size_t const length = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-    return std::min(length, text.size());
-}
-
 // U+3040 (hiragana) to U+9FFF (last Han character of the basic plane).
 bool is_word_by_itself(std::string_view character) {
     return character.size() == 3 && character >= "\u3040" && character <= "\u9FFF";
@@ -32,7 +26,7 @@ bool is_word_by_itself(std::string_view character) {
 std::vector<std::string_view> characters_of(std::string_view text) {
     std::vector<std::string_view> characters;
     for (; !text.empty(); text.remove_prefix(characters.back().size()))
-        characters.push_back(text.substr(0, character_length(text)));
+        characters.push_back(text.substr(0, std::max<std::size_t>(first_character(text).length, 1)));
     return characters;
 }
 

@@ -1,4 +1,4 @@
-// Recognizes speech with a grammar: searches all matching ways through its rules and keeps the most likely.
+// Recognizes speech with a grammar: searches the matching ways through its rules and keeps the most likely ones.
 #include <algorithm>
 #include <map>
 #include <memory>

@@ -20,9 +20,9 @@ BadSsml bad(rois::Place place, std::string const& reason) {
 }
 
 // Walks through the document.
-class Reading {
+class SsmlWalk {
 public:
-    Reading(xml::Element const& root, std::string_view character) : root_namespace_{root.name_space()}, meaning_{character} {
+    SsmlWalk(xml::Element const& root, std::string_view character) : root_namespace_{root.name_space()}, meaning_{character} {
         element(root);
     }
 
@@ -76,7 +76,7 @@ std::variant<SpokenText, BadSsml> read_ssml(std::string_view document, std::stri
         auto const of = root.name_space().empty() ? "" : " of the namespace " + quoted(root.name_space());
         return bad(root.place(), "the root element is " + quoted(root.name()) + of + ", not SSML's 'speak'");
     }
-    return Reading{root, character}.outcome();
+    return SsmlWalk{root, character}.outcome();
 }
 
 }  // namespace rois::simulation

@@ -25,7 +25,7 @@ public:
     explicit SsmlMeaning(std::string_view character) : character_{&voice_character(character)} {}
 
     // Begins an element. `kind` is its local name, empty for elements of other namespaces. Returns the element's language if it
-    // is unsupported and the document is to be rejected for it.
+    // is unsupported and the document must be rejected for this reason.
     std::optional<std::string> begin(std::string_view kind, std::span<SsmlAttribute const>);
     void end();
 

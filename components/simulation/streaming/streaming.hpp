@@ -1,4 +1,4 @@
-// Base of the two streaming components (RoIS 2.0): connects, suspends and closes streams. Their media do not pass through RoIS
+// Base of the two streaming components (RoIS 2.0): connects, suspends and closes streams. Sound and pictures are not sent in RoIS
 // messages.
 #pragma once
 
@@ -45,8 +45,8 @@ protected:
     // Returns why the target of a transport is rejected for all encodings, or nothing.
     virtual std::optional<std::string> unreachable(MediaOffer const&) const { return {}; }
 
-    // Returns the stream's opening, or why the pair is unsupported. Both names are supported, and the transport's target is
-    // valid.
+    // Returns the stream's opening, or why the pair is unsupported. The caller has checked that both names are supported and that
+    // the transport's target is valid.
     virtual std::variant<Opening, std::string> opening(MediaOffer const& encoding, MediaOffer const& transport) const = 0;
 
     // Called after each step while a stream is connected.
@@ -79,7 +79,7 @@ private:
     std::vector<Stream> streams_;     // connected streams, oldest first
     std::deque<std::string> closed_;  // ids, the most recently closed first
     unsigned last_ = 0;
-    bool held_ = false;  // by `suspend`; also holds streams that connect later
+    bool held_ = false;  // set by `suspend`; streams that connect later are held, too
 };
 
 }  // namespace rois::simulation

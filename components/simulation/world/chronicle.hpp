@@ -1,4 +1,4 @@
-// The log of recent events in the hall. Several sensors read it, each at its own pace.
+// The log of recent events in the hall. Each sensor reads it at its own pace, by sequence number.
 #pragma once
 
 #include <cstdint>

@@ -7,7 +7,7 @@
 
 namespace rois::simulation {
 
-// One visit of one person: a serial number. A visitor who comes again gets a new one.
+// One visit of one person: a serial number. A visitor who comes again gets a new number.
 enum class PersonId : std::uint32_t {};
 
 // The index of a robot in the floor plan.

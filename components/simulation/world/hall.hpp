@@ -28,9 +28,9 @@ public:
     Hall(Hall const&) = delete;
     Hall& operator=(Hall const&) = delete;
 
-    WorldTime now() const;  // the end of the last step
+    WorldTime now() const;  // the world time at the end of the last step
     void step();
-    void advance(WorldTime until);  // all whole steps that end by then
+    void advance(WorldTime until);  // makes all whole steps that end by then
     std::uint64_t seed() const;
 
     FloorPlan const& plan() const;
@@ -68,7 +68,7 @@ public:
     // Reads a target: "x, y, th" or "x, y" in mm and degrees, or the name of a place. Nothing if it is invalid.
     std::optional<Target> target(std::string_view) const;
 
-    // Starts an utterance and breaks off the robot's previous one. It ends by itself, in world time.
+    // Starts an utterance and breaks off the robot's previous one. An utterance ends by itself, in world time.
     UtteranceId speak(RobotId, Utterance);
     SpeechState speech_state(RobotId, UtteranceId) const;
     void break_off(RobotId, UtteranceId);
@@ -80,7 +80,7 @@ public:
     void stop_showing(RobotId);
 
     // Steered visitors follow orders instead of a scenario. They enter when the entrance is free, and stay until they are ordered
-    // to leave. They do not change the random numbers of the scenario. An order that is impossible has the state `failed`.
+    // to leave. They do not affect the random numbers of the scenario. An impossible order gets the state `failed`.
     SharedOrderStatus let_in(Role);  // ignores the role's answers, actions and time of entry
     SharedOrderStatus steer(std::string_view visitor, Order);
     void stop_steering();  // steered visitors stand still, and waiting ones do not enter

@@ -38,7 +38,7 @@ struct Twist {
     RadiansPerSecond angular = 0;
 };
 
-Radians wrapped(Radians angle);  // into (-pi, pi]
+Radians wrapped(Radians angle);  // returns the same angle in (-pi, pi]
 Metres distance(Point const& a, Point const& b);
 Radians direction(Point const& from, Point const& to);  // in the hall's frame; 0 if the points are equal
 Radians bearing(Pose const& from, Point const& to);     // relative to the heading of `from`, in (-pi, pi]

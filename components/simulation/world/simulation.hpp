@@ -28,8 +28,8 @@ public:
     // `speed`: simulated seconds per real second. With 0, world time passes only by let_pass().
     Simulation(FloorPlan, Scenario, std::uint64_t seed, double speed);
 
-    // Makes the steps that are due. The first call starts the clock and makes the first step. With speed 0, makes at most one
-    // step of the time requested by let_pass().
+    // Makes the steps that are due. The first call starts the clock and makes the first step. With speed 0, makes at most one of
+    // the steps requested by let_pass().
     void advance(Instant now) override;
     bool goes_on() const override { return !time_ && hall_.now() < pass_until_; }
 
@@ -46,7 +46,7 @@ public:
     bool runs_by_itself() const { return time_.has_value(); }
     std::vector<Fault> const& faults() const { return faults_; }
 
-    void join(Observer&);  // they are notified in the order of these calls
+    void join(Observer&);  // observers are notified in the order of these calls
     void part(Observer&);  // not from within observe()
 
 private:

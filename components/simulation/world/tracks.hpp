@@ -1,4 +1,4 @@
-// The temporary names of people, and who has been identified.
+// The temporary names of people, and the people who have been identified.
 #pragma once
 
 #include <map>

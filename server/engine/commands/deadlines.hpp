@@ -11,11 +11,11 @@
 
 namespace rois {
 
-// Ordered by time; actions of the same time in the order in which they were added.
+// Carries the actions out in the order of their times; actions of the same time in the order in which they were added.
 class Deadlines {
 public:
     using Action = std::function<void(Instant now)>;
-    using Ticket = std::pair<Steady, std::uint64_t>;  // identifies an action; harmless once the action has ended
+    using Ticket = std::pair<Steady, std::uint64_t>;  // identifies an action; may be used after the action has ended
 
     Ticket add(Steady when, Action action) {
         Ticket const ticket{when, ++last_};

@@ -29,7 +29,7 @@ public:
         std::chrono::milliseconds delay;  // before the unit begins; the caller then calls `begin`
     };
 
-    // Begins the unit at this node (0: the whole sequence). It must not be a command: those the caller runs itself.
+    // Begins the unit at this node (0: the whole sequence). The unit must not be a command: the caller runs commands itself.
     std::vector<Turn> begin(std::size_t node);
 
     // Records that the command at this node has ended. Returns the next turns; `take_aborted` has the commands that cannot run

@@ -114,7 +114,7 @@ void Executor::give_turns(std::shared_ptr<Execution> const& execution, std::vect
     }
 }
 
-// Begins all units whose turn has come, and those whose turn comes thereby. A loop, not a recursion, because sequences can be
+// Begins all units whose turn has come, also those whose turn comes meanwhile. A loop, not a recursion, because sequences can be
 // long.
 void Executor::run_ready(Instant now) {
     if (std::exchange(running_ready_, true)) return;
@@ -174,7 +174,7 @@ void Executor::go_on_with_start(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
     if (command->state != Command::State::running) return;
     if (component.activity != RegisteredComponent::Activity::idle)
-        halt(component, CompletedStatus::abort, "another start took its place", now);
+        halt(component, CompletedStatus::abort, "another start replaced it", now);
     if (component.halting) return wait_for_halt(command, now);
     component.activity = RegisteredComponent::Activity::running;
     component.start = command;
@@ -204,7 +204,7 @@ void Executor::run_suspend(SharedCommand const& command, Instant now) {
     if (!component.works())
         return end(
             command, CompletedStatus::error,
-            component.suspended == Suspended::all ? "the component is suspended already" : "nothing runs that could be suspended",
+            component.suspended == Suspended::all ? "the component is suspended already" : "nothing is running",
             now);
     auto const called = component.call([&](Component& c) { c.suspend(now); });
     if (called == Called::ok) component.suspended = Suspended::all;
@@ -214,7 +214,7 @@ void Executor::run_suspend(SharedCommand const& command, Instant now) {
 void Executor::run_resume(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
     if (component.suspended == Suspended::nothing)
-        return end(command, CompletedStatus::error, "nothing is suspended that could be resumed", now);
+        return end(command, CompletedStatus::error, "nothing is suspended", now);
     auto const called = component.call([&](Component& c) { c.resume(now); });
     if (called == Called::ok)
         component.suspended = Suspended::nothing;

@@ -45,7 +45,7 @@ public:
     // Returns an id that is new to this session and not in `taken`.
     CommandId fresh_id(Session const&, std::set<CommandId> const& taken);
 
-    // Reports of components.
+    // Called when a component reports through its port.
     void started(CommandHandle);
     void completed(CommandEnded&, Instant now);
     void halted(RegisteredComponent&, Instant now);
@@ -67,13 +67,13 @@ public:
     // Ends all commands of the session with ABORT. Does not halt components.
     void abort_all(Session&, Instant now);
 
-    // Lets the session's commands run on without a session: their notifications go nowhere.
+    // Lets the commands of an ending session continue. Their notifications are dropped.
     void detach_commands(Session&);
 
     // Halts every component, and ends all waiting and running commands of all sessions.
     void stop_all(std::string_view reason, Instant now);
 
-    // Removes the results that have expired: of the session, or of all.
+    // Removes expired results: of the session, or of all sessions.
     void forget_old_results(Session&, Instant now);
     void forget_old_results(Instant now);
 
@@ -83,7 +83,7 @@ public:
     // Keeps only the results of the session's last `most` commands.
     void keep_results(Session&, std::size_t most);
 
-    // Removes the session from the search for expired results.
+    // Call when the session ends: forget_old_results() no longer looks at its results.
     void forget(Session&);
 
     std::array<std::uint64_t, 5> const& completed_by_status() const { return completed_by_status_; }

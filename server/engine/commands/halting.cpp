@@ -27,7 +27,7 @@ void Executor::halt(RegisteredComponent& component, CompletedStatus status_of_st
     attempts.rethrow();
 }
 
-// For a component that failed to begin an action, and may move nevertheless.
+// For a component that failed to begin an action but may move.
 void Executor::halt_if_it_moves(RegisteredComponent& component, Instant now) {
     if (component.moves()) halt(component, CompletedStatus::abort, "the component failed", now);
 }
@@ -45,7 +45,7 @@ void Executor::ask_to_halt(RegisteredComponent& component, Instant now) {
 }
 
 void Executor::await_confirmation(RegisteredComponent& component, Instant now) {
-    needs_repair_ = true;  // in case this fails
+    needs_repair_ = true;  // if a later step throws, the next tick repairs
     component.halting->due =
         deadlines_.add(now.steady + time_to_confirm, [this, weak = component.weak_from_this()](Instant then) {
             auto const late = weak.lock();
@@ -57,7 +57,7 @@ void Executor::await_confirmation(RegisteredComponent& component, Instant now) {
         });
 }
 
-// Only a confirmed halt ends this state.
+// Only a confirmed halt ends the state `failed`.
 void Executor::halt_failed(RegisteredComponent& component, CompletedStatus status, std::string_view reason, Instant now) {
     if (!component.halting) component.halting.emplace();
     bool const first = !std::exchange(component.halting->failed, true);
@@ -71,7 +71,7 @@ void Executor::halt_failed(RegisteredComponent& component, CompletedStatus statu
 void Executor::halt_again_later(RegisteredComponent& component, Instant now) {
     auto& due = component.halting->due;
     deadlines_.cancel(std::exchange(due, {}));
-    needs_repair_ = true;  // in case this fails
+    needs_repair_ = true;  // if a later step throws, the next tick repairs
     due = deadlines_.add(now.steady + between_attempts, [this, weak = component.weak_from_this()](Instant then) {
         auto const failed = weak.lock();
         if (!failed || !failed->halting) return;

@@ -13,8 +13,8 @@ namespace rois {
 // How an application is linked to its session (decision 2): by a WebSocket, or by an event stream or a pending long poll.
 enum class Link : std::uint8_t { websocket, stream };
 
-// How a link ended. `answered`: a long poll was answered, which counts as a request. `lost`: the application closed the link, or
-// the link broke.
+// How a link ended. `answered`: a long poll was answered, which counts as a request of the application. `lost`: the application
+// closed the link, or the link broke.
 enum class Closing : std::uint8_t { answered, lost };
 
 class MotionLease {
@@ -49,8 +49,8 @@ public:
 
     std::size_t links() const { return websockets_ + streams_; }
 
-    // The time at which motion is held if no sign of life comes before. An open stream is a permanent sign of life, because the
-    // system detects when the peer is gone, unless the session asked that only its requests count.
+    // The time at which the engine holds the motion, unless it receives a sign of life before. An open stream is a permanent sign
+    // of life, because the system detects when the peer is gone; not if the session asked that only its requests count.
     Steady end() const {
         if (streams_ > 0 && terms_.links_count) return Steady::max();
         if (links() > 0) return last_sign_of_life_ + terms_.linked;
@@ -58,7 +58,7 @@ public:
     }
 
 private:
-    // The time for a new link or a request after the last link is lost.
+    // How long an application has to open a new link, or send a request, after its last link is lost.
     static constexpr std::chrono::milliseconds for_a_successor{250};
 
     std::size_t& count(Link link) { return link == Link::websocket ? websockets_ : streams_; }

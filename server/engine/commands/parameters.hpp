@@ -26,7 +26,7 @@ class TypedProfiles {
 public:
     explicit TypedProfiles(std::vector<ParameterProfile> const&);  // which must outlive this
 
-    // As the function above.
+    // The same as the function above.
     std::optional<std::string> why_not(ParameterList const&) const;
 
 private:
@@ -35,7 +35,7 @@ private:
 };
 
 // Returns the parameters with the profiles' names and type codes, times in UTC, and the profile's codebook for identifiers
-// without one (decision 31). `list` must be valid.
+// without one (decision 31). `list` must have passed why_not().
 ParameterList normalized(std::vector<ParameterProfile> const&, ParameterList const& list);
 
 // Returns which argument without a default value is missing, or nullopt.

@@ -22,8 +22,8 @@ public:
     // components, then the lowest code within its engine, then the lowest engine name.
     void order(std::vector<RegisteredComponent*>&) const;
 
-    // In a list that the condition has sorted, moves components of engines of which the asker has bound more to the front. The
-    // sort is stable.
+    // In a list that the condition has sorted, moves the components to the front whose engine has more components bound by the
+    // asker. The order is otherwise kept.
     template <class List, class Projection = std::identity>
     void bring_forward(List& list, Projection component = {}) const {
         if (bound_.empty()) return;

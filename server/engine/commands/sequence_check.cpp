@@ -132,7 +132,7 @@ std::optional<Objection> SequenceCheck::values(CommandMessage const& message, Re
 std::optional<Objection> SequenceCheck::id(CommandId const& id) {
     if (id.text.empty()) return {};
     if (session_.commands.contains(id)) return bad_parameter("the command_id " + quoted(id.text) + " is in use in this session");
-    if (!ids_.insert(id).second) return bad_parameter("the command_id " + quoted(id.text) + " is there twice");
+    if (!ids_.insert(id).second) return bad_parameter("the command_id " + quoted(id.text) + " is given twice");
     return {};
 }
 

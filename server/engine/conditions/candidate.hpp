@@ -1,4 +1,5 @@
-// The objects that a condition is matched against: a component, an event of a component, or results.
+// Candidates: the objects that a condition is matched against. A candidate is a component, an event of a component, or a list of
+// results.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,7 @@
 
 namespace rois {
 
-// How well a candidate meets a condition. `maybe`: the value that decides is not known yet, or may change.
+// The result of matching a candidate against a condition. `maybe`: the deciding value is not known yet, or may change.
 enum class Match : std::uint8_t { no, maybe, yes };
 
 using Texts = std::vector<std::string>;
@@ -21,17 +22,17 @@ using Positions = std::vector<Geometry>;
 
 class Candidate;
 
-// Which session has bound a component, as seen by the session that asks. Ordered from the easiest to bind to the hardest.
+// The session that has bound a component, seen from the session that asks (the asker). Ordered from the easiest to bind to the
+// hardest.
 enum class Holder : std::uint8_t { asker, nobody, another_session };
 
-// The verdict of a group condition about one robot.
+// The result of a group condition for one robot.
 struct GroupVerdict {
     Match match = Match::no;
-    // How the asker gets the group's components from this robot. Set if the robot matches.
+    // The group's components of this robot, by holder. Set if the robot matches.
     std::size_t bound = 0;                  // components that the asker has bound
     std::vector<Candidate const*> to_bind;  // free components that the asker lacks
-    Candidate const* held =
-        nullptr;  // a component that the asker lacks and that only other sessions have bound; null if there is none
+    Candidate const* held = nullptr;        // a component of the group that only other sessions have bound; null if there is none
 };
 
 class Candidate {
@@ -45,16 +46,17 @@ public:
     // Returns whether the candidate has this property, with or without a value.
     virtual bool has(Reference const&) const = 0;
 
-    // The name that ResourceId refers to; empty if the candidate has no name.
+    // The name that a ResourceId condition compares; empty if the candidate has no name.
     virtual std::string_view rid() const = 0;
 
     // All components of the candidate's robot (its engine); empty if it belongs to none.
     virtual std::vector<Candidate const*> robot() const = 0;
 
-    // Where the verdict of a group condition about the candidate's robot is cached. Null if it belongs to no robot.
+    // The cache for the result of a group condition about the candidate's robot. Null if the candidate does not belong to a
+    // robot.
     virtual std::optional<GroupVerdict>* verdict(void const* group) const = 0;
 
-    // Only components can be bound.
+    // Candidates that are not components cannot be bound.
     virtual Holder holder() const { return Holder::nobody; }
 };
 
@@ -76,7 +78,7 @@ private:
     Results const& results_;
 };
 
-// Results without a component. `id` is the id that the application asked with.
+// Results without a component. `id` is the id in the application's request.
 class ResultsCandidate final : public Candidate {
 public:
     ResultsCandidate(Results const& results, std::string_view id) : results_{results}, id_{id} {}

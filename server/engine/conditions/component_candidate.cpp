@@ -12,9 +12,9 @@ namespace rois {
 using To = Reference::To;
 using Part = Reference::Part;
 
-// A component alone has no results: they are open until an event, or an answer to a query, brings them. In Perspective::Of::ever
-// its status, binding, position and parameters are open, too. A parameter that it does not have, or a result that no message of
-// it has, stays absent.
+// "Open" values are not known yet. The results of a component are open until it sends an event or answers a query. In
+// Perspective::Of::ever its status, binding, position and parameters are open, too. Parameters and results that are not in the
+// component's profile are never open: they are absent.
 bool ComponentCandidate::is_open(Reference const& reference) const {
     if (perspective_.of() == Perspective::Of::present)
         return reference.to == To::located || (reference.to == To::result && has(reference));
@@ -107,7 +107,7 @@ Texts ComponentCandidate::identifier_texts(Part part) const {
     return text.empty() ? Texts{} : Texts{text};
 }
 
-// As a text, a position is the names of the places that contain it.
+// The text form of a position is the names of the places that contain it.
 Texts ComponentCandidate::location_texts(Part part) const {
     if (!location()) return {};
     if (part == Part::ref) return {location()->ref};

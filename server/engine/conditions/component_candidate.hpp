@@ -10,7 +10,7 @@ namespace rois {
 class Perspective;
 class RegisteredComponent;
 
-// Reads from the component only the values that a condition needs, each at most once.
+// Reads values from the component when a condition needs them, and each value only once.
 class ComponentCandidate final : public Candidate {
 public:
     ComponentCandidate(RegisteredComponent const& component, Perspective& perspective)

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "engine/commands/preference.hpp"
-#include "engine/conditions/entries.hpp"
+#include "engine/conditions/filter.hpp"
 #include "engine/core.hpp"
 
 namespace rois {

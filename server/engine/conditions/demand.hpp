@@ -1,4 +1,4 @@
-// The part of a condition that the component index can look up.
+// The part of a condition that the component index can look up: refs and types of components.
 #pragma once
 
 #include <algorithm>
@@ -7,13 +7,13 @@
 
 namespace rois {
 
-// Only components with one of these refs or types can meet the condition. Types are spelled as in RegisteredComponent::type_key.
+// Only components with one of these refs or types can meet the condition. Types have the form of RegisteredComponent::type_key.
 // The texts belong to the condition.
 struct Demand {
     std::vector<std::string_view> refs;
     std::vector<std::string_view> types;
 
-    // Adds the components that meet `other`.
+    // Adds the refs and types of `other`.
     void widen(Demand const& other) {
         refs.insert(refs.end(), other.refs.begin(), other.refs.end());
         types.insert(types.end(), other.types.begin(), other.types.end());

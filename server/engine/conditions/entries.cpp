@@ -1,4 +1,4 @@
-#include "engine/conditions/entries.hpp"
+#include "engine/conditions/filter.hpp"
 
 #include <algorithm>
 #include <map>
@@ -90,7 +90,8 @@ bool is_about(Reference const& reference, Parameter const& parameter, std::vecto
     return std::ranges::any_of(located, [&](Located const& each) { return equal_ignoring_case(each.of, parameter.name); });
 }
 
-// Results in which the parallel lists have one entry only. An index in a reference, "person_ref[2]", is that of the entry.
+// Results in which each parallel list is reduced to one entry. An index in a reference, such as "person_ref[2]", still counts in
+// the whole list.
 class EntryCandidate final : public Candidate {
 public:
     EntryCandidate(Results const& row, std::string_view id, Table const& table) : row_{row}, whole_{row, id}, table_{table} {}

@@ -14,6 +14,7 @@
 #include "engine/conditions/demand.hpp"
 #include "engine/conditions/vocabulary.hpp"
 #include "types/condition.hpp"
+#include "types/values.hpp"
 
 namespace rois {
 
@@ -23,13 +24,13 @@ class SortKey;
 // A compiled condition without SortBy.
 class Filter {
 public:
-    Filter();  // restricts nothing
+    Filter();  // matches every candidate
     ~Filter();
     Filter(Filter&&) noexcept;
     Filter& operator=(Filter&&) noexcept;
 
-    // Returns the filter, or why the condition is invalid: it names the part that is not supported or unknown to the vocabulary.
-    // Rejects SortBy, which only a Selection supports.
+    // Returns the filter, or why the condition is invalid. The reason names the part that is not supported, or the name that is
+    // not in the vocabulary. Rejects SortBy, which only a Selection supports.
     static std::variant<Filter, std::string> compile(QueryExpression const&, Vocabulary const&);
 
     Match match(Candidate const&) const;
@@ -53,14 +54,15 @@ public:
     // The references to results, in the order in which the condition has them.
     std::vector<Reference> const& results() const { return results_; }
 
-    // Returns whether the result of a match may depend on the session that asks (`status` and parameters do, decisions 7 and 30).
+    // Returns whether the result of a match may depend on the session that asks. The status and parameters of components do
+    // (decisions 7 and 30).
     bool depends_on_asker() const { return depends_on_asker_; }
 
 private:
     friend class Selection;
     static std::variant<Filter, std::string> compile(std::optional<Condition> const&, Vocabulary const&);
 
-    std::unique_ptr<Predicate const> predicate_;  // null: restricts nothing
+    std::unique_ptr<Predicate const> predicate_;  // null: matches every candidate
     std::size_t predicates_ = 0;
     std::size_t text_bytes_ = 0;
     std::vector<Reference> results_;
@@ -90,5 +92,12 @@ private:
     Filter filter_;
     std::vector<std::unique_ptr<SortKey const>> keys_;
 };
+
+// Removes the results that the filter does not match (decision 19). `id` is the id in the request for the results.
+//
+// Lists of the same length are parallel: `person_ref`, `position_data` and the `located` elements of both. If the filter refers
+// to such lists, it is matched against each entry as a whole row, with the scalar results beside it. Keeps the entries that
+// match, all scalars, and the lists of other lengths. If the filter refers to no list, keeps all results or none.
+void keep_matching(Results&, Filter const&, std::string_view id);
 
 }  // namespace rois

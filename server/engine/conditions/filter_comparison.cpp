@@ -15,7 +15,7 @@ namespace {
 
 enum class Case : std::uint8_t { matched, ignored };
 
-// A value, parsed as each kind that it may be compared as.
+// A value, parsed in advance as each kind of value that it can be compared as.
 struct Comparable {
     std::string text;
     std::optional<double> number;
@@ -23,8 +23,8 @@ struct Comparable {
 };
 using Comparables = std::vector<Comparable>;
 
-// How the values of one comparison are compared.
-struct Manner {
+// The settings of one comparison: kind of value, case.
+struct Comparing {
     ValueKind kind = ValueKind::any;
     Case letters = Case::matched;
 
@@ -42,7 +42,7 @@ struct Manner {
         return value;
     }
 
-    // Unordered if a value is not of the kind.
+    // Unordered if one of the values cannot be read as this kind.
     std::partial_ordering compare(Comparable const& a, Comparable const& b) const {
         if (a.number && b.number) return *a.number <=> *b.number;
         if (a.time && b.time) return *a.time <=> *b.time;
@@ -60,7 +60,7 @@ struct Known {
 // One side of a comparison.
 class Side {
 public:
-    // Reads the expression. If it cannot be compared, the compiler has a problem.
+    // Reads the expression. Sets the compiler's problem if the expression cannot be compared.
     void read(FilterCompiler& compiler, Expression const& expression) {
         if (auto const* reference = std::get_if<ValueReference>(&expression.value)) {
             if (auto resolved = compiler.resolve(reference->path)) what_ = std::move(*resolved);
@@ -103,14 +103,14 @@ public:
     }
 
     // Parses a literal once, as the kind that it is compared as.
-    void settle(Manner const& manner) {
+    void settle(Comparing const& manner) {
         auto const* text = literal();
         bool const as_it_is = manner.kind == ValueKind::text && manner.letters == Case::matched;
         if (text != nullptr && !as_it_is) std::get<Known>(what_).value = manner.read(*text);
     }
 
     // The values to compare; nullopt if they are not known yet. Values of the candidate are stored in `storage`.
-    std::optional<std::span<Comparable const>> values(Candidate const& candidate, Manner const& manner,
+    std::optional<std::span<Comparable const>> values(Candidate const& candidate, Comparing const& manner,
                                                       Comparables& storage) const {
         if (auto const* known = std::get_if<Known>(&what_)) return std::span{&known->value, 1};
         if (auto const* reference = std::get_if<Reference>(&what_)) {
@@ -186,10 +186,10 @@ std::string name_of(ValueKind kind) {
     return kind == ValueKind::time ? "time" : "true or false";
 }
 
-// Prepares the sides of a comparison. If they cannot be compared, the compiler has a problem.
-Manner settle(FilterCompiler& compiler, std::span<Side> sides, std::initializer_list<Expression const*> expressions,
-              Case letters) {
-    Manner manner;
+// Prepares the sides of a comparison. Sets the compiler's problem if they cannot be compared.
+Comparing settle(FilterCompiler& compiler, std::span<Side> sides, std::initializer_list<Expression const*> expressions,
+                 Case letters) {
+    Comparing manner;
     auto side = sides.begin();
     for (auto const* expression : expressions) (side++)->read(compiler, *expression);
     if (compiler.problem()) return manner;
@@ -222,7 +222,7 @@ bool holds(Comparator comparator, std::partial_ordering order) {
     return order <= 0;
 }
 
-// "greater" is stored as "less" with the sides exchanged.
+// Greater-than is stored as less-than with exchanged sides.
 class Comparison final : public Predicate {
 public:
     Comparison(FilterCompiler& compiler, PropertyComparison const& comparison)
@@ -271,7 +271,7 @@ public:
     bool speaks_of_main_engine(std::string_view name) const {
         auto const* literal = literal_beside(&Side::is_engine);
         if (literal == nullptr || name.empty()) return false;
-        auto const manner = Manner{.kind = ValueKind::text, .letters = manner_.letters};
+        auto const manner = Comparing{.kind = ValueKind::text, .letters = manner_.letters};
         return literal->empty() || manner.read(*literal).text == manner.read(name).text;
     }
 
@@ -282,7 +282,7 @@ public:
     }
 
 private:
-    // The literal on the other side of such a reference; null if there is none.
+    // The literal that is compared with a reference of this kind; null if there is none.
     std::string const* literal_beside(bool (Side::*is_such)() const) const {
         if ((sides_[0].*is_such)()) return sides_[1].literal();
         return (sides_[1].*is_such)() ? sides_[0].literal() : nullptr;
@@ -291,7 +291,7 @@ private:
     Comparator comparator_;
     MatchAction action_;
     std::array<Side, 2> sides_;
-    Manner manner_;
+    Comparing manner_;
     std::string const* named_ = nullptr;  // ref of the only component that can match, or null
     std::string const* type_ = nullptr;   // type of the only components that can match, or null
 };
@@ -326,7 +326,7 @@ public:
 
 private:
     std::array<Side, 3> sides_;
-    Manner manner_;
+    Comparing manner_;
 };
 
 }  // namespace

@@ -14,10 +14,10 @@ namespace {
 
 std::string names_of(Places const& places) {
     auto const names = listed(places.all, [](auto const& place) { return quoted(place.name); });
-    return names.empty() ? "none are" : names;
+    return names.empty() ? "(none)" : names;
 }
 
-// "1 2" as "1,2".
+// Returns "1,2" for "1 2".
 std::string with_commas(std::string_view text) {
     std::string commas;
     for (; !text.empty(); text = trimmed(text)) {
@@ -135,7 +135,7 @@ std::optional<SpatialOperand> FilterCompiler::spatial_operand(Expression const& 
             return refuse("the condition has a " + *problem);
         if (here.crs.empty()) here.crs = frames.own();
         if (!frames.own().empty() && !frames.know(here.crs))
-            return refuse("the condition has the frame " + quoted(here.crs, 200) + ", which is not known here; known are " +
+            return refuse("the condition has the frame " + quoted(here.crs, 200) + ", which is not known here; expected one of " +
                           listed(frames.names()));
         if (auto moved = frames.moved(here, frames.own())) return std::move(*moved);
         return here;
@@ -154,7 +154,7 @@ std::optional<SpatialOperand> FilterCompiler::spatial_operand(Expression const& 
     if (auto read = point(text, places.frames.own())) return std::move(*read);
     if (point(with_commas(text), {}))
         return refuse("the condition has the position " + quoted(text) + ", which has no commas; write 'x, y' or 'x, y, th'");
-    return refuse("the condition has the place " + quoted(text) + ", which is not known here; known are " + names_of(places));
+    return refuse("the condition has the place " + quoted(text) + ", which is not known here; expected one of " + names_of(places));
 }
 
 std::optional<Distance> FilterCompiler::distance(Function const& function) {
@@ -166,7 +166,7 @@ std::optional<Distance> FilterCompiler::distance(Function const& function) {
     return Distance{std::move(both->first), std::move(both->second), &vocabulary_.places->frames};
 }
 
-// Two boxes must be in the same frame: a box that is turned into another frame is not a box there.
+// Two boxes must be in the same frame: a box of one frame is not a box in a turned frame.
 std::optional<std::pair<SpatialOperand, SpatialOperand>> FilterCompiler::related(Expression const& one, Expression const& other) {
     auto first = spatial_operand(one);
     auto second = first ? spatial_operand(other) : std::nullopt;

@@ -21,7 +21,7 @@ class Predicate {
 public:
     virtual ~Predicate() = default;
     virtual Match match(Candidate const&) const = 0;
-    // A text that is the same for equivalent predicates.
+    // Returns the same text for equivalent predicates.
     virtual std::string canonical() const = 0;
     virtual bool met_by_everything() const { return false; }
     // Returns the components that can match, also with `maybe`; nullopt if any component can. The texts belong to the predicate.
@@ -55,7 +55,7 @@ struct Distance {
     std::string canonical() const;
 };
 
-// Lists that make more pairs than this are not compared: they never match.
+// Two lists that form more pairs than this are not compared, and do not match.
 inline constexpr std::size_t most_pairs = 100'000;
 template <class One, class Other>
 bool make_too_many_pairs(One const& one, Other const& other) {
@@ -72,7 +72,7 @@ public:
 
     PredicatePtr compile(Condition const&);
 
-    // Returns nullopt, and sets `problem`, if the path is invalid; likewise below.
+    // Returns nullopt, and sets `problem`, if the path is invalid. The functions below do the same.
     std::optional<Reference> resolve(std::string_view path);
     std::optional<SpatialOperand> spatial_operand(Expression const&);
     std::optional<Distance> distance(Function const&);
@@ -80,7 +80,7 @@ public:
     // The two operands of a spatial relation.
     std::optional<std::pair<SpatialOperand, SpatialOperand>> related(Expression const&, Expression const&);
 
-    // Sets `problem`, unless it is set already.
+    // Sets `problem` if it is the first one.
     std::nullopt_t refuse(std::string reason);
 
     std::optional<std::string> const& problem() const { return problem_; }

@@ -35,8 +35,8 @@ bool is_of(std::string_view type, Candidate const& component, std::string_view m
     return is_robot(type, text_of(component, Reference::To::engine), text_of(component, Reference::To::robot_id));
 }
 
-// A component, as a group condition sees it: one that the asker has bound does not count as bound. Otherwise the asker could
-// never bind a second component of the group, because the first would have to be free.
+// A component for a group condition. A component that the asker has bound counts as free: otherwise the asker could not bind a
+// second component of a group whose condition requires free components.
 class ForAsker final : public Candidate {
 public:
     explicit ForAsker(Candidate const& component) : component_{component} {}
@@ -58,8 +58,8 @@ private:
     Candidate const& component_;
 };
 
-// A robot, as the filter of its group sees it. A reference has the values of all components of the group's types; with an alias,
-// of those of one type.
+// A robot for the filter of its group. A reference has the values of all components of the group's types; with an alias, only of
+// the components of that type.
 class Robot final : public Candidate {
 public:
     Robot(Members const& all, std::vector<std::string> const& types, std::string_view main_engine) {
@@ -113,7 +113,7 @@ private:
     Members members_;
 };
 
-// The type of a unr:ComponentCondition. Matches the component alone, whatever its robot has.
+// The type of a unr:ComponentCondition. Matches a component by its own type, not by the other components of its robot.
 class OfType final : public Predicate {
 public:
     OfType(std::string type, std::string_view main_engine) : type_{std::move(type)}, main_engine_{main_engine} {}
@@ -185,7 +185,8 @@ private:
         return verdict;
     }
 
-    // Adds the easiest component to bind among those that `is_meant` accepts: one type, or one member, of the group.
+    // Adds the component that is easiest to bind, among the components that `is_meant` accepts (one type or one member of the
+    // group).
     template <class IsMeant>
     static void add(GroupVerdict& verdict, Members const& all, IsMeant const& is_meant) {
         Candidate const* found = nullptr;

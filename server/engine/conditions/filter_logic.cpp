@@ -11,7 +11,7 @@ namespace {
 
 using Predicates = std::vector<PredicatePtr>;
 
-// The operands' canonical texts, sorted and without duplicates. A single operand stands for itself.
+// The operands' canonical texts, sorted and without duplicates. A single operand is returned unchanged.
 std::string joined(char name, Predicates const& operands) {
     std::set<std::string> meanings;
     for (auto const& operand : operands) meanings.insert(operand->canonical());
@@ -34,7 +34,7 @@ public:
     }
     bool met_by_everything() const override { return operands_.empty(); }
     std::string canonical() const override { return joined('&', operands_); }
-    // The demand of one operand is enough. Prefers refs to types: a type has many components.
+    // Returns the demand of one operand, since all operands must match. Prefers refs to types: a type has many components.
     std::optional<Demand> demand() const override {
         std::optional<Demand> narrowest;
         for (auto const& operand : operands_)
@@ -93,7 +93,7 @@ private:
     PredicatePtr operand_;
 };
 
-// And or Or with one operand stands for that operand, except And around a group: that is a unr:ComponentCondition.
+// Replaces an And or Or that has one operand by that operand. Exception: an And around a group is a unr:ComponentCondition.
 Condition const* innermost(Condition const* condition) {
     auto const* all = std::get_if<And>(&condition->predicate);
     auto const* any = std::get_if<Or>(&condition->predicate);
@@ -123,7 +123,7 @@ public:
         }
     }
 
-    // An operand that everything matches is redundant in And, and decides Or.
+    // An operand that always matches is redundant in And, and makes Or always match.
     template <class Made>
     PredicatePtr made() && {
         if (std::is_same_v<Operator, Or> && decided_) return std::make_unique<All>(Predicates{});
@@ -133,7 +133,7 @@ public:
 private:
     FilterCompiler& compiler_;
     Predicates operands_;
-    bool decided_ = false;  // everything matches one of the operands
+    bool decided_ = false;  // one of the operands always matches
 };
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include "engine/conditions/filter_compiler.hpp"
 #include "engine/frames/space.hpp"
-#include "types/length_units.hpp"
+#include "types/condition.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
@@ -31,8 +31,8 @@ std::string name_of(Relation const& relation) {
     return std::string{names.at(static_cast<std::size_t>(std::get<SpatialRelation>(relation)))};
 }
 
-// Matches if one of several positions meets the relation; if denied, if none does (Disjoint denies Intersects, Beyond denies
-// DWithin). Positions without a common frame never match.
+// Matches if one of several positions meets the relation; if denied, matches if none does (Disjoint denies Intersects, Beyond
+// denies DWithin). Positions without a common frame never match.
 class Spatial final : public Predicate {
 public:
     enum class Sense : std::uint8_t { affirmed, denied };
@@ -104,7 +104,7 @@ PredicatePtr FilterCompiler::operator()(SpatialComparison const& comparison) {
 PredicatePtr FilterCompiler::operator()(DistanceComparison const& comparison) {
     auto const unit = millimetres_in(comparison.uom);
     if (!unit) {
-        refuse("the condition has the unit " + quoted(comparison.uom) + ", which is not known here; known are mm, cm, m, km");
+        refuse("the condition has the unit " + quoted(comparison.uom) + ", which is not known here; expected one of mm, cm, m, km");
         return nullptr;
     }
     if (!(comparison.distance >= 0)) {

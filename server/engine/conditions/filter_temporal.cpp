@@ -39,7 +39,7 @@ private:
     std::variant<Period, Reference> when_;
 };
 
-// The relation to store with exchanged operands, such as "after" for "before".
+// Returns the relation that is stored instead, with exchanged operands; nullopt if the relation is stored itself.
 std::optional<TemporalRelation> converse(TemporalRelation relation) {
     switch (relation) {
         case TemporalRelation::before:

@@ -38,7 +38,7 @@ private:
     Case letters_;
 };
 
-// Which missing values match.
+// Whether a candidate without a value matches.
 enum class Without : std::uint8_t {
     any,          // all of them
     missing,      // the candidate has the property, but no value of it
@@ -85,7 +85,7 @@ private:
     std::string rid_;
 };
 
-// For the nilReasons of GML that are valid, but never apply here.
+// For nilReasons that GML defines but that no value of the engine has.
 class Never final : public Predicate {
 public:
     Match match(Candidate const&) const override { return Match::no; }
@@ -142,7 +142,7 @@ PredicatePtr FilterCompiler::operator()(PropertyIsNil const& nil) {
     if (reason == "inapplicable") return std::make_unique<Null>(std::move(*resolved), Without::inapplicable);
     if (reason == "unknown" || reason == "withheld" || reason == "template") return std::make_unique<Never>();
     refuse("the condition has the nilReason " + quoted(reason) +
-           ", which is not known here; known are missing, inapplicable, unknown, withheld, template");
+           ", which is not known here; expected one of missing, inapplicable, unknown, withheld, template");
     return nullptr;
 }
 

@@ -11,8 +11,8 @@
 
 namespace rois {
 
-// Matching takes time in proportion to the text's length, whatever the pattern: it follows all ways to match at once, one bit
-// each.
+// Matching takes time in proportion to the text's length, whatever the pattern: it tries all ways to match at the same time. Each
+// way is one bit.
 class LikePattern {
 public:
     static constexpr std::size_t longest = 1'000;  // characters of a pattern
@@ -24,13 +24,13 @@ public:
     // Matches the whole text, in UTF-8.
     bool matches(std::string_view text) const;
 
-    // A text that is the same for equivalent patterns.
+    // Returns the same text for equivalent patterns.
     std::string canonical() const;
 
 private:
     using Bits = std::vector<std::uint64_t>;
 
-    // The elements that match only this character. `bits` holds those of the word `word` in Bits.
+    // The elements that match only this character, as `bits` in the word `word` of Bits.
     struct Taker {
         char32_t character;
         std::uint32_t word;

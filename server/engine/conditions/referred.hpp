@@ -6,8 +6,8 @@
 
 namespace rois {
 
-// A parameter or result whose values are longer in total counts as missing. Otherwise a session could make the engine read
-// megabytes for each predicate of a condition.
+// A parameter or result whose values are longer in total counts as missing. Without this limit, a session could make the engine
+// read megabytes for each predicate of a condition.
 inline constexpr std::size_t longest_value = 64 * 1024;  // bytes
 
 bool speaks_of_results(Reference const&);

@@ -15,9 +15,9 @@ bool may_be_in_a_name(char c) {
     return letter || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
 }
 
-class Reader {
+class PathParser {
 public:
-    explicit Reader(std::string_view text) : rest_{text} {}
+    explicit PathParser(std::string_view text) : rest_{text} {}
 
     bool at_end() const { return rest_.empty(); }
 
@@ -89,7 +89,7 @@ private:
 }  // namespace
 
 std::optional<ValuePath> ValuePath::parse(std::string_view text) {
-    Reader reader{trimmed(text)};
+    PathParser reader{trimmed(text)};
     ValuePath path;
     do {
         if (reader.take('@')) {

@@ -26,7 +26,7 @@ struct ValuePath {
     std::vector<PathStep> steps;  // at least one
     std::string_view attribute;   // after "@"; empty if absent
 
-    // Returns nullopt if the text is not such a path: for example absolute, or with other axes, functions or predicates.
+    // Returns nullopt for any other text, such as an absolute path, or one with other axes, functions or predicates.
     static std::optional<ValuePath> parse(std::string_view);
 };
 

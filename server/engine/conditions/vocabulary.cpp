@@ -23,7 +23,7 @@ struct Word {
     ValueKind kind;
 };
 
-// Properties of components. The last two are other names, from the published examples.
+// The properties of components. The last two are alternative names, which the published examples use.
 constexpr std::array<Word, 9> words{{{"component_ref", To::component_ref, ValueKind::text},
                                      {"component_type", To::component_type, ValueKind::name},
                                      {"name", To::component_ref, ValueKind::text},
@@ -156,7 +156,7 @@ std::optional<Reference> word(Vocabulary const& vocabulary, std::string_view nam
     return Reference{.to = found->to, .name = {}, .entity = {}, .kind = found->kind};
 }
 
-// One step, or two of which the first is the kind of the second.
+// Resolves one step ("volume"), or two steps of which the first is the kind ("Parameter/volume").
 std::optional<Reference> named(Vocabulary const& vocabulary, std::span<PathStep const> steps) {
     auto const& first = steps.front();
     auto const& last = steps.back();
@@ -192,7 +192,7 @@ std::variant<Reference, std::string> Vocabulary::resolve(std::string_view writte
     bool const aliased = steps.size() > 1 && alias != aliases.end();
     if (aliased) steps = steps.subspan(1);
     auto reference = named(*this, steps);
-    if (!reference) return "the condition refers to " + quoted(written) + ", which is not known here; known are " + known();
+    if (!reference) return "the condition refers to " + quoted(written) + ", which is not known here; expected one of " + known();
     if (aliased) reference->alias = static_cast<std::size_t>(alias - aliases.begin());
     bool const by_name =
         steps.size() == 1 && (reference->to == To::parameter || reference->to == To::result) && name_in(steps.front());

@@ -14,7 +14,7 @@
 
 namespace rois {
 
-// How values are compared. `any`: by the type that both values look like. `name`: as texts, without regard to case.
+// The type by which values are compared. `any`: the type that both texts can be read as. `name`: text, without regard to case.
 enum class ValueKind : std::uint8_t { any, number, time, boolean, text, name };
 
 // Returns the text folded for comparison without regard to case.
@@ -48,7 +48,7 @@ struct Reference {
     std::size_t alias = no_alias;  // index among the types of the group
 };
 
-// A text that is the same for equivalent references.
+// Returns the same text for equivalent references.
 std::string canonical(Reference const&);
 
 // Parameters or results by name, without regard to case, with their declared types.
@@ -92,11 +92,11 @@ struct Vocabulary {
     // Returns the reference, or why the path is invalid. An alias is the first of several steps.
     std::variant<Reference, std::string> resolve(std::string_view path, std::span<std::string const> aliases = {}) const;
 
-    // The reference that a spatial or temporal operator with one operand uses; empty if there is none.
+    // The reference that a spatial or temporal operator compares if it has one operand only; empty if there is none.
     std::string_view own_position() const;
     std::string_view own_time() const;
 
-    // All names that can be referred to, for people.
+    // Lists all names of the vocabulary, for error messages.
     std::string known() const;
 };
 

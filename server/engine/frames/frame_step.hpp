@@ -8,9 +8,9 @@
 
 namespace rois {
 
-using Covariance6 = Eigen::Matrix<double, 6, 6>;  // of x, y, z in mm and roll, pitch, yaw in degrees
+using Covariance6 = Eigen::Matrix<double, 6, 6>;  // rows and columns: x, y, z in mm; roll, pitch, yaw in degrees
 
-// A position in some frame.
+// A position and an orientation in a frame.
 struct PoseInFrame {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  // mm
     Eigen::Vector3d turned = Eigen::Vector3d::Zero();    // roll, pitch, yaw in degrees; 0 without an orientation

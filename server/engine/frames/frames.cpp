@@ -98,14 +98,14 @@ Frames::Frames(std::string own, std::vector<Frame> others) : own_{std::move(own)
         auto const placement = Placement::of(frame);
         auto key = lower_case(frame.crs);
         if (equal_ignoring_case(frame.crs, own_) || placed_.contains(key))
-            throw std::invalid_argument("the frame " + quoted(frame.crs, 200) + " is there twice");
+            throw std::invalid_argument("the frame " + quoted(frame.crs, 200) + " is given twice");
         placed_.emplace(std::move(key), std::make_shared<Placed const>(Placed{std::move(frame), placement}));
     }
     for (auto const& [key, placed] : placed_) {
         auto const& [crs, base, position, orientation, covariance] = placed->frame;
         if (base.empty() || !know(base))
             throw std::invalid_argument("the frame " + quoted(crs, 200) + " is placed in " + quoted(base, 200) +
-                                        ", which is unknown; known are " + listed(names()));
+                                        ", which is unknown; expected one of " + listed(names()));
         if (ancestry(crs).size() > placed_.size())
             throw std::invalid_argument("the frame " + quoted(crs, 200) + " is placed in itself, through " + quoted(base, 200));
     }
@@ -126,7 +126,8 @@ Frames::Placed const* Frames::find(std::string_view crs) const {
     return found == placed_.end() ? nullptr : found->second.get();
 }
 
-// The frame, the frame that it is placed in, and so on, without the engine's own. In a cycle, returns more frames than there are.
+// The frame, the frame that it is placed in, and so on, without the engine's own. If the frames form a cycle, the result has more
+// entries than there are frames.
 std::vector<Frames::Placed const*> Frames::ancestry(std::string_view crs) const {
     std::vector<Placed const*> all;
     for (auto const* placed = find(crs); placed != nullptr && all.size() <= placed_.size(); placed = find(placed->frame.base))
@@ -134,8 +135,8 @@ std::vector<Frames::Placed const*> Frames::ancestry(std::string_view crs) const 
     return all;
 }
 
-// The way up to the first common ancestor of the two frames, and down from there. So the uncertainty of the ancestor's own
-// placement does not count. Returns nullopt if a frame is unknown.
+// The way up to the first common ancestor of the two frames, and down from there. The placement of the ancestor itself is not
+// used, so its uncertainty does not count. Returns nullopt if a frame is unknown.
 std::optional<std::vector<Frames::Step>> Frames::way(std::string_view from, std::string_view to) const {
     if (!know(from) || !know(to)) return {};
     auto up = ancestry(from), down = ancestry(to);

@@ -46,19 +46,19 @@ public:
 
     std::string const& own() const { return own_; }
 
-    // Returns whether the engine's frame is the only one, so nothing ever needs a conversion.
+    // Returns whether the engine's frame is the only one. Then no value needs a conversion.
     bool are_one() const { return placed_.empty(); }
     bool know(std::string_view crs) const;
     std::vector<std::string> names() const;  // the engine's frame first
 
     // Converts the position to the frame `to`. Converts a covariance to the first order, and adds those of the frames between.
-    // The covariance keeps its form, which is one of
+    // The covariance keeps its form. The forms are
     //     x, y    x, y, yaw (x, y, z without orientation)    x, y, z, yaw    x, y, z, roll, pitch, yaw
-    // A reliability stays. Returns why the covariance or the orientation is invalid, or nullopt.
+    // A reliability is not changed. Returns why the covariance or the orientation is invalid, or nullopt.
     std::optional<std::string> change(Located&, std::string_view to) const;
 
     // Converts the points among the parameter's values ("x, y" or "x, y, th"), and sets the frame. Other values, such as names of
-    // places, stay.
+    // places, are not changed.
     void change(Parameter&, std::string_view to, Rounding) const;
 
     // Converts all positions to the engine's frame. Returns the first problem, as above.
@@ -67,7 +67,7 @@ public:
     // Whether the coordinates of the two can be compared without conversion.
     bool share(Geometry const& a, Geometry const& b) const;
 
-    // Returns the geometry in the frame `to`. Returns nullopt for an unknown frame, for a box (it may not be a box there), and
+    // Returns the geometry in the frame `to`. Returns nullopt for an unknown frame, for a box (a turned box is not a box), and
     // for a line, circle or polygon if the frames are tilted against each other.
     std::optional<Geometry> moved(Geometry const&, std::string_view to) const;
 

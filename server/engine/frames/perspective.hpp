@@ -1,4 +1,4 @@
-// The components as seen by the session that asks.
+// The components as one session sees them.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace rois {
 class Registry;
 struct Session;
 
-// How all components look to one session now (`present`), or in any state that they may ever have: status, binding, position and
-// parameters (`ever`). Valid only within one call to the engine.
+// The status, binding, position and parameters of all components, as one session sees them: the current ones (`present`), or all
+// that are possible (`ever`). Valid only within one call to the engine.
 class Perspective {
 public:
     enum class Of : std::uint8_t { present, ever };
@@ -35,13 +35,14 @@ public:
 
     // Returns whether a group condition was matched against a component.
     bool knows_groups() const { return !verdicts_.empty(); }
-    // Restricts each group to one robot of the components in `found`. Prefers robots of which no other session holds a component
-    // that the asker lacks, then those of which the asker has bound the most of the group, then the first in `found`.
+    // Restricts each group to the components of one robot, among those in `found`. Prefers robots from which the asker can get
+    // all components of the group; then those of which the asker has bound the most components of the group; then the first in
+    // `found`.
     void keep_one_robot(std::vector<RegisteredComponent*> const& found);
-    // Removes from each group the robots of which another session holds a component that the asker lacks. Returns the name of
-    // such a component, or nullopt.
+    // Removes from each group the robots from which the asker cannot get all components, because another session has bound one.
+    // Returns the name of such a component, or nullopt.
     std::optional<std::string_view> drop_held_robots();
-    // Whether the asker lacks this free component of a group.
+    // Whether this component is free and the asker must bind it to complete a group.
     bool is_lacked(RegisteredComponent const&);
 
 private:

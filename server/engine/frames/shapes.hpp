@@ -9,7 +9,7 @@
 
 namespace rois {
 
-// A point that is nearer to a circle's edge than this lies on the edge.
+// A point counts as lying on a circle's edge if it is nearer to the edge than this.
 inline constexpr double circle_tolerance = 1e-6;  // mm
 
 // Like `holds` and `distance` in space.hpp. At least one geometry must be a line, circle or polygon, and all must be valid.

@@ -1,5 +1,5 @@
 // Relations between geometries (ISO 19143, spatial operators; OGC Simple Features). Edges belong to a geometry, also for `within`
-// and `contains`. If one of two geometries is in the plane only, both are compared in the plane.
+// and `contains`. If one of two geometries is two-dimensional, both are compared in the plane.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace rois {
 
-// Returns whether the coordinates can be compared: the frames are the same, or one is not named.
+// Returns whether the coordinates can be compared: their frames are the same, or one of the frames is not given.
 bool share_a_frame(Geometry const&, Geometry const&);
 
 bool holds(SpatialRelation, Geometry const&, Geometry const&);
@@ -22,7 +22,7 @@ Geometry point(Located const&);
 // Parses "x, y" or "x, y, th" in mm and degrees (decision 27). Returns nullopt for other texts.
 std::optional<Geometry> point(std::string_view text, std::string crs);
 
-// A text that is the same for equal geometries.
+// Returns the same text for equal geometries.
 std::string canonical(Geometry const&);
 std::string canonical(double);
 

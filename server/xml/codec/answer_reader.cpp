@@ -10,14 +10,14 @@ namespace rois::xml {
 
 namespace {
 
-constexpr std::size_t deepest = 100;             // nested elements; engines accept 64 and answer with a few
+constexpr std::size_t deepest = 100;             // nested elements; requests have at most 64, answers fewer
 constexpr std::size_t keep_at_most = 64 * 1024;  // bytes, between two documents
 
 }  // namespace
 
 class AnswerReader::Impl {
 public:
-    std::optional<Heard> read(std::string_view document) {
+    std::optional<EngineMessage> read(std::string_view document) {
         if (!parse(document)) return std::nullopt;
         auto heard = decode_engine_message(message_);
         if (heard && !add_profiles(*heard, document)) return std::nullopt;
@@ -39,7 +39,7 @@ private:
     }
 
     // Adds the profiles of get_profile's reply, in the order of its components. Returns false if one cannot be decoded.
-    bool add_profiles(Heard& heard, std::string_view document) {
+    bool add_profiles(EngineMessage& heard, std::string_view document) {
         auto* const answered = std::get_if<Answered>(&heard);
         auto* const reply = answered != nullptr ? std::get_if<GetProfile::Reply>(&answered->reply) : nullptr;
         if (reply == nullptr || reply->return_code != ReturnCode::ok) return true;
@@ -72,7 +72,7 @@ AnswerReader::~AnswerReader() = default;
 
 AnswerReader::AnswerReader(AnswerReader&&) noexcept = default;
 
-std::optional<Heard> AnswerReader::read(std::string_view document) { return impl_->read(document); }
+std::optional<EngineMessage> AnswerReader::read(std::string_view document) { return impl_->read(document); }
 
 std::optional<StopState> AnswerReader::read_stop_state(std::string_view document) { return impl_->read_stop_state(document); }
 

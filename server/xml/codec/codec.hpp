@@ -1,4 +1,4 @@
-// Encodes and decodes the messages of wire.md. Encoding is thread-safe; a reader belongs to one thread.
+// The door of server/xml: encodes and decodes the messages of schemas/messages.xsd. Encoding is thread-safe; readers are not.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,14 @@
 #include <string_view>
 #include <variant>
 
+#include "types/floor_map.hpp"
 #include "types/messages.hpp"
 
 namespace rois::xml {
 
 class Schemas;
 
-// Limits of a document, checked before a parser sees it (bad-input 3).
+// Limits of a document, checked before a parser sees it.
 struct DocumentLimits {
     std::size_t bytes = 1 << 20;
     std::size_t depth = 64;
@@ -24,9 +25,9 @@ struct DocumentLimits {
     std::size_t namespaces = 64;  // declarations in scope: of an element and its ancestors
 };
 
-// How documents are checked. Verdict and messages are the same.
+// How documents are checked. Both ways accept the same documents and report the same faults.
 enum class Validation : std::uint8_t {
-    fast,  // with tables made from the schemas, and in full if these do not accept the document
+    fast,  // with tables made from the schemas; if the tables do not accept a document, in full
     full,  // with a scan and xerces-c
 };
 
@@ -66,6 +67,9 @@ std::string notifications_end();
 std::string encode(EngineProfile const&, std::string_view gml_id);
 std::string encode(ComponentProfile const&, std::string_view gml_id);
 
+// The document of /rois/map (schemas/map.xsd).
+std::string encode(FloorMap const&);
+
 // --- For clients ---
 
 // Returns the document of a request. Throws std::invalid_argument for a condition that XML cannot express: one that contains
@@ -76,11 +80,11 @@ struct Answered {
     Reply reply;
     std::string request_id;
 };
-struct Told {
+struct NumberedNotification {
     std::uint64_t sequence = 0;
     Notification notification;
 };
-using Heard = std::variant<Answered, Fault, Told>;  // a message of an engine
+using EngineMessage = std::variant<Answered, Fault, NumberedNotification>;  // a message that an engine sends
 
 // Decodes messages of an engine. Does not validate: ignores what it does not know. Keeps its memory. Not thread-safe.
 class AnswerReader {
@@ -91,9 +95,9 @@ public:
 
     // Returns nothing, and never throws, if the document is not XML, not one of these messages, or lacks a mandatory part (a
     // return code, a sequence, ...).
-    std::optional<Heard> read(std::string_view document);
+    std::optional<EngineMessage> read(std::string_view document);
 
-    // Reads what /rois/stop and /rois/clear answer with. Nothing for any other document.
+    // Reads an answer of /rois/stop or /rois/clear. Returns nothing for any other document.
     std::optional<StopState> read_stop_state(std::string_view document);
 
 private:

@@ -5,7 +5,6 @@
 
 #include "types/texts.hpp"
 #include "xml/codec/decoding.hpp"
-#include "xml/codec/decoding_expression.hpp"
 
 namespace rois::xml {
 

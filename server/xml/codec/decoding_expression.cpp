@@ -1,14 +1,12 @@
-#include "xml/codec/decoding_expression.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 
-#include "types/length_units.hpp"
+#include "types/condition.hpp"
 #include "types/texts.hpp"
 #include "xml/codec/decoding.hpp"
-#include "xml/codec/numbers.hpp"
 #include "xml/codec/writer.hpp"
 
 namespace rois::xml {
@@ -53,7 +51,7 @@ std::optional<NotUnderstood> read_points(Frame& frame, MessageTree::Children ele
         auto const crs = frame.crs;
         frame.read(each);
         if (!crs.empty() && frame.crs != crs) return not_understood("points of one geometry in two frames");
-        auto numbers = decode_numbers(each.text());
+        auto numbers = to_doubles(each.text());
         if (std::ranges::any_of(numbers, [](double number) { return std::isnan(number); }))
             return NotUnderstood{"a coordinate of the condition is NaN or too large for a double"};
         if (each.name() != "posList") {
@@ -152,14 +150,14 @@ Expression decode_circle(Frame frame, Node node) {
     auto const centre = node.first_child();
     auto const radius = node.child("radius");
     frame.read(centre);
-    auto const numbers = decode_numbers(centre.text());
+    auto const numbers = to_doubles(centre.text());
     if (frame.problem) return {*frame.problem};
     if (numbers.size() != 2 || std::isnan(numbers[0]) || std::isnan(numbers[1]))
         return {NotUnderstood{"the centre of a circle of the condition needs exactly two coordinates"}};
     auto const unit = millimetres_in(radius.attribute_text("uom"));
     if (!unit)
         return {NotUnderstood{"the condition has the unit " + quoted(radius.attribute_text("uom")) +
-                              ", which is not known here; known are mm, cm, m, km"}};
+                              ", which is not known here; expected one of mm, cm, m, km"}};
     circle.paths = {{{numbers[0], numbers[1]}}};
     circle.radius = to_double(radius.text()).value_or(0) * *unit;
     return finished(std::move(circle), frame);

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <array>
 
+#include "types/texts.hpp"
 #include "xml/codec/decoding.hpp"
 #include "xml/codec/names.hpp"
-#include "xml/codec/numbers.hpp"
 
 namespace rois::xml {
 
@@ -78,8 +78,8 @@ bool read(Node node, Subscribe::Reply& reply) {
 }
 
 template <class R>
-std::optional<Heard> read_reply(Node root) {
-    std::optional<Heard> heard;
+std::optional<EngineMessage> read_reply(Node root) {
+    std::optional<EngineMessage> heard;
     auto const code = to_code<ReturnCode>(root.attribute("return_code").value_or(""));
     if (!code) return heard;
     auto& answered = std::get<Answered>(heard.emplace());
@@ -94,7 +94,7 @@ std::optional<Heard> read_reply(Node root) {
     return heard;
 }
 
-using ReadReply = std::optional<Heard> (*)(Node);
+using ReadReply = std::optional<EngineMessage> (*)(Node);
 
 template <class... Replies>
 constexpr std::array<ReadReply, sizeof...(Replies)> readers_of(std::variant<Replies...> const*) {
@@ -141,7 +141,7 @@ std::optional<Notification> read_notification(Node root) {
     return std::nullopt;
 }
 
-std::optional<Heard> read_fault(Node root) {
+std::optional<EngineMessage> read_fault(Node root) {
     auto const code = to_code<FaultCode>(root.attribute("code").value_or(""));
     if (!code) return std::nullopt;
     Fault fault{*code, root.child_text("reason"), {}, root.attribute_text("request_id")};
@@ -159,15 +159,14 @@ Located read_located(Node node) {
                     .position = {},
                     .orientation = {},
                     .certainty = {}};
-    auto const position = decode_numbers(node.child("position").text());
+    auto const position = to_doubles(node.child("position").text());
     if (position.size() == located.position.size()) std::ranges::copy(position, located.position.begin());
-    located.orientation = decode_numbers(node.child("orientation").text());
+    located.orientation = to_doubles(node.child("orientation").text());
     if (auto const reliability = node.child("reliability")) {
-        auto const numbers = decode_numbers(reliability.text());
+        auto const numbers = to_doubles(reliability.text());
         located.certainty = Located::Reliability{numbers.empty() ? 0 : numbers.front()};
     }
-    if (auto const covariance = node.child("covariance"))
-        located.certainty = Located::Covariance{decode_numbers(covariance.text())};
+    if (auto const covariance = node.child("covariance")) located.certainty = Located::Covariance{to_doubles(covariance.text())};
     return located;
 }
 
@@ -181,7 +180,7 @@ Results decode_results(Node results) {
     return read;
 }
 
-std::optional<Heard> decode_engine_message(MessageTree const& message) {
+std::optional<EngineMessage> decode_engine_message(MessageTree const& message) {
     constexpr std::string_view ending = "_response";
     auto const root = message.root();
     if (!root || message.name_space() != message_namespace) return std::nullopt;
@@ -196,7 +195,7 @@ std::optional<Heard> decode_engine_message(MessageTree const& message) {
     auto const sequence = root.attribute("sequence");
     auto told = read_notification(root);
     if (!sequence || !told) return std::nullopt;
-    return Told{decode_unsigned(*sequence), *std::move(told)};
+    return NumberedNotification{decode_unsigned(*sequence), *std::move(told)};
 }
 
 std::optional<StopState> decode_stop_state(MessageTree const& message) {

@@ -15,10 +15,10 @@ void write_identifier(Writer&, std::string_view element, Identifier const&);
 void write_parameters(Writer&, std::string_view list, std::string_view element, ParameterList const&);
 void write_results(Writer&, Results const&);
 
-// Also needs the prefix `xsi`.
+// The document must also declare the prefix `xsi`.
 void write_sequence(Writer&, CommandUnitSequence const&);
 
-// Writes the content of `condition`; nothing for an empty one. Needs the prefixes `fes` and `gml`, and `unr` if needs_unr().
+// Writes the content of `condition`; an empty condition has none. Needs the prefixes `fes` and `gml`, and `unr` if needs_unr().
 // Throws std::invalid_argument for a condition that XML cannot express.
 void write_condition(Writer&, QueryExpression const&);
 bool is_empty(QueryExpression const&);

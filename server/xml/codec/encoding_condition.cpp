@@ -83,7 +83,7 @@ public:
         for (auto const& argument : function.arguments) write_expression(out_, argument, Around::literal);
         out_.end();
     }
-    void operator()(NotUnderstood const&) const { cannot("an expression that was not understood"); }
+    void operator()(NotUnderstood const&) const { cannot("an unsupported expression"); }
 
 private:
     void begin() const {
@@ -185,7 +185,7 @@ public:
         out_.end();
     }
     void operator()(ComponentGroup const&) const { cannot("a group of components inside other predicates"); }
-    void operator()(NotUnderstood const&) const { cannot("a condition that was not understood"); }
+    void operator()(NotUnderstood const&) const { cannot("an unsupported condition"); }
 
 private:
     void write_match_case(bool match_case) const {

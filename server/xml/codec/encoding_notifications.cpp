@@ -41,7 +41,8 @@ std::string_view notification_head(Notification const& notification) {
     return std::visit([](auto const& each) { return head_of(each); }, notification);
 }
 
-// Writes the document without its sequence, then cuts off `<root`. The quote that ends the sequence replaces the last letter.
+// Writes the document without its sequence, then cuts off `<root`. The closing quote of the sequence overwrites the last letter
+// of the root's name.
 std::string notification_tail(Notification const& notification) {
     auto const head = notification_head(notification);
     auto const root = head.substr(1, head.find(' ') - 1);

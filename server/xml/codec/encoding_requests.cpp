@@ -19,7 +19,7 @@ concept HasRois = requires(Op op) {
 
 void write_ref(Writer& out, Identifier const& component_ref) { write_identifier(out, "component_ref", component_ref); }
 
-// Writes the children before the condition. One overload for each operation that has any.
+// Writes the children before the condition. One overload for each operation that has such children.
 void write(Writer&, auto const&) {}
 void write(Writer& out, GetErrorDetail const& op) { out.element("error_id", op.error_id.text); }
 void write(Writer& out, Bind const& op) { write_ref(out, op.component_ref); }

@@ -31,7 +31,7 @@ public:
     // Replaces the tree with that of pugixml's root. Returns false if elements are nested deeper than `deepest`.
     bool read(pugi::xml_node root, std::size_t deepest = std::numeric_limits<std::size_t>::max());
 
-    // Build the tree part by part, in document order. An element's attributes come before its content.
+    // The functions below build the tree part by part, in document order: first the attributes of an element, then its content.
     void clear();
     void set_name_space(std::string_view name_space) { name_space_ = name_space; }
     void open(std::string_view name, std::string_view type);
@@ -88,7 +88,7 @@ public:
     explicit operator bool() const { return tree_ != nullptr; }
     bool operator==(Node const&) const = default;
 
-    // A node of no element has empty texts, and no children or attributes.
+    // If the node refers to no element, its texts are empty and it has neither children nor attributes.
     std::string_view name() const { return element().name; }
     std::string_view type() const { return element().type; }  // the local name of its xsi:type; empty if it has none
     std::string_view text() const { return element().text; }

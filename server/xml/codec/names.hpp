@@ -1,4 +1,4 @@
-// The namespaces of the documents (wire.md).
+// The namespaces of the documents (schemas/).
 #pragma once
 
 #include <string_view>

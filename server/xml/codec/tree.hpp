@@ -16,7 +16,8 @@ inline constexpr unsigned int as_xerces_reads =
 
 std::string_view local_name(pugi::xml_node);
 
-// Return null, or an empty text, if there is none. Ignore attributes of xsi and namespace declarations.
+// The functions below return null, or an empty text, if there is no such node. Ignore attributes of xsi and namespace
+// declarations.
 pugi::xml_node child(pugi::xml_node, std::string_view local_name);
 pugi::xml_attribute attribute(pugi::xml_node, std::string_view local_name);
 std::string attribute_text(pugi::xml_node, std::string_view local_name);

@@ -1,4 +1,5 @@
-// Documents that are read from files: profiles, floor plans, scenarios. Validated like messages, then walked with a cursor.
+// Documents that are read from files: profiles, floor plans, scenarios. Documents are validated like messages. An Element then
+// gives access to the content.
 #pragma once
 
 #include <memory>
@@ -27,8 +28,8 @@ struct Attribute {
     std::string value;
 };
 
-// An element of a document. Keeps the document alive. Cheap to copy. Names are local names. Validation checks the namespaces; if
-// the document was not validated, the caller does.
+// An element of a document. Keeps the document alive. Cheap to copy. Names are local names. Validation has checked the
+// namespaces; in a document without validation, the caller must check them.
 class Element {
 public:
     std::string_view name() const;
@@ -51,7 +52,7 @@ public:
     // Returns the texts, untrimmed, and the child elements, in order.
     std::vector<std::variant<std::string, Element>> content() const;
 
-    // Returns an error about this element.
+    // Returns an error with the place of this element.
     BadDocument complain(std::string_view reason) const;
 
 private:

@@ -121,7 +121,7 @@ std::string nc_name(std::string_view text) {
     return name.empty() ? "_" : name;
 }
 
-// A profile declares its own prefixes, so that clients can cut it out of the answer.
+// A profile declares its own prefixes, so that clients can use it as a document of its own.
 void write_profile(Writer& out, EngineProfile const& profile, std::string_view gml_id) {
     out.start("rois:HRIEngineProfile");
     declare_rois(out);

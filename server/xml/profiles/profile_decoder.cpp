@@ -174,7 +174,7 @@ private:
         return reported;
     }
 
-    // Published profiles write an empty default value for "none".
+    // In published profiles, an empty default value means that there is none.
     void set_default(pugi::xml_node element, ParameterProfile& parameter, std::string text) {
         auto const problem = why_not(DataType::of(parameter.data_type_ref), default_values(parameter.data_type_ref, text));
         if (!problem) {

@@ -229,7 +229,7 @@ private:
             if (child.type() == pugi::node_element) elements.push_back(child);
         auto const before = std::ranges::adjacent_find(elements, [&](auto a, auto b) { return rank(b) < rank(a); });
         if (before == elements.end()) return;
-        // An element that was added here has no place.
+        // an element that a repair has added has no offset
         if (auto const late = *std::next(before); late.offset_debug() >= 0)
             note(late, quoted(late.name()) + " after " + quoted(before->name()) + ": read in any order");
         std::ranges::stable_sort(elements, {}, rank);
@@ -258,7 +258,7 @@ std::vector<Repair> repair_namespaces(std::span<char> document, std::span<std::s
         if (!dated && !spaced) return repairs;
         auto* const begin = document.data() + (written.data() - document.data());
         if (spaced) {
-            // The quotes move to the name; the white space goes outside.
+            // Moves the quotes inwards, so that the white space is outside of the value.
             repairs.push_back({offset, "the namespace " + quoted(written) + " has white space around it: ignored"});
             char const quote = begin[-1];
             std::string moved(static_cast<std::size_t>(name.data() - written.data()), ' ');

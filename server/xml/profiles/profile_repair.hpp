@@ -19,8 +19,8 @@ struct Repair {
 // document. `known` are the namespaces of the schemas.
 std::vector<Repair> repair_namespaces(std::span<char> document, std::span<std::string const> known);
 
-// Changes the tree of a profile to the form of the schemas. Leaves unchanged what it does not understand. The namespaces must be
-// repaired before.
+// Changes the tree of a profile to the form of the schemas. Unknown elements stay unchanged. The namespaces must be repaired
+// before.
 std::vector<Repair> repair_profile(pugi::xml_node root);
 
 }  // namespace rois::xml

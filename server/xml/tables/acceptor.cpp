@@ -182,7 +182,7 @@ bool Acceptor::character_reference() {
     return true;
 }
 
-// Returns an empty name if the document is left to xerces-c.
+// Returns an empty name if xerces-c must decide about the document.
 PlainName Acceptor::take_name() {
     auto name = plain_name_before(text_.substr(at_));
     if (name.whole().size() > limits_.name_length) name = {};
@@ -358,7 +358,7 @@ bool Acceptor::check_attributes(ElementType const& type) {
     return (there & type.required) == type.required;
 }
 
-// Leaves documents with more than `most_ids` ids to xerces-c.
+// Returns false if the id is a duplicate, or the document has more than `most_ids` ids (xerces-c then decides).
 bool Acceptor::is_new(std::string_view id) {
     constexpr std::size_t most_ids = 16;
     if (ids_.size() == most_ids || std::ranges::find(ids_, id) != ids_.end()) return false;

@@ -25,8 +25,8 @@ class Acceptor {
 public:
     Acceptor(std::shared_ptr<Schemas const>, DocumentLimits);
 
-    // Returns true if the document is valid and the scan would not change it. False means "unknown". The caller checks the limit
-    // of bytes.
+    // Returns true if the document is valid and the scan would not change it. False means that the document may be valid or not.
+    // The caller checks the limit of bytes.
     bool accepts(std::string_view document);
 
     // Returns the tree of the accepted document: views of the document's bytes, valid as long as these. Null if a text contains
@@ -52,7 +52,7 @@ private:
         std::uint32_t state;   // of its content model
     };
 
-    // Each of these functions consumes what it accepts, and returns false if the document is left to xerces-c.
+    // Each of these functions moves behind the part that it accepts. It returns false if xerces-c must decide about the document.
     bool prologue();
     bool between_elements();
     bool content();
@@ -82,9 +82,10 @@ private:
     bool take_text_element(KnownTag const&);
 
     PlainName take_name();
-    // Returns null if the document is left to xerces-c. Advances the content model of the innermost open element.
+    // Advances the content model of the innermost open element. Returns null if xerces-c must decide.
     ElementDeclaration const* declaration_of(Name);
-    // Returns the declared type, or that of the tag's xsi:type, whose local name is then set. Null: left to xerces-c.
+    // Returns the declared type, or the type that the tag's xsi:type names; then sets `xsi_type` to its local name. Returns null
+    // if xerces-c must decide.
     ElementType const* type_of(ElementDeclaration const&, std::string_view& xsi_type);
     Interned::Id name_space_of(std::string_view prefix) const;
 

@@ -7,7 +7,8 @@
 
 namespace rois::xml {
 
-// A name of ASCII letters, digits and ".-_" with at most one colon. For any other text, also other names of XML, none() is true.
+// A name of ASCII letters, digits and ".-_" with at most one colon. For any other text, none() is true, also for other valid
+// names of XML.
 class PlainName {
 public:
     PlainName() = default;

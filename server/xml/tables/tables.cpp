@@ -9,7 +9,8 @@ namespace rois::xml {
 
 Tables::Tables(xercesc::XMLGrammarPool& pool, std::vector<std::string> const& namespaces) {
     for (auto const& each : namespaces) {
-        // XML allows declaring the xml namespace, but that is rare and left to xerces-c. The empty one cannot be declared.
+        // Documents rarely declare the xml namespace: xerces-c decides about those that do. The empty namespace cannot be
+        // declared.
         if (each != xml_namespace && !each.empty()) last_name_space_ = std::max(last_name_space_, names_.add(each));
     }
     xsi_type_ = {names_.find(xsi_namespace), names_.add("type")};

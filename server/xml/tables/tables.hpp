@@ -1,5 +1,5 @@
 // Tables of the elements, attributes and values that the schemas allow, compiled once from xerces-c's schema model. Conservative:
-// they accept nothing that xerces-c rejects. An unsupported part of a schema is `unknown` and left to xerces-c
+// they accept nothing that xerces-c rejects. For an unsupported part of a schema the content is `unknown`, and xerces-c decides
 // (docs/validation.md).
 #pragma once
 
@@ -88,7 +88,7 @@ private:
     friend class TablesBuilder;
 
     Interned names_;
-    Interned::Id last_name_space_ = Interned::empty;  // namespaces that may be declared have lower numbers than other names
+    Interned::Id last_name_space_ = Interned::empty;  // declarable namespaces have the numbers up to this one
     Name xsi_type_;
     std::uint32_t states_ = 0;
     std::deque<ValueType> values_;

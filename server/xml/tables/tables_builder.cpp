@@ -9,7 +9,6 @@
 
 #include "xml/codec/names.hpp"
 #include "xml/tables/content_automaton.hpp"
-#include "xml/tables/value_facets.hpp"
 #include "xml/validation/scan.hpp"
 #include "xml/validation/xerces_text.hpp"
 

@@ -42,4 +42,10 @@ private:
     std::map<xercesc::XSSimpleTypeDefinition*, ValueType*> values_;
 };
 
+// Returns a built-in type by its local name; Kind::unknown if it is not supported.
+ValueType built_in(std::string_view name);
+
+// Returns the base type restricted by the facets of `derived`; Kind::unknown if a facet is not supported.
+ValueType with_facets(ValueType base, xercesc::XSSimpleTypeDefinition& derived);
+
 }  // namespace rois::xml

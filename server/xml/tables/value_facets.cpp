@@ -1,4 +1,4 @@
-#include "xml/tables/value_facets.hpp"
+#include "xml/tables/tables_builder.hpp"
 
 #include <algorithm>
 #include <array>

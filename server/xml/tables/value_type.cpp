@@ -185,7 +185,7 @@ bool ValueType::accepts_list(std::string_view text) const {
     }
 }
 
-// Members normalise white space differently, so that texts with white space are left to xerces-c.
+// Members of a union normalise white space differently. Texts with white space are rejected here, so that xerces-c decides.
 bool ValueType::accepts_alternative(std::string_view text) const {
     if (std::ranges::any_of(text, is_white_space)) return false;
     return std::ranges::any_of(members,

@@ -43,8 +43,8 @@ struct ValueType {
     // Returns whether every text is a value, including texts with references.
     bool takes_any_text() const { return kind == Kind::text && enumeration.empty() && !has_length(); }
 
-    // Returns whether the raw text of the document is certainly a value. If the type does not take any text, an accepted text
-    // contains no reference, no markup and no "]]>".
+    // Returns whether the raw text of the document is a value of this type; false if xerces-c must decide. Unless
+    // takes_any_text(), an accepted text contains no reference, no markup and no "]]>".
     bool accepts(std::string_view text) const;
 
 private:

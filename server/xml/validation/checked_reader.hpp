@@ -21,12 +21,12 @@ namespace rois::xml {
 // Whether a document may declare a namespace that no schema has: never, or where a schema has a wildcard.
 enum class ForeignNamespaces : std::uint8_t { refused, as_the_schemas_say };
 
-// Checks a document and parses the same bytes into a tree. A document that the acceptor does not accept goes through the scan and
-// xerces-c, which decides. Keeps its parsers and buffers for the next document. Not thread-safe.
+// Checks a document and parses the same bytes into a tree. If the acceptor does not accept a document, the scan and xerces-c
+// decide. Keeps its parsers and buffers for the next document. Not thread-safe.
 class CheckedReader {
 public:
-    // Without schemas it checks only that documents are well-formed. `roots` are the allowed root elements, which a fault about
-    // another root lists; empty: any root that the schemas have.
+    // Without schemas it checks only that documents are well-formed. `roots`: the allowed root elements, which are listed in the
+    // fault about any other root; empty: all roots that the schemas declare.
     CheckedReader(std::shared_ptr<Schemas const>, DocumentLimits, std::span<std::string_view const> roots = {},
                   ForeignNamespaces = ForeignNamespaces::refused, Validation = Validation::fast);
 

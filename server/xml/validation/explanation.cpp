@@ -11,9 +11,9 @@
 #include "types/texts.hpp"
 #include "xml/codec/names.hpp"
 #include "xml/codec/tree.hpp"
-#include "xml/tables/content_model.hpp"
-#include "xml/tables/simple_type.hpp"
+#include "xml/validation/content_model.hpp"
 #include "xml/validation/grammars.hpp"
+#include "xml/validation/simple_type.hpp"
 #include "xml/validation/xerces_text.hpp"
 
 namespace rois::xml {
@@ -23,7 +23,7 @@ namespace {
 using xercesc::ComplexTypeInfo;
 using xercesc::SchemaElementDecl;
 
-// Every name from a document is cut to a limit and freed of control characters.
+// Shortens a name from a document, and removes control characters.
 std::string shown(std::string_view name) { return quoted(name); }
 
 // "'a'", "one of 'a', 'b', ...".

@@ -18,7 +18,7 @@ public:
                 return reader_.complain(reader_.root(), *std::move(problem));
             return *std::move(request);
         }
-        // Valid, but an answer, a notification or a profile.
+        // The document is valid, but it is an answer, a notification or a profile.
         auto const explanation = explain(*schemas_, reader_.root(), operation_names());
         return reader_.complain(reader_.root(), explanation ? explanation->reason : "the message is not a request");
     }

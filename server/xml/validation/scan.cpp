@@ -32,7 +32,7 @@ public:
     std::variant<Scanned, Refusal> run();
 
 private:
-    // `nothing`: the rest of the document is rejected, or the parser will report its error.
+    // `nothing`: the scan ends here, because the document is rejected or the parser will report the error.
     enum class Next { markup, nothing };
 
     void prologue();
@@ -133,7 +133,7 @@ Scan::Next Scan::skip_to(std::string_view end) {
 }
 
 // Between elements, XSD allows a CDATA section of white space, but xerces-c rejects every section. Overwrites such a section with
-// a comment of the size of its markup, followed by the white space. This means the same in every content and moves no tag.
+// a comment of the size of its markup, followed by the white space. The meaning is the same, and all tags keep their offsets.
 Scan::Next Scan::cdata_section() {
     constexpr std::string_view comment = "<!--CDATA-->";
     static_assert(comment.size() == cdata_begin.size() + cdata_end.size());
@@ -285,7 +285,7 @@ std::string request_id_of(std::string_view document) {
     auto step = root.next();
     while (step == StartTag::Step::attribute) step = root.next();
     if (step == StartTag::Step::broken) return {};
-    // The root's tag alone, closed, is a document: parsing it resolves references.
+    // The root's start tag, closed, is a document of its own. Parsing it resolves the references in the attribute.
     std::string alone{document.substr(at, root.offset() - at)};
     if (first_bad_character(alone)) return {};
     if (step == StartTag::Step::end) alone.insert(alone.size() - 1, 1, '/');

@@ -1,4 +1,4 @@
-// Scans a document's bytes before a parser sees them (bad-input 3, 4), and rejects harmful or expensive input. Takes linear time.
+// Scans a document's bytes before a parser sees them, and rejects harmful or expensive input. Takes linear time.
 // The caller checks the limit of bytes.
 #pragma once
 
@@ -36,7 +36,7 @@ struct Scanned {
 bool holds_list_of_numbers(std::string_view local_name);
 inline constexpr std::size_t longest_list = 8 << 10;  // bytes
 
-// Checks characters, start tags and limits; other errors are left to the parser. Reports the first namespace that is not in
+// Checks characters, start tags and limits; the parser checks everything else. Reports the first namespace that is not in
 // `namespaces` as foreign. Overwrites declarations of the RoIS namespace of 2015 with that of 2024. Overwrites CDATA sections of
 // white space with a comment and the white space, because xerces-c allows such sections only in values.
 std::variant<Scanned, Refusal> scan(std::span<char> document, DocumentLimits const&, std::span<std::string const> namespaces);

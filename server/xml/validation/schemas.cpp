@@ -110,7 +110,7 @@ void compile(NamedFiles const& files, xercesc::XMLGrammarPool& pool) {
             throw std::runtime_error(name + ": cannot be compiled");
         }
     };
-    // First the files that no other file refers to; they load the others. Then the files that refer to each other in a circle.
+    // Loads the files that no other file refers to; they load the others. Then loads files that refer to each other in a circle.
     for (auto const& [name, text] : files) {
         if (!inner.contains(name)) load(name);
     }

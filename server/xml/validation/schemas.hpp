@@ -9,7 +9,7 @@
 namespace rois::xml {
 
 // Initializes xerces-c, and terminates it in the destructor. Must be the first object of main. Disables document types for the
-// whole process (bad-input 1).
+// whole process.
 class Platform {
 public:
     Platform();

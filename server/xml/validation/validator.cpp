@@ -21,7 +21,7 @@ namespace {
 class NothingOutside : public xercesc::XMLEntityResolver {
 public:
     xercesc::InputSource* resolveEntity(xercesc::XMLResourceIdentifier*) override {
-        throw std::runtime_error("the document refers to something outside itself");
+        throw std::runtime_error("the document refers to an external entity, which is not allowed");
     }
 };
 

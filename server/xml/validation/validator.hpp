@@ -1,4 +1,4 @@
-// Validates with a hardened xerces-c (bad-input 1): fetches nothing, uses only the given grammars, stops at the first error.
+// Validates with a hardened xerces-c: fetches nothing, uses only the given grammars, stops at the first error.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct Objection {
 };
 
 // Keeps a parser, created at the first use. Replaces it after an invalid document, and when it uses too much memory, because
-// xerces-c's parsers keep all names that they have read (bad-input 2). Documents must have passed the scan. Not thread-safe.
+// xerces-c's parsers keep all names that they have read. Documents must have passed the scan. Not thread-safe.
 class Validator {
 public:
     explicit Validator(std::shared_ptr<Schemas const>);

@@ -12,7 +12,7 @@
 #include "RoIS_HRI.hpp"
 #include "RoIS_Service.hpp"
 
-// As in the published header: programs use these names without their namespaces.
+// The published header has this line. Programs rely on it and omit the namespace.
 using namespace RoIS_HRI;
 using namespace RoIS_Service;
 
@@ -54,7 +54,7 @@ private:
 
 class Query {
 public:
-    // As for Command.
+    // The same as for Command.
     Query() = default;
     virtual ~Query() = default;
 
@@ -71,9 +71,9 @@ private:
 
 // The events of a component, with their results. Derive from the Event class of a component and define its functions. The object
 // subscribes to all its events at the first operation after its construction, connect() at the latest, and again with every
-// connect(). It receives the events of the component of its type that the session has bound last, or of all components of
-// its type while none is bound. Rules of construction, destruction and threads: as for RoIS_Service::ServiceApplicationBase.
-// The component sends events only while it is started.
+// connect(). It receives the events of the component of its type that the session has bound last, or of all components of its
+// type while none is bound. The rules of construction, destruction and threads are those of RoIS_Service::ServiceApplicationBase.
+// A component sends events only after `start`, until `stop`.
 class Event {
 public:
     Event() : Event(std::string(), std::vector<std::string>()) {}  // receives nothing
@@ -89,7 +89,7 @@ public:
 protected:
     Event(std::string component_type, std::vector<std::string> event_types);
 
-    // Not in the specification: as in ServiceApplicationBase.
+    // Not in the specification. See ServiceApplicationBase.
     void end_notifications();
 
 private:

@@ -87,7 +87,7 @@ public:
 // Table 3.
 class CommandIF {
 public:
-    // The components that meet the condition; none is OK, too.
+    // Returns the components that meet the condition. OK also if there are none.
     ReturnCode_t search(Condition_t condition, RoIS_IdentifierList& component_ref_list);
 
     // Reserves a component for this session until release() or disconnect().
@@ -95,7 +95,7 @@ public:
     ReturnCode_t bind_any(Condition_t condition, RoIS_Identifier& component_ref);
     ReturnCode_t release(RoIS_Identifier component_ref);
 
-    // Need the binding. Parameters are stored; `start` uses them.
+    // Both need the binding. set_parameter stores the parameters, and the next `start` uses them.
     ReturnCode_t get_parameter(RoIS_Identifier component_ref, ParameterList& parameters);
     ReturnCode_t set_parameter(RoIS_Identifier component_ref, ParameterList parameters, std::string& command_id);
 

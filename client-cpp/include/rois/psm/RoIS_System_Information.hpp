@@ -5,7 +5,7 @@
 
 #include "RoIS_Common.hpp"
 
-// As in the published header.
+// The published header has this line.
 using namespace RoIS_Common;
 
 namespace System_Information {
