@@ -1,6 +1,6 @@
-import './ui/tokens.css';
-import './ui/base.css';
-import './ui/widgets.css';
+import './ui/styles/tokens.css';
+import './ui/styles/base.css';
+import './ui/styles/widgets.css';
 import './shell/shell.css';
 
 import { render } from 'preact';

@@ -5,7 +5,7 @@ import { command, request, sequence_xml } from 'rois-client';
 import { arguments_in, ArgumentFields, asked_by, CommandProgress, Exchange, type Inputs, last_outcome, misplaced, problems_in, signature, useDraft } from '../forms';
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
-import type { ComponentView } from '../state/profile_state';
+import type { ComponentView } from '../state/engine/profile_state';
 import { Checkbox, Form } from '../ui';
 import { Pick } from './pick';
 import * as t from './texts';

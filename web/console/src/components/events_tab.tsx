@@ -4,8 +4,8 @@ import { component_ref, Condition, condition_xml, parse_xml, request, text_eleme
 import { Exchange, signature, useDraft } from '../forms';
 import { clock_time } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
-import type { ComponentView, Offered } from '../state/profile_state';
-import { reason_of } from '../state/reason_of';
+import type { ComponentView, Offered } from '../state/engine/profile_state';
+import { reason_of } from '../state/base/reason_of';
 import { Button, Checkbox, Form, TextArea, tried } from '../ui';
 import { Pick } from './pick';
 import * as t from './texts';

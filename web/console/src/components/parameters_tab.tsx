@@ -4,7 +4,7 @@ import { component_ref_xml, element, parameter_xml, request } from 'rois-client'
 
 import { arguments_in, ArgumentFields, asked_by, Exchange, type Inputs, problems_in, ResultsTable, useDraft } from '../forms';
 import { useConsole, useWatch } from '../shell/context';
-import type { ComponentView } from '../state/profile_state';
+import type { ComponentView } from '../state/engine/profile_state';
 import { Form } from '../ui';
 import { written } from './commands_tab';
 import * as t from './texts';

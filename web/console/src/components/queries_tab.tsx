@@ -3,7 +3,7 @@ import { component_ref, condition_xml, request, text_element } from 'rois-client
 
 import { Exchange, signature, useDraft } from '../forms';
 import { useConsole } from '../shell/context';
-import type { ComponentView } from '../state/profile_state';
+import type { ComponentView } from '../state/engine/profile_state';
 import { Form } from '../ui';
 import { Pick } from './pick';
 import * as t from './texts';

@@ -4,7 +4,7 @@ import type { ParameterProfile } from 'rois-client';
 import { all_values, data_type, type DataType } from '../forms/data_type';
 import { is_position, units_of } from '../forms/describe';
 import { options_for, type World } from '../forms/options';
-import type { ComponentView } from '../state/profile_state';
+import type { ComponentView } from '../state/engine/profile_state';
 import type { Draft, Operator } from './model';
 
 export type ValueType = 'text' | 'number' | 'bool' | 'time' | 'position';

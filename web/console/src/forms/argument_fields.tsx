@@ -5,7 +5,7 @@ import type { Parameter } from 'rois-client';
 
 import { useConsole, useWatch } from '../shell/context';
 import type { Console } from '../state/console';
-import type { ComponentView } from '../state/profile_state';
+import type { ComponentView } from '../state/engine/profile_state';
 import { data_type, type Problem } from './data_type';
 import type { Asked } from './describe';
 import { type Inputs, parameters_from, problems_of, with_input } from './inputs';

@@ -1,7 +1,7 @@
 // Choices for a parameter: places, robots, persons, components, and values that the component itself offers.
 import type { Results } from 'rois-client';
 
-import type { Entity, Robot } from '../state/things';
+import type { Entity, Robot } from '../state/floor/things';
 import { name_in } from './codebooks';
 import { all_values, data_type } from './data_type';
 import { type Asked, choices_of, is_position, same } from './describe';

@@ -5,7 +5,7 @@ import { CommandProgress, DetailsOf, LoggedXml } from '../forms';
 import { clock_time, duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import * as shell from '../shell/texts';
-import type { Phase } from '../state/link_state';
+import type { Phase } from '../state/session/link_state';
 import { Badge, Button, type Tone, XmlView } from '../ui';
 import { type LogEntry, log_of, reason_of, refused_component } from './log';
 import * as t from './texts';

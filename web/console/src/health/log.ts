@@ -1,13 +1,13 @@
 // The session's error log: errors, gaps, refusals, lost links.
 import { code_of, parse_xml } from 'rois-client';
 
-import type { CommandEntry } from '../state/commands_state';
+import type { CommandEntry } from '../state/session/commands_state';
 import type { Console } from '../state/console';
-import type { LoggedDocument } from '../state/documents';
-import type { ErrorEntry, GapEntry } from '../state/events_state';
+import type { LoggedDocument } from '../state/session/documents';
+import type { ErrorEntry, GapEntry } from '../state/session/events_state';
 import type { Span } from '../state/history';
-import { placed_commands, units_of } from '../state/sequences';
-import { unescaped } from '../ui/xml_text';
+import { placed_commands, units_of } from '../state/session/sequences';
+import { unescaped } from '../ui/xml/xml_text';
 
 export type LogEntry = { at: number; key: string } & (
   | { kind: 'error'; entry: ErrorEntry }

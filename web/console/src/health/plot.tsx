@@ -5,8 +5,8 @@ import { useRef } from 'preact/hooks';
 import { clock_time } from '../i18n/i18n';
 import { shown_theme } from '../shell/theme';
 import { Table } from '../ui';
-import { type Sheet, useDrawing } from '../ui/drawing';
-import { time_marks, value_marks } from '../ui/scales';
+import { type Sheet, useDrawing } from '../ui/drawing/drawing';
+import { time_marks, value_marks } from '../ui/drawing/scales';
 import { fresh_for, highest, longest_gap, point_near, type Series, shown_for } from './series';
 import * as t from './texts';
 

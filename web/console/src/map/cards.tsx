@@ -8,7 +8,7 @@ import { useConsole } from '../shell/context';
 import { show_component } from '../shell/navigation';
 import { Button, error_text, Fact, Form, IconButton, SelectField, TextField } from '../ui';
 import { type Driver, follow, go, motions_of, stop, target_text } from './driving';
-import { distance, obstacle_at, turned } from '../state/floor';
+import { distance, obstacle_at, turned } from '../state/floor/floor';
 import type { Target } from './interaction';
 import { age, certainty, degrees, metres, position } from './says';
 import type { Shown } from './scene';

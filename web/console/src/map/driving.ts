@@ -2,9 +2,9 @@
 import { value } from 'rois-client';
 
 import { show_document, show_panel } from '../shell/navigation';
-import type { CommandEntry } from '../state/commands_state';
+import type { CommandEntry } from '../state/session/commands_state';
 import type { Console } from '../state/console';
-import type { Robot } from '../state/things';
+import type { Robot } from '../state/floor/things';
 import type { Target } from './interaction';
 import type { Shown } from './scene';
 import { target_words } from './says';

@@ -1,5 +1,5 @@
 // Map input by pointer, wheel and keys, as pure functions from state to state.
-import { turned } from '../state/floor';
+import { turned } from '../state/floor/floor';
 import { panned, pinched, type Point, type Size, to_floor, to_screen, type View, with_point, zoomed } from './view';
 
 /** Target for a robot. Without `th`, the robot keeps its direction of arrival. */

@@ -2,7 +2,7 @@
 import { effect, signal, untracked } from '@preact/signals';
 import { command, RoisError } from 'rois-client';
 
-import type { GiveBack } from '../state/bindings';
+import type { GiveBack } from '../state/session/bindings';
 import type { Console } from '../state/console';
 
 /** Types of components to bind and start, if the engine has them. */

@@ -1,6 +1,6 @@
 // Formats numbers of the floor.
 import { duration } from '../i18n/i18n';
-import { confidence } from './glyphs';
+import { confidence } from './painting/glyphs';
 import type { Target } from './interaction';
 import * as texts from './texts';
 

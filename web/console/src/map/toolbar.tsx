@@ -4,7 +4,7 @@ import { useSignal } from '@preact/signals';
 import { useConsole } from '../shell/context';
 import * as panel_titles from '../shell/panel_titles';
 import { Badge, Button, Checkbox, error_text, Pop } from '../ui';
-import { all_layers, type Layers } from './ground';
+import { all_layers, type Layers } from './painting/ground';
 import { Help } from './help';
 import { age } from './says';
 import { session_of } from './session';

@@ -1,5 +1,5 @@
 // Checks a scenario against the engine's profile and warns. The scenario may still run, because engines change.
-import type { ComponentView, ProfileState } from '../state/profile_state';
+import type { ComponentView, ProfileState } from '../state/engine/profile_state';
 import type { Scenario, ScenarioCommand } from './model';
 import type { Problem } from './read';
 import { line_and_column, type Node } from './source';

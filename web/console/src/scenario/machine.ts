@@ -1,9 +1,9 @@
 // Runs a scenario, as `rois scenario` does. docs/rois-command.md defines states, triggers and steps.
 import { code_of, type Completed, type CompletedStatus, component_ref, type CommandMessage, type ReceiveEvent, Results, type Subscription } from 'rois-client';
 
-import type { GiveBack } from '../state/bindings';
+import type { GiveBack } from '../state/session/bindings';
 import type { Console } from '../state/console';
-import type { Stop } from '../state/environment';
+import type { Stop } from '../state/base/environment';
 import { Inbox } from './inbox';
 import type { Scenario, ScenarioCommand, State, Trigger, TriggerKind } from './model';
 import { Trouble } from './trouble';

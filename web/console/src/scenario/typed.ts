@@ -2,7 +2,7 @@
 import type { Parameter, ParameterProfile } from 'rois-client';
 
 import { data_type, is_packed, problem_of } from '../forms/data_type';
-import type { ComponentView } from '../state/profile_state';
+import type { ComponentView } from '../state/engine/profile_state';
 import { Trouble } from './trouble';
 import * as w from './texts';
 

@@ -3,7 +3,7 @@ import { createContext } from 'preact';
 import { useContext, useEffect } from 'preact/hooks';
 
 import type { Console } from '../state/console';
-import type { Stop } from '../state/environment';
+import type { Stop } from '../state/base/environment';
 
 export const ConsoleContext = createContext<Console | undefined>(undefined);
 

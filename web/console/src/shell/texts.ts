@@ -1,4 +1,4 @@
-import type { Phase } from '../state/link_state';
+import type { Phase } from '../state/session/link_state';
 import { type Both, count_text, duration, text, text_of } from '../i18n/i18n';
 
 const phases: Record<Phase, Both> = {

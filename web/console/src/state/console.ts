@@ -19,27 +19,27 @@ import {
   type XmlElement,
 } from 'rois-client';
 
-import { Bindings } from './bindings';
-import { CommandsState } from './commands_state';
-import { Documents, type LoggedDocument } from './documents';
-import { EntitiesState } from './entities_state';
-import type { Environment, Stop } from './environment';
-import { EventsState } from './events_state';
-import { EverythingState } from './everything';
-import { MapState } from './floor_map';
+import { Bindings } from './session/bindings';
+import { CommandsState } from './session/commands_state';
+import { Documents, type LoggedDocument } from './session/documents';
+import { EntitiesState } from './floor/entities_state';
+import type { Environment, Stop } from './base/environment';
+import { EventsState } from './session/events_state';
+import { EverythingState } from './engine/everything';
+import { MapState } from './floor/floor_map';
 import { History } from './history';
-import { HallState } from './hall_state';
-import { LinkState } from './link_state';
-import { MetricsState } from './metrics_state';
+import { HallState } from './floor/hall_state';
+import { LinkState } from './session/link_state';
+import { MetricsState } from './engine/metrics_state';
 import { Notices } from './notices';
-import { ParametersState } from './parameters_state';
-import { ProfileState } from './profile_state';
-import { reason_of } from './reason_of';
-import { RobotsState } from './robots_state';
+import { ParametersState } from './engine/parameters_state';
+import { ProfileState } from './engine/profile_state';
+import { reason_of } from './base/reason_of';
+import { RobotsState } from './floor/robots_state';
 import { Selection } from './selection';
-import { StatusState } from './status_state';
-import { SubscriptionsState } from './subscriptions_state';
-import { Traffic } from './traffic';
+import { StatusState } from './engine/status_state';
+import { SubscriptionsState } from './session/subscriptions_state';
+import { Traffic } from './session/traffic';
 
 /** Commands that the engine has accepted. */
 export interface Accepted {

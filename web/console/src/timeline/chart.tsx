@@ -4,7 +4,7 @@ import { useCallback, useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 
 import { useConsole } from '../shell/context';
 import { shown_theme } from '../shell/theme';
-import { useDrawing } from '../ui/drawing';
+import { useDrawing } from '../ui/drawing/drawing';
 import { watch_size } from '../ui/use_width';
 import { describe_whole, phase_text, sentence } from './describe';
 import { type Lane, lay_out, type Layout, next_thing, type Placed, thing_at, time_of } from './layout';

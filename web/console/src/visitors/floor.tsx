@@ -3,12 +3,12 @@ import { useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 
 import { useConsole, useWatch } from '../shell/context';
-import { bounds_around, distance, type FloorPose, nearest_of, on_map, type Point, turned } from '../state/floor';
-import type { FloorMap } from '../state/floor_map';
-import type { Visitor } from '../state/hall_state';
-import { ellipse_of, type Robot } from '../state/things';
+import { bounds_around, distance, type FloorPose, nearest_of, on_map, type Point, turned } from '../state/floor/floor';
+import type { FloorMap } from '../state/floor/floor_map';
+import type { Visitor } from '../state/floor/hall_state';
+import { ellipse_of, type Robot } from '../state/floor/things';
 import { joined } from '../ui';
-import { floor_point, SmallFloor } from '../ui/small_floor';
+import { floor_point, SmallFloor } from '../ui/drawing/small_floor';
 import { steering_of } from './steering';
 import * as w from './texts';
 

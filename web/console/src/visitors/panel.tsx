@@ -3,7 +3,7 @@ import './visitors.css';
 
 import { duration } from '../i18n/i18n';
 import { useConsole, useWatch } from '../shell/context';
-import { gestures, type Visitor } from '../state/hall_state';
+import { gestures, type Visitor } from '../state/floor/hall_state';
 import { Badge, Button, Checkbox, EmptyState, Form, Loading, SelectField, TextField } from '../ui';
 import { Floor } from './floor';
 import { languages, type Steering, steering_of } from './steering';

@@ -8,7 +8,7 @@ import { extname, normalize, resolve } from 'node:path';
 
 import { type Browser, chromium, type Locator, type Page } from 'playwright-core';
 
-import { Gateway, root } from '../../../client/tests/gateway.js';
+import { Gateway, root } from '../../../client/tests/kit/gateway.js';
 
 export { Gateway, root };
 

@@ -7,7 +7,7 @@ import { data_type, type Kind, problem_of } from '../../src/forms/data_type';
 import { type Asked, asked_by, choices_of, command_types, fixed_length, is_position, need_of, shown_description, units_of } from '../../src/forms/describe';
 import { inputs_of, parameters_from, problems_of, with_input } from '../../src/forms/inputs';
 import { options_for, type World as Things } from '../../src/forms/options';
-import { views_of } from '../../src/state/profile_state';
+import { views_of } from '../../src/state/engine/profile_state';
 import { profile_xml, World } from './world';
 
 function asked(name: string, type: string, more: Partial<Asked> = {}): Asked {

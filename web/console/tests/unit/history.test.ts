@@ -7,7 +7,7 @@ import { Console as Another } from '../../src/state/console';
 import { History, type Span } from '../../src/state/history';
 import { keep, restore } from '../../src/state/keeping';
 import { of_mark } from '../../src/timeline/describe';
-import { median } from '../../src/state/traffic';
+import { median } from '../../src/state/session/traffic';
 import { profile_xml, settled, World } from './world';
 
 let world: World;

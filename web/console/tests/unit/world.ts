@@ -2,7 +2,7 @@
 import { namespaces, type OpenSocket, parse_xml, type SocketListener, type XmlElement } from 'rois-client';
 
 import { Console } from '../../src/state/console';
-import type { Environment, Stop } from '../../src/state/environment';
+import type { Environment, Stop } from '../../src/state/base/environment';
 
 interface Alarm {
   at: number;

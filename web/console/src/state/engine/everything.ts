@@ -1,0 +1,90 @@
+// Stop for everything: whether all robots are stopped, by whomever, and the way to do it. Works without a session and without a link.
+import { computed, effect, signal } from '@preact/signals';
+import { read_stop_state } from 'rois-client';
+
+import type { Environment } from '../base/environment';
+import type { MetricsState } from './metrics_state';
+import { Poll } from '../base/poll';
+import { reason_of } from '../base/reason_of';
+
+const deadline = 5000; // ms
+const settled_after = 1500; // ms: an older scrape may have been under way when the gateway answered
+const period = 250; // ms between two questions whether all components have confirmed; most do within 500 ms
+
+export interface EverythingView {
+  stopped: boolean;
+  /** The refs of the components that have not confirmed yet that they stand still. */
+  waiting: readonly string[];
+}
+
+export class EverythingState {
+  /** Why the last press did not get through; empty when it did. */
+  readonly trouble = signal('');
+  private readonly said = signal({ at: 0, stopped: false, waiting: [] as readonly string[] });
+
+  /** What the gateway has answered, until its metrics are newer. */
+  readonly view = computed<EverythingView>(() => {
+    const { stopped, waiting } = this.known();
+    return { stopped, waiting };
+  });
+
+  private readonly is_unconfirmed = computed(() => {
+    const { stopped, count } = this.known();
+    return stopped && count > 0;
+  });
+
+  constructor(
+    private readonly environment: Environment,
+    private readonly token: () => string | undefined,
+    private readonly metrics: MetricsState,
+  ) {
+    const confirmations = new Poll(environment, period, () => this.ask());
+    effect(() => (this.is_unconfirmed.value ? confirmations.watch() : undefined));
+  }
+
+  /** Never rejects: `trouble` says why it did not get through. */
+  stop(): Promise<void> {
+    return this.post('/rois/stop').then(
+      () => void (this.trouble.value = ''),
+      (error: unknown) => void (this.trouble.value = reason_of(error)),
+    );
+  }
+
+  async clear(): Promise<void> {
+    await this.post('/rois/clear');
+    this.trouble.value = '';
+  }
+
+  private known(): { stopped: boolean; waiting: readonly string[]; count: number } {
+    const scrape = this.metrics.latest.value;
+    const said = this.said.value;
+    if (!scrape || scrape.at < said.at + settled_after) return { ...said, count: said.waiting.length };
+    const stopped = (scrape.value('rois_everything_stopped') ?? 0) > 0;
+    const count = stopped ? (scrape.value('rois_components_not_halted') ?? 0) : 0;
+    return { stopped, waiting: count > 0 ? said.waiting : [], count };
+  }
+
+  private async post(path: string): Promise<void> {
+    const answer = await this.fetch(path, 'POST');
+    if (!answer.ok) throw new Error(`status ${answer.status}`);
+    const { stopped, not_halted } = read_stop_state(await answer.text());
+    this.said.value = { at: this.environment.now(), stopped, waiting: not_halted };
+  }
+
+  // Who has not confirmed yet. /readyz has a line for each of them, and one while everything is stopped.
+  private async ask(): Promise<void> {
+    const before = this.said.peek();
+    const answer = await this.fetch('/readyz', 'GET');
+    const text = await answer.text();
+    const stopped = text.startsWith('stopped');
+    const waiting = [...text.matchAll(/^(.*) has not confirmed that it stands still$/gm)].map((one) => one[1]!);
+    const is_known = answer.ok || stopped || waiting.length > 0; // else it says what else is wrong
+    if (is_known && this.said.peek() === before) this.said.value = { at: this.environment.now(), stopped, waiting };
+  }
+
+  private fetch(path: string, method: string): Promise<Response> {
+    const token = this.token();
+    const headers: HeadersInit = token === undefined ? {} : { Authorization: `Bearer ${token}` };
+    return this.environment.fetch(path, { method, headers, cache: 'no-store', signal: AbortSignal.timeout(deadline) });
+  }
+}

@@ -1,0 +1,81 @@
+// The latest documents by number. The console's own polls and subscriptions have a separate limit, so that they do not displace the
+// user's documents.
+import type { LoggedDocument } from './documents';
+import { Ring } from '../base/ring';
+
+export interface DocumentLimits {
+  most: number;
+  most_bytes: number;
+}
+
+const share_of_polls = 0.1; // of both limits, in addition to them
+const polls = /^((query|search|get_command_result)(_response)?|receive_event)$/;
+
+/** Numbers only increase. Any document may be missing once it is forgotten. */
+export class DocumentLog implements Iterable<LoggedDocument> {
+  private readonly said: Ring<LoggedDocument>;
+  private readonly polled: Ring<LoggedDocument>;
+  private next = 0;
+
+  constructor({ most, most_bytes }: DocumentLimits) {
+    // A UTF-16 text takes up to two bytes a unit.
+    const weigh = ({ text }: LoggedDocument) => 2 * text.length + 200;
+    this.said = new Ring(most, most_bytes, weigh);
+    this.polled = new Ring(Math.ceil(most * share_of_polls), most_bytes * share_of_polls, weigh);
+  }
+
+  push(document: LoggedDocument): void {
+    this.next = document.number + 1;
+    (document.is_own && polls.test(document.name) ? this.polled : this.said).push(document);
+  }
+
+  /** Number of stored documents. */
+  get size(): number {
+    return this.said.size + this.polled.size;
+  }
+  get bytes(): number {
+    return this.said.bytes + this.polled.bytes;
+  }
+  /** The number of the oldest stored document. */
+  get first(): number {
+    return Math.min(this.said.at(0)?.number ?? this.next, this.polled.at(0)?.number ?? this.next);
+  }
+  /** The number of the next document. */
+  get end(): number {
+    return this.next;
+  }
+  get last(): LoggedDocument | undefined {
+    return this.numbered(this.next - 1);
+  }
+  numbered(number: number): LoggedDocument | undefined {
+    return found(this.said, number) ?? found(this.polled, number);
+  }
+  list(): LoggedDocument[] {
+    return [...this];
+  }
+  *[Symbol.iterator](): Iterator<LoggedDocument> {
+    let [i, j] = [0, 0];
+    for (;;) {
+      const [one, other] = [this.said.at(i), this.polled.at(j)];
+      if (!one && !other) return;
+      if (!other || (one && one.number < other.number)) {
+        yield one!;
+        i += 1;
+      } else {
+        yield other;
+        j += 1;
+      }
+    }
+  }
+}
+
+function found(ring: Ring<LoggedDocument>, number: number): LoggedDocument | undefined {
+  let [low, high] = [0, ring.size];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (ring.at(middle)!.number < number) low = middle + 1;
+    else high = middle;
+  }
+  const one = ring.at(low);
+  return one?.number === number ? one : undefined;
+}
