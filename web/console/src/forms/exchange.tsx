@@ -8,7 +8,7 @@ import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import type { CommandEntry } from '../state/session/commands_state';
 import type { Console } from '../state/console';
-import type { LoggedDocument } from '../state/session/documents';
+import type { LoggedDocument } from '../state/session/document_log';
 import { Button, CurlButton, error_text, type IconName, StatusBadge, XmlView } from '../ui';
 import { CommandProgress } from './command_progress';
 import { ResultsTable } from './results_table';

@@ -1,7 +1,7 @@
 // A logged document, and the details of an event or error.
 import { useConsole } from '../shell/context';
 import { show_document } from '../shell/navigation';
-import type { LoggedDocument } from '../state/session/documents';
+import type { LoggedDocument } from '../state/session/document_log';
 import type { Details } from '../state/session/events_state';
 import { Button, XmlView } from '../ui';
 import * as t from './exchange_texts';

@@ -7,7 +7,7 @@ import { clock_time } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import { show_component } from '../shell/navigation';
 import type { Console } from '../state/console';
-import type { LoggedDocument } from '../state/session/documents';
+import type { LoggedDocument } from '../state/session/document_log';
 import type { Details, ErrorEntry, EventEntry } from '../state/session/events_state';
 import type { Ring } from '../state/base/ring';
 import { Badge, Button, Checkbox, CurlButton, StatusBadge, XmlView } from '../ui';

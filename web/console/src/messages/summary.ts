@@ -1,5 +1,5 @@
 // Summarizes a document in a few words without parsing it.
-import type { LoggedDocument } from '../state/session/documents';
+import type { LoggedDocument } from '../state/session/document_log';
 import { unescaped } from '../ui/xml/xml_text';
 
 const known = new WeakMap<LoggedDocument, string>();

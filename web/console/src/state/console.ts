@@ -21,7 +21,8 @@ import {
 
 import { Bindings } from './session/bindings';
 import { CommandsState } from './session/commands_state';
-import { Documents, type LoggedDocument } from './session/documents';
+import type { LoggedDocument } from './session/document_log';
+import { Documents } from './session/documents';
 import { EntitiesState } from './floor/entities_state';
 import type { Environment, Stop } from './base/environment';
 import { EventsState } from './session/events_state';

@@ -3,7 +3,7 @@ import { Results } from 'rois-client';
 
 import type { CommandEntry } from './session/commands_state';
 import type { Console } from './console';
-import type { LoggedDocument } from './session/documents';
+import type { LoggedDocument } from './session/document_log';
 import type { EventEntry, ErrorEntry, GapEntry } from './session/events_state';
 import type { Span } from './history';
 

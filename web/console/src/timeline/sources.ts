@@ -1,7 +1,7 @@
 // The data to draw, live or as of a pause.
 import type { CommandEntry } from '../state/session/commands_state';
 import type { Console } from '../state/console';
-import type { LoggedDocument } from '../state/session/documents';
+import type { LoggedDocument } from '../state/session/document_log';
 import type { ErrorEntry, EventEntry, GapEntry } from '../state/session/events_state';
 import { longest_blink, type Span } from '../state/history';
 import type { Ring } from '../state/base/ring';

@@ -3,7 +3,8 @@ import { describe, expect, test } from 'vitest';
 
 import { category_of, Feed, type Filter, is_gap, no_filter, type Source } from '../../src/messages/feed';
 import { component_of, expire_of, summary } from '../../src/messages/summary';
-import { Documents, type LoggedDocument } from '../../src/state/session/documents';
+import type { LoggedDocument } from '../../src/state/session/document_log';
+import { Documents } from '../../src/state/session/documents';
 import type { GapEntry } from '../../src/state/session/events_state';
 import { read_recording, recording_of } from '../../src/state/session/recording';
 import { Ring } from '../../src/state/base/ring';

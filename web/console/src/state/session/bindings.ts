@@ -2,7 +2,7 @@
 import { signal } from '@preact/signals';
 import { type Client, code_of, namespaces, parse_xml } from 'rois-client';
 
-import type { LoggedDocument } from './documents';
+import type { LoggedDocument } from './document_log';
 
 /** The owner of a component: this console, another session by its number, or none. */
 export type Holder = { who: 'me' } | { who: 'other'; session: string } | { who: 'nobody' };

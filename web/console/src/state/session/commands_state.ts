@@ -1,7 +1,8 @@
 // The commands of this session: waiting, running or ended.
 import { type Client, code_of, type CommandUnit, type CompletedStatus, type Parameter, parse_xml, type Results } from 'rois-client';
 
-import type { Documents, LoggedDocument } from './documents';
+import type { LoggedDocument } from './document_log';
+import type { Documents } from './documents';
 import type { Environment, Stop } from '../base/environment';
 import { Pulse } from '../base/pulse';
 import { Ring } from '../base/ring';

@@ -1,7 +1,26 @@
 // The latest documents by number. The console's own polls and subscriptions have a separate limit, so that they do not displace the
 // user's documents.
-import type { LoggedDocument } from './documents';
 import { Ring } from '../base/ring';
+
+export type Direction = 'in' | 'out';
+
+/** Kind of a document; the direction alone does not determine it. */
+export type DocumentKind = 'request' | 'answer' | 'fault' | 'notification';
+
+export interface LoggedDocument {
+  number: number; // from 0, in order of arrival
+  at: number; // ms since 1970
+  direction: Direction;
+  kind: DocumentKind;
+  name: string; // of the root: `bind`, `bind_response`, `receive_event`, `fault`; empty if there is none
+  text: string;
+  component?: string; // the first component_ref in it
+  sequence?: number; // of a notification
+  return_code?: string; // of an answer
+  request?: LoggedDocument; // of an answer: its request
+  took?: number; // of an answer: ms since the request, with fractions
+  is_own: boolean; // sent by the console for its own display: hidden by default
+}
 
 export interface DocumentLimits {
   most: number;

@@ -1,26 +1,6 @@
 // All documents sent and received: the latest ones, with requests and answers paired.
-import { type DocumentLimits, DocumentLog } from './document_log';
+import { type Direction, type DocumentKind, type DocumentLimits, DocumentLog, type LoggedDocument } from './document_log';
 import type { Environment } from '../base/environment';
-
-export type Direction = 'in' | 'out';
-
-/** Kind of a document; the direction alone does not determine it. */
-export type DocumentKind = 'request' | 'answer' | 'fault' | 'notification';
-
-export interface LoggedDocument {
-  number: number; // from 0, in order of arrival
-  at: number; // ms since 1970
-  direction: Direction;
-  kind: DocumentKind;
-  name: string; // of the root: `bind`, `bind_response`, `receive_event`, `fault`; empty if there is none
-  text: string;
-  component?: string; // the first component_ref in it
-  sequence?: number; // of a notification
-  return_code?: string; // of an answer
-  request?: LoggedDocument; // of an answer: its request
-  took?: number; // of an answer: ms since the request, with fractions
-  is_own: boolean; // sent by the console for its own display: hidden by default
-}
 
 const usual_limits: DocumentLimits = { most: 20_000, most_bytes: 16 * 1024 * 1024 };
 

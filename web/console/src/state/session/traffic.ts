@@ -1,7 +1,8 @@
 // Message counts, response times and refusals of the last two minutes, by second.
 import type { Client } from 'rois-client';
 
-import type { Documents, LoggedDocument } from './documents';
+import type { LoggedDocument } from './document_log';
+import type { Documents } from './documents';
 import type { Environment } from '../base/environment';
 import { Poll } from '../base/poll';
 import { Ring } from '../base/ring';
