@@ -139,7 +139,7 @@ function AttributeField({ desk, root, node, name, rule }: FormProps & { name: st
       </fieldset>
     );
   }
-  const wrong = value !== undefined && !is_of(rule.type, value) ? w.wrong_value(label, value, rule.type) : undefined;
+  const wrong = value !== undefined && !is_of(rule.type, value) ? w.wrong_value(name, node.name, value, rule.type) : undefined;
   const meant = (component: string) => component_meant(root, component, profile);
   return (
     <TextField

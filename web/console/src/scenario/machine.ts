@@ -4,6 +4,7 @@ import { code_of, type Completed, type CompletedStatus, component_ref, type Comm
 import type { GiveBack } from '../state/session/bindings';
 import type { Console } from '../state/console';
 import type { Stop } from '../state/base/environment';
+import { to_double } from './grammar';
 import { Inbox } from './inbox';
 import type { Scenario, ScenarioCommand, State, Trigger, TriggerKind } from './model';
 import { Trouble } from './trouble';
@@ -183,11 +184,11 @@ export class Machine {
 
   // --- Timers, from the entry of the state ---
 
-  private due({ seconds }: Trigger): number {
-    const text = this.variables.filled(seconds);
-    const read = text.trim() === '' ? NaN : Number(text);
-    if (!(read >= 0 && read < 1e9)) Trouble.raise(() => w.no_seconds(this.state.name, text));
-    return this.entered + read * 1000;
+  private due(trigger: Trigger): number {
+    const text = this.variables.filled(trigger.seconds);
+    const seconds = to_double(text) ?? NaN;
+    if (!(seconds >= 0 && seconds < 1e9)) Trouble.raise(() => w.no_seconds(this.state.name, text));
+    return this.entered + seconds * 1000;
   }
 
   private timers(): Trigger[] {

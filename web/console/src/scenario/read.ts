@@ -72,34 +72,45 @@ class Reader {
 
   private check_grammar(node: Node): void {
     const rule = rule_of(node.name);
-    if (!rule || node.element.namespace !== namespace) return this.complain(node, () => w.unknown_element(node.name, node.parent?.name ?? ''));
+    if (!rule) return; // reported with its parent
+    if (node.element.namespace !== namespace) return this.complain_of_namespace(node);
     this.check_attributes(node, rule);
     this.check_content(node, rule);
-    if (!rule.text && node.element.text.trim() !== '') this.complain(node, () => w.no_text_here(node.name));
+    const text = node.element.text.trim();
+    if (!rule.text && text !== '') this.complain(node, () => w.no_text_here(text, node.name));
     for (const child of node.children) this.check_grammar(child);
   }
 
   private check_attributes(node: Node, rule: ElementRule): void {
     for (const { name: given, namespace: of, value } of node.element.attributes) {
       const expected = of === '' && Object.hasOwn(rule.attributes, given) ? rule.attributes[given] : undefined;
-      if (of === '' && !expected) this.complain(node, () => w.unknown_attribute(given, node.name));
-      if (expected && !is_of(expected.type, value)) this.complain(node, () => w.wrong_value(given, value, expected.type));
+      if (of === '' && !expected) this.complain(node, () => w.unknown_attribute(given, node.name, Object.keys(rule.attributes)));
+      if (expected && !is_of(expected.type, value)) this.complain(node, () => w.wrong_value(given, node.name, value, expected.type));
     }
     for (const [needed, { required }] of Object.entries(rule.attributes))
       if (required && node.element.attribute(needed) === undefined) this.complain(node, () => w.missing_attribute(needed, node.name));
   }
 
+  private complain_of_namespace(node: Node): void {
+    const { namespace: given } = node.element;
+    const { parent } = node;
+    this.complain(node, () => (parent ? w.other_namespace(node.name, parent.name, namespace, given) : w.unknown_root(node.name, given)));
+  }
+
   private check_content(node: Node, { content }: ElementRule): void {
     let at = 0;
+    let expected: string[] = []; // the elements that may follow the last one
     for (const { names, least, most } of content) {
       let count = 0;
       for (; count < most && names.includes(node.children[at]?.name ?? ''); ++at) count += 1;
-      if (count < least) return this.complain(node, () => w.missing_element(names.join(', '), node.name));
+      expected = [...(count === 0 ? expected : []), ...(count < most ? names : [])];
+      if (count < least && !node.children[at]) return this.complain(node, () => w.missing_element(names, node.name));
+      if (count < least) break;
     }
-    const more = node.children[at];
-    if (!more || !rule_of(more.name)) return; // an unknown element is reported at its own place
-    const known = content.some(({ names }) => names.includes(more.name));
-    this.complain(more, () => (known ? w.element_out_of_order(more.name, node.name) : w.unknown_element(more.name, node.name)));
+    const found = node.children[at];
+    if (!found) return;
+    if (rule_of(node.name)!.content.some(({ names }) => names.includes(found.name))) this.complain(found, () => w.element_out_of_order(found.name, node.name, expected));
+    else this.complain(found, () => w.unknown_element(found.name, node.name, expected));
   }
 
   // --- Content ---
@@ -203,7 +214,7 @@ class Reader {
 
   private take_result(node: Node, variable: string): Step {
     const has = (one: string) => node.element.attribute(one) !== undefined;
-    if (has('apart') && !has('not_in')) this.complain(node, () => w.belong_together('apart', 'not_in'));
+    if (has('apart') && !has('not_in')) this.complain(node, () => w.needs_list());
     if (has('beside') !== has('is')) this.complain(node, () => w.belong_together('beside', 'is'));
     return {
       kind: 'take',

@@ -26,9 +26,9 @@ export function typed_arguments(component: ComponentView, command_type: string, 
   for (const { name, data_type_ref, values } of made) {
     const type = data_type(data_type_ref.code);
     const items = type.is_list && is_packed(type) ? values.join(' ').split(/\s+/).filter(Boolean) : values;
-    if (!type.is_list && values.length !== 1) Trouble.raise(() => w.one_value(name));
+    if (!type.is_list && values.length !== 1) Trouble.raise(() => w.one_value(name, type.name, values.length));
     const wrong = items.find((one) => problem_of(type, one) !== undefined);
-    if (wrong !== undefined) Trouble.raise(() => w.not_of_type(name, wrong, data_type_ref.code));
+    if (wrong !== undefined) Trouble.raise(() => w.not_of_type(name, wrong, type.name));
   }
   return made;
 }
