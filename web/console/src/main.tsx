@@ -5,14 +5,14 @@ import './shell/shell.css';
 
 import { render } from 'preact';
 
-import { Console } from './state/console';
-import { keep, restore } from './state/keeping';
 import { type Language, language, wished_language } from './i18n/i18n';
 import { panels } from './panels';
 import { App } from './shell/app';
 import { browser, visit } from './shell/environment';
 import { begin_layout } from './shell/navigation';
 import { follow_system, type Theme, theme } from './shell/theme';
+import { Console } from './state/console';
+import { keep, restore } from './state/keeping';
 
 theme.value = (browser.recall('theme') as Theme | undefined) ?? 'system';
 language.value = (browser.recall('language') as Language | undefined) ?? wished_language(navigator.languages);

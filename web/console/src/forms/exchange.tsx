@@ -6,14 +6,14 @@ import { parse_xml, type Operation, Results, results_of, RoisError } from 'rois-
 
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
-import type { CommandEntry } from '../state/session/commands_state';
 import type { Console } from '../state/console';
+import type { CommandEntry } from '../state/session/commands_state';
 import type { LoggedDocument } from '../state/session/document_log';
 import { Button, CurlButton, error_text, type IconName, StatusBadge, XmlView } from '../ui';
 import { CommandProgress } from './command_progress';
-import { ResultsTable } from './results_table';
 import { draft, useDraft } from './drafts';
 import * as t from './exchange_texts';
+import { ResultsTable } from './results_table';
 
 export interface ExchangeProps {
   /** Name for buttons and regions: `navigation start`. */

@@ -1,9 +1,9 @@
 // Explains why a command failed, from the engine's results and the console's knowledge of the hall.
 import { pose_of } from 'rois-client';
 
-import type { CommandEntry } from '../state/session/commands_state';
 import type { Console } from '../state/console';
 import type { Bounds, FloorMap } from '../state/floor/floor_map';
+import type { CommandEntry } from '../state/session/commands_state';
 import * as t from './exchange_texts';
 
 const most_errors = 3;

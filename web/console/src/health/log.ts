@@ -1,11 +1,11 @@
 // The session's error log: errors, gaps, refusals, lost links.
 import { code_of, parse_xml } from 'rois-client';
 
-import type { CommandEntry } from '../state/session/commands_state';
 import type { Console } from '../state/console';
+import type { Span } from '../state/history';
+import type { CommandEntry } from '../state/session/commands_state';
 import type { LoggedDocument } from '../state/session/document_log';
 import type { ErrorEntry, GapEntry } from '../state/session/events_state';
-import type { Span } from '../state/history';
 import { placed_commands, units_of } from '../state/session/sequences';
 import { unescaped } from '../ui/xml/xml_text';
 

@@ -2,12 +2,12 @@
 import { value } from 'rois-client';
 
 import { show_document, show_panel } from '../shell/navigation';
-import type { CommandEntry } from '../state/session/commands_state';
 import type { Console } from '../state/console';
 import type { Robot } from '../state/floor/things';
+import type { CommandEntry } from '../state/session/commands_state';
 import type { Target } from './interaction';
-import type { Shown } from './scene';
 import { target_words } from './says';
+import type { Shown } from './scene';
 import * as texts from './texts';
 
 /** A robot and the components of its engine that move it. */

@@ -1,7 +1,7 @@
 // Formats numbers of the floor.
 import { duration } from '../i18n/i18n';
-import { confidence } from './painting/glyphs';
 import type { Target } from './interaction';
+import { confidence } from './painting/glyphs';
 import * as texts from './texts';
 
 /** `4.20 m`; below a metre `0.25 m`. */

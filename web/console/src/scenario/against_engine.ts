@@ -3,9 +3,9 @@ import type { ComponentView, ProfileState } from '../state/engine/profile_state'
 import type { Scenario, ScenarioCommand } from './model';
 import type { Problem } from './read';
 import { line_and_column, type Node } from './source';
+import * as w from './texts';
 import { Trouble, type Say } from './trouble';
 import { known_arguments, typed_arguments } from './typed';
-import * as w from './texts';
 
 export function against_engine(scenario: Scenario, text: string, profile: ProfileState): Problem[] {
   const found: Problem[] = [];

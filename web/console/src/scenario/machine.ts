@@ -1,16 +1,16 @@
 // Runs a scenario, as `rois scenario` does. docs/rois-command.md defines states, triggers and steps.
 import { code_of, type Completed, type CompletedStatus, component_ref, type CommandMessage, type ReceiveEvent, Results, type Subscription } from 'rois-client';
 
-import type { GiveBack } from '../state/session/bindings';
-import type { Console } from '../state/console';
 import type { Stop } from '../state/base/environment';
+import type { Console } from '../state/console';
+import type { GiveBack } from '../state/session/bindings';
 import { to_double } from './grammar';
 import { Inbox } from './inbox';
 import type { Scenario, ScenarioCommand, State, Trigger, TriggerKind } from './model';
+import * as w from './texts';
 import { Trouble } from './trouble';
 import { typed_arguments } from './typed';
 import { listed, Variables } from './variables';
-import * as w from './texts';
 
 /** Receives the steps of a run. */
 export interface Observer {

@@ -4,9 +4,9 @@ import { type CompletedStatus, XmlError } from 'rois-client';
 import { type ElementRule, is_of, namespace, rule_of, steps, to_double, triggers } from './grammar';
 import type { Relation, Scenario, ScenarioCommand, State, Step, Trigger, TriggerKind } from './model';
 import { line_and_column, type Node, read_source } from './source';
+import * as w from './texts';
 import type { Say } from './trouble';
 import { names_in } from './variables';
-import * as w from './texts';
 
 export interface Problem {
   say: Say;

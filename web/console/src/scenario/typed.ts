@@ -3,8 +3,8 @@ import type { Parameter, ParameterProfile } from 'rois-client';
 
 import { data_type, is_packed, problem_of } from '../forms/data_type';
 import type { ComponentView } from '../state/engine/profile_state';
-import { Trouble } from './trouble';
 import * as w from './texts';
+import { Trouble } from './trouble';
 
 /** The arguments of a command: its own and the component's parameters. */
 export function known_arguments(component: ComponentView, command_type: string): ParameterProfile[] {

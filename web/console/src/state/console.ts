@@ -19,26 +19,27 @@ import {
   type XmlElement,
 } from 'rois-client';
 
+import type { Environment, Stop } from './base/environment';
+import { reason_of } from './base/reason_of';
+import { EverythingState } from './engine/everything';
+import { MetricsState } from './engine/metrics_state';
+import { ParametersState } from './engine/parameters_state';
+import { ProfileState } from './engine/profile_state';
+import { StatusState } from './engine/status_state';
+import { EntitiesState } from './floor/entities_state';
+import { MapState } from './floor/floor_map';
+import { HallState } from './floor/hall_state';
+import { RobotsState } from './floor/robots_state';
+import { History } from './history';
+import { Notices } from './notices';
+import { Selection } from './selection';
 import { Bindings } from './session/bindings';
 import { CommandsState } from './session/commands_state';
 import type { LoggedDocument } from './session/document_log';
 import { Documents } from './session/documents';
-import { EntitiesState } from './floor/entities_state';
-import type { Environment, Stop } from './base/environment';
 import { EventsState } from './session/events_state';
-import { EverythingState } from './engine/everything';
-import { MapState } from './floor/floor_map';
-import { History } from './history';
-import { HallState } from './floor/hall_state';
 import { LinkState } from './session/link_state';
-import { MetricsState } from './engine/metrics_state';
-import { Notices } from './notices';
-import { ParametersState } from './engine/parameters_state';
-import { ProfileState } from './engine/profile_state';
-import { reason_of } from './base/reason_of';
-import { RobotsState } from './floor/robots_state';
-import { Selection } from './selection';
-import { StatusState } from './engine/status_state';
+import { OwnRequests } from './session/own_requests';
 import { SubscriptionsState } from './session/subscriptions_state';
 import { Traffic } from './session/traffic';
 
@@ -96,13 +97,12 @@ export class Console {
   constructor(readonly environment: Environment) {
     const client = () => this.speaker;
     const token = () => this.token;
-    const components = () => this.profile.components.value;
-    const is_open = () => this.link.is_open;
     this.notices = new Notices(environment);
     this.link = new LinkState(environment);
     this.documents = new Documents(environment);
-    this.status = new StatusState(environment, this.documents, client, components, is_open);
-    this.parameters = new ParametersState(environment, this.documents, client, is_open);
+    const requests = new OwnRequests(environment, this.documents, client, () => this.link.is_open);
+    this.status = new StatusState(environment, requests, this.profile);
+    this.parameters = new ParametersState(requests);
     this.metrics = new MetricsState(environment, token, () => !/^(connecting|lost|closed)$/.test(this.link.view.value.phase)); // else the gateway is unreachable
     this.everything = new EverythingState(environment, token, this.metrics);
     this.bindings = new Bindings(
@@ -117,7 +117,7 @@ export class Console {
       () => this.client,
       (event_type, error) => this.notices.tell('warning', event_type, { detail: reason_of(error), about: event_type }),
     );
-    this.robots = new RobotsState(environment, this.documents, client, components, () => this.commands.open().length > 0, is_open);
+    this.robots = new RobotsState(environment, requests, this.profile, () => this.commands.open().length > 0);
     this.entities = new EntitiesState(
       environment,
       (event_type) => this.subscriptions.subscribe_own(event_type),
@@ -126,15 +126,13 @@ export class Console {
       (ref) => this.profile.component(ref)?.engine ?? '',
     );
     this.map = new MapState(environment, token);
-    this.traffic = new Traffic(environment, this.documents, client, is_open);
+    this.traffic = new Traffic(environment, requests, this.documents);
     this.history = new History(environment, this);
     this.hall = new HallState(environment, {
-      documents: this.documents,
+      requests,
       commands: this.commands,
       profile: this.profile,
-      client,
       run: (ref, command_type, named) => this.run(ref, command_type, named, { give_back: true }),
-      may_ask: is_open,
     });
     this.now.value = environment.now();
     environment.every(1000, () => (this.now.value = environment.now()));

@@ -1,13 +1,13 @@
 // History for the time line: each component's status and owner, and the state of the link.
 import { effect, type ReadonlySignal } from '@preact/signals';
 
-import type { Bindings } from './session/bindings';
 import type { Environment, Stop } from './base/environment';
-import type { LinkState } from './session/link_state';
-import type { MetricsState } from './engine/metrics_state';
 import { Pulse } from './base/pulse';
 import { Ring } from './base/ring';
+import type { MetricsState } from './engine/metrics_state';
 import type { StatusState } from './engine/status_state';
+import type { Bindings } from './session/bindings';
+import type { LinkState } from './session/link_state';
 
 /** `status` and `holder` (`me` or a session number) of a component; `link`: its phase. */
 export type SpanKind = 'status' | 'holder' | 'link';

@@ -10,8 +10,8 @@ import { describe_whole, phase_text, sentence } from './describe';
 import { type Lane, lay_out, type Layout, next_thing, type Placed, thing_at, time_of } from './layout';
 import { axis_height, paint } from './paint';
 import { Pointing } from './pointing';
-import { key_of, type Thing } from './things';
 import * as t from './texts';
+import { key_of, type Thing } from './things';
 import { Tooltip } from './tooltip';
 import type { TimeView } from './view';
 

@@ -3,14 +3,14 @@ import { parse_xml } from 'rois-client';
 
 import { why } from '../forms/why';
 import { clock_time, duration } from '../i18n/i18n';
+import * as shell from '../shell/texts';
+import type { Console } from '../state/console';
+import type { Span } from '../state/history';
 import type { CommandEntry } from '../state/session/commands_state';
 import type { EventEntry } from '../state/session/events_state';
-import * as shell from '../shell/texts';
-import type { Span } from '../state/history';
 import type { Phase } from '../state/session/link_state';
-import type { Console } from '../state/console';
-import { began_at, has_failed, type Mark, mark_ref, opened_by, type Thing } from './things';
 import * as t from './texts';
+import { began_at, has_failed, type Mark, mark_ref, opened_by, type Thing } from './things';
 
 export interface Description {
   at: number; // for sorting

@@ -2,9 +2,9 @@
 import type { XmlElement } from 'rois-client';
 import { beforeEach, describe, expect, test, vi } from 'vitest';
 
-import { Drawing, type Sheet } from '../../src/map/painting/drawing';
 import { drivers_of, follow, go, motions_of, stop } from '../../src/map/driving';
 import { goals_of } from '../../src/map/goals';
+import { Drawing, type Sheet } from '../../src/map/painting/drawing';
 import { frame_box, frames_of } from '../../src/map/painting/ground';
 import type { Palette } from '../../src/map/painting/palette';
 import { Pen } from '../../src/map/painting/pen';

@@ -3,11 +3,11 @@ import { readFileSync } from 'node:fs';
 
 import { describe, expect, test } from 'vitest';
 
+import { language } from '../../src/i18n/i18n';
 import { graph_of, label_of_edge } from '../../src/scenario/graph';
 import { layout_of } from '../../src/scenario/layout';
 import { read_scenario } from '../../src/scenario/read';
 import { moved, node_of, nodes_in, plain_lines, read_source, with_attribute, with_child, with_state_renamed, with_text, without } from '../../src/scenario/source';
-import { language } from '../../src/i18n/i18n';
 
 const reception = readFileSync(new URL('../../../../client-cpp/scenarios/reception.xml', import.meta.url), 'utf8');
 

@@ -1,22 +1,22 @@
 // Draws the floor on a canvas: only after changes and at most once a frame.
 import { effect, signal, untracked } from '@preact/signals';
 
-import type { Console } from '../../state/console';
 import type { Stop } from '../../state/base/environment';
+import type { Console } from '../../state/console';
 import { bearing, distance, type FloorPose, obstacle_at } from '../../state/floor/floor';
-import { radius_of } from './glyphs';
-import { Glide } from './glide';
 import { goals_of } from '../goals';
-import { draw_ground, frames_of } from './ground';
 import { type Hit, type Input, stepped, type Surroundings } from '../interaction';
+import type { Shown } from '../scene';
+import type { MapSession } from '../session';
+import { box_around, fitted, margin_of, type Point, type Size, to_floor, to_screen, type View, with_point } from '../view';
+import { Glide } from './glide';
+import { radius_of } from './glyphs';
+import { draw_ground, frames_of } from './ground';
 import { Labels } from './labels';
 import type { Palette } from './palette';
 import { type Context, Pen } from './pen';
 import { draw_picture, knob_distance, label_of, type Picture, type Preview } from './picture';
-import type { Shown } from '../scene';
-import type { MapSession } from '../session';
 import { Trails } from './trails';
-import { box_around, fitted, margin_of, type Point, type Size, to_floor, to_screen, type View, with_point } from '../view';
 
 /** The needed part of HTMLCanvasElement. */
 export interface Sheet {

@@ -1,8 +1,8 @@
 // Symbols of robots, persons, faces and sounds from above. They differ in shape, not only in colour.
-import type { Pen } from './pen';
-import type { Palette } from './palette';
 import type { Kind, Shown } from '../scene';
 import type { Point } from '../view';
+import type { Palette } from './palette';
+import type { Pen } from './pen';
 
 /** In standard deviations: 95 % of a two-dimensional normal distribution lie inside. */
 export const confidence = 2.4477;

@@ -1,7 +1,7 @@
 // The static layer: floor, grid, walls, furniture, places and frames. Redrawn only when the view changes.
 import type { Bounds, FloorMap, Place } from '../../state/floor/floor_map';
-import type { Pen } from './pen';
 import { round_step, to_floor } from '../view';
+import type { Pen } from './pen';
 
 /** The layers that the user has switched on. */
 export interface Layers {

@@ -1,6 +1,6 @@
 // Drawing tools: a canvas in CSS pixels and the floor's transformation.
-import type { Palette } from './palette';
 import { type Point, type Size, to_screen, type View } from '../view';
+import type { Palette } from './palette';
 
 export type Context = CanvasRenderingContext2D;
 

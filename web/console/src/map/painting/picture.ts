@@ -1,14 +1,14 @@
 // The dynamic layer: things, goals and the user's target.
-import type { Place } from '../../state/floor/floor_map';
 import { bearing, type FloorPose } from '../../state/floor/floor';
-import { draw_certainty, draw_choice, draw_thing, radius_of } from './glyphs';
+import type { Place } from '../../state/floor/floor_map';
 import type { Goal } from '../goals';
-import { type Axes, frame_box, type Layers, name_box, place_name } from './ground';
 import type { Target } from '../interaction';
-import { type Label, Labels, type Place as LabelBox } from './labels';
-import type { Pen } from './pen';
 import type { Shown } from '../scene';
 import type { Point, Size } from '../view';
+import { draw_certainty, draw_choice, draw_thing, radius_of } from './glyphs';
+import { type Axes, frame_box, type Layers, name_box, place_name } from './ground';
+import { type Label, Labels, type Place as LabelBox } from './labels';
+import type { Pen } from './pen';
 
 /** A robot at the target, before it is sent. */
 export interface Preview {

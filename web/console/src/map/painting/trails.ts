@@ -1,10 +1,10 @@
 // Trails on a separate canvas: while the view stays, only new parts are drawn.
 import { out_of } from '../../state/floor/floor';
+import type { TrailPoint } from '../../state/floor/things';
+import type { Shown } from '../scene';
+import type { Point } from '../view';
 import { color_of } from './glyphs';
 import type { Pen } from './pen';
-import type { Shown } from '../scene';
-import type { TrailPoint } from '../../state/floor/things';
-import type { Point } from '../view';
 
 const longest = { robot: 600, person: 200, face: 0, sound: 0 }; // points
 const overhang = 60; // points beyond the limit before all is redrawn

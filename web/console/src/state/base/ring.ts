@@ -48,6 +48,17 @@ export class Ring<T> implements Iterable<T> {
   numbered(number: number): T | undefined {
     return number < this.forgotten ? undefined : this.entries[this.begin + number - this.forgotten];
   }
+  /** The entry whose number by `number_of` is this one. Such numbers must increase from entry to entry. */
+  find(number: number, number_of: (one: T) => number): T | undefined {
+    let [low, high] = [0, this.size];
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (number_of(this.at(middle)!) < number) low = middle + 1;
+      else high = middle;
+    }
+    const found = this.at(low);
+    return found !== undefined && number_of(found) === number ? found : undefined;
+  }
   list(): T[] {
     return this.entries.slice(this.begin);
   }

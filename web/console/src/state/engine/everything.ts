@@ -3,9 +3,9 @@ import { computed, effect, signal } from '@preact/signals';
 import { read_stop_state } from 'rois-client';
 
 import type { Environment } from '../base/environment';
-import type { MetricsState } from './metrics_state';
 import { Poll } from '../base/poll';
 import { reason_of } from '../base/reason_of';
+import type { MetricsState } from './metrics_state';
 
 const deadline = 5000; // ms
 const settled_after = 1500; // ms: an older scrape may have been under way when the gateway answered

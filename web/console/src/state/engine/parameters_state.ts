@@ -1,20 +1,16 @@
 // Parameters of components, polled by `get_parameter` while they are watched.
 import { signal } from '@preact/signals';
-import { type Client, component_ref, type Results } from 'rois-client';
+import type { Results } from 'rois-client';
 
-import type { Documents } from '../session/documents';
-import type { Environment } from '../base/environment';
-import { Poll } from '../base/poll';
+import type { Poll } from '../base/poll';
+import type { OwnRequests } from '../session/own_requests';
 
 export class ParametersState {
   private readonly all = signal<ReadonlyMap<string, Results>>(new Map());
   private readonly polls = new Map<string, Poll>();
 
   constructor(
-    private readonly environment: Environment,
-    private readonly documents: Documents,
-    private readonly client: () => Client | undefined,
-    private readonly may_ask: () => boolean,
+    private readonly requests: OwnRequests,
     private readonly period = 1500, // ms
   ) {}
 
@@ -27,15 +23,13 @@ export class ParametersState {
   poll(ref: string): Poll {
     const known = this.polls.get(ref);
     if (known) return known;
-    const poll = new Poll(this.environment, this.period, () => this.ask(ref), this.may_ask);
+    const poll = this.requests.poll(this.period, () => this.ask(ref));
     this.polls.set(ref, poll);
     return poll;
   }
 
   private async ask(ref: string): Promise<void> {
-    const client = this.client();
-    if (!client) return;
-    const { results } = await this.documents.as_own(() => client.query('get_parameter', component_ref(ref)));
+    const results = await this.requests.query('get_parameter', ref);
     this.all.value = new Map([...this.all.value, [ref, results]]);
   }
 }

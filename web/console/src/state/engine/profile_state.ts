@@ -83,6 +83,11 @@ export class ProfileState {
     return this.components.value.filter((one) => one.events.some((event) => event.name === event_type));
   }
 
+  /** Components with a query of this name. */
+  with_query(query_type: string): ComponentView[] {
+    return this.components.value.filter((one) => one.queries.some((query) => query.name === query_type));
+  }
+
   tell(profile: Profile, at: number): void {
     this.profile.value = profile;
     this.told_at.value = at;

@@ -1,11 +1,12 @@
 // Status of the components: polls `component_status` while watched.
 import { signal } from '@preact/signals';
-import { type Client, component_ref, type ComponentStatus, RoisError } from 'rois-client';
+import type { ComponentStatus } from 'rois-client';
 
-import type { Documents } from '../session/documents';
 import type { Environment } from '../base/environment';
-import { Poll } from '../base/poll';
-import type { ComponentView } from './profile_state';
+import type { Poll } from '../base/poll';
+import { reason_of } from '../base/reason_of';
+import type { OwnRequests } from '../session/own_requests';
+import type { ProfileState } from './profile_state';
 
 export interface StatusEntry {
   status: ComponentStatus | 'unknown'; // unknown: the query failed, see `trouble`
@@ -21,13 +22,11 @@ export class StatusState {
 
   constructor(
     private readonly environment: Environment,
-    private readonly documents: Documents,
-    private readonly client: () => Client | undefined,
-    private readonly components: () => readonly ComponentView[],
-    may_ask: () => boolean,
+    private readonly requests: OwnRequests,
+    private readonly profile: ProfileState,
     period = 1000, // ms
   ) {
-    this.poll = new Poll(environment, period, () => this.ask(), may_ask);
+    this.poll = requests.poll(period, () => this.ask());
   }
 
   of(ref: string): StatusEntry | undefined {
@@ -35,20 +34,16 @@ export class StatusState {
   }
 
   private async ask(): Promise<void> {
-    const client = this.client();
-    if (!client) return;
     const before = this.all.value;
-    const asked = this.components()
-      .filter((one) => one.queries.some((query) => query.name === 'component_status'))
-      .map(async ({ ref }): Promise<[string, StatusEntry]> => {
-        const now = await this.documents
-          .as_own(() => client.query('component_status', component_ref(ref)))
-          .then(({ results }) => ({ status: (results.text('status') ?? 'unknown') as StatusEntry['status'] }))
-          .catch((error: unknown) => ({ status: 'unknown' as const, trouble: error instanceof RoisError ? error.message : String(error) }));
-        const last = before.get(ref);
-        const at = this.environment.now();
-        return [ref, { ...now, at, since: last?.status === now.status ? last.since : at }];
-      });
+    const asked = this.profile.with_query('component_status').map(async ({ ref }): Promise<[string, StatusEntry]> => {
+      const now = await this.requests
+        .query('component_status', ref)
+        .then((results) => ({ status: (results.text('status') ?? 'unknown') as StatusEntry['status'] }))
+        .catch((error: unknown) => ({ status: 'unknown' as const, trouble: reason_of(error) }));
+      const last = before.get(ref);
+      const at = this.environment.now();
+      return [ref, { ...now, at, since: last?.status === now.status ? last.since : at }];
+    });
     this.all.value = new Map(await Promise.all(asked));
   }
 }

@@ -3,6 +3,7 @@ import type { ReceiveEvent, Subscription } from 'rois-client';
 
 import type { Environment, Stop } from '../base/environment';
 import { Pulse } from '../base/pulse';
+import { Watchers } from '../base/watchers';
 import { type Entity, kind_of_event, located_in, placed } from './things';
 
 const most_entities = 500;
@@ -19,9 +20,9 @@ export class EntitiesState {
   readonly pulse: Pulse;
   /** Time of the last event with results in ms since 1970; 0: none yet. */
   told_at = 0;
-  private lookers = 0;
+  private readonly watchers = new Watchers(() => this.begin(), () => this.end());
   private readonly subscribed = new Map<string, Promise<Subscription | undefined>>();
-  private stop_clock: Stop | undefined;
+  private stop_clock = () => {};
 
   constructor(
     private readonly environment: Environment,
@@ -35,24 +36,23 @@ export class EntitiesState {
 
   /** Subscribes to these events while at least one caller watches. Does not start the components. */
   watch(): Stop {
-    this.lookers += 1;
-    if (this.lookers === 1) this.stop_clock = this.environment.every(1000, () => this.forget_old());
+    return this.watchers.watch();
+  }
+
+  private begin(): void {
+    this.stop_clock = this.environment.every(1000, () => this.forget_old());
     this.profile_changed();
-    let looks = true;
-    return () => {
-      if (!looks) return;
-      looks = false;
-      this.lookers -= 1;
-      if (this.lookers > 0) return;
-      this.stop_clock?.();
-      for (const subscription of this.subscribed.values()) void subscription.then((one) => one?.close().catch(() => undefined));
-      this.subscribed.clear();
-    };
+  }
+
+  private end(): void {
+    this.stop_clock();
+    for (const subscription of this.subscribed.values()) void subscription.then((one) => one?.close().catch(() => undefined));
+    this.subscribed.clear();
   }
 
   /** Subscribes to event types that are new in the profile. */
   profile_changed(): void {
-    if (this.lookers === 0) return;
+    if (!this.watchers.any) return;
     for (const event_type of entity_events)
       if (!this.subscribed.has(event_type) && this.has_event(event_type))
         this.subscribed.set(

@@ -1,13 +1,13 @@
 // Simulated persons, moved by commands to the simulator's Hall component. Engines without it have real persons.
 import { computed } from '@preact/signals';
-import { type Arguments, type Client, component_ref, type Pose, pose_of, pose_text, RoisError, value } from 'rois-client';
+import { type Arguments, type Pose, pose_of, pose_text, RoisError, value } from 'rois-client';
 
-import type { CommandEntry, CommandsState } from '../session/commands_state';
-import type { Documents } from '../session/documents';
 import type { Environment } from '../base/environment';
-import { Poll } from '../base/poll';
-import type { ProfileState } from '../engine/profile_state';
+import type { Poll } from '../base/poll';
 import { Pulse } from '../base/pulse';
+import type { ProfileState } from '../engine/profile_state';
+import type { CommandEntry, CommandsState } from '../session/commands_state';
+import type { OwnRequests } from '../session/own_requests';
 
 /** A simulated person: the true position, not a robot's measurement. Map frame, mm, degrees counter-clockwise. */
 export interface Visitor {
@@ -32,13 +32,11 @@ export const gestures = ['wave', 'nod', 'shake_head', 'bow', 'point', 'raise_han
 export type Gesture = (typeof gestures)[number];
 
 export interface HallParts {
-  documents: Documents;
+  requests: OwnRequests;
   commands: CommandsState;
   profile: ProfileState;
-  client: () => Client | undefined;
   /** Binds, executes, and releases at the end. */
   run: (ref: string, command_type: string, named: Arguments) => Promise<{ command_ids: string[]; ends: Promise<string[]> }>;
-  may_ask: () => boolean;
 }
 
 const period = 150; // ms
@@ -66,7 +64,7 @@ export class HallState {
     private readonly parts: HallParts,
   ) {
     this.pulse = new Pulse(environment);
-    this.poll = new Poll(environment, period, () => this.look(), () => parts.may_ask() && this.component.value !== undefined && this.is_due());
+    this.poll = parts.requests.poll(period, () => this.look(), () => this.component.value !== undefined && this.is_due());
   }
 
   // --- Commands to visitors. They resolve at the end of the command and reject with RoisError if it is refused. ---
@@ -135,9 +133,9 @@ export class HallState {
   }
 
   private async look(): Promise<void> {
-    const [client, component] = [this.parts.client(), this.component.value];
-    if (!client || !component) return;
-    const { results } = await this.parts.documents.as_own(() => client.query('visitors', component_ref(component.ref)));
+    const component = this.component.value;
+    if (!component) return;
+    const results = await this.parts.requests.query('visitors', component.ref);
     const [places, known, steered] = [results.texts('position_data').map(pose_of), results.texts('known'), results.texts('steered')];
     const is = (text: string | undefined) => text === 'true' || text === '1';
     const refs = results.texts('visitor_ref');

@@ -1,11 +1,9 @@
 // Positions of the robots: polls `robot_position` while watched, less often while no robot moves.
-import { type Client, component_ref } from 'rois-client';
-
-import type { Documents } from '../session/documents';
 import type { Environment } from '../base/environment';
-import { Poll } from '../base/poll';
-import type { ComponentView } from '../engine/profile_state';
+import type { Poll } from '../base/poll';
 import { Pulse } from '../base/pulse';
+import type { ProfileState } from '../engine/profile_state';
+import type { OwnRequests } from '../session/own_requests';
 import { located_in, placed, type Robot } from './things';
 
 const forgotten_after = 60_000; // ms
@@ -22,15 +20,13 @@ export class RobotsState {
 
   constructor(
     private readonly environment: Environment,
-    private readonly documents: Documents,
-    private readonly client: () => Client | undefined,
-    private readonly components: () => readonly ComponentView[],
+    private readonly requests: OwnRequests,
+    private readonly profile: ProfileState,
     /** Whether this session runs a command that may move a robot. */
     private readonly is_at_work: () => boolean,
-    may_ask: () => boolean,
   ) {
     this.pulse = new Pulse(environment);
-    this.poll = new Poll(environment, period, () => this.ask(), () => may_ask() && this.is_due());
+    this.poll = requests.poll(period, () => this.ask(), () => this.is_due());
   }
 
   /** A new session: positions in between are unknown. */
@@ -47,12 +43,9 @@ export class RobotsState {
 
   private async ask(): Promise<void> {
     this.asked_at = this.environment.now();
-    const client = this.client();
-    if (!client) return;
-    const askable = this.components().filter((one) => one.queries.some((query) => query.name === 'robot_position'));
     await Promise.all(
-      askable.map(async ({ ref }) => {
-        const { results } = await this.documents.as_own(() => client.query('robot_position', component_ref(ref)));
+      this.profile.with_query('robot_position').map(async ({ ref }) => {
+        const results = await this.requests.query('robot_position', ref);
         const at = this.environment.now();
         const codebook = results.get('robot_ref')?.data_type_ref.codebook_ref ?? '';
         for (const located of located_in(results, 'robot_ref'))

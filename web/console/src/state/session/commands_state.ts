@@ -1,11 +1,11 @@
 // The commands of this session: waiting, running or ended.
 import { type Client, code_of, type CommandUnit, type CompletedStatus, type Parameter, parse_xml, type Results } from 'rois-client';
 
-import type { LoggedDocument } from './document_log';
-import type { Documents } from './documents';
 import type { Environment, Stop } from '../base/environment';
 import { Pulse } from '../base/pulse';
 import { Ring } from '../base/ring';
+import type { LoggedDocument } from './document_log';
+import type { Documents } from './documents';
 import { placed_commands, units_of } from './sequences';
 
 /** `unknown`: the session was lost before the command ended. */

@@ -30,6 +30,8 @@ export interface DocumentLimits {
 const share_of_polls = 0.1; // of both limits, in addition to them
 const polls = /^((query|search|get_command_result)(_response)?|receive_event)$/;
 
+const number_of = (one: LoggedDocument) => one.number;
+
 /** Numbers only increase. Any document may be missing once it is forgotten. */
 export class DocumentLog implements Iterable<LoggedDocument> {
   private readonly said: Ring<LoggedDocument>;
@@ -67,7 +69,7 @@ export class DocumentLog implements Iterable<LoggedDocument> {
     return this.numbered(this.next - 1);
   }
   numbered(number: number): LoggedDocument | undefined {
-    return found(this.said, number) ?? found(this.polled, number);
+    return this.said.find(number, number_of) ?? this.polled.find(number, number_of);
   }
   list(): LoggedDocument[] {
     return [...this];
@@ -86,15 +88,4 @@ export class DocumentLog implements Iterable<LoggedDocument> {
       }
     }
   }
-}
-
-function found(ring: Ring<LoggedDocument>, number: number): LoggedDocument | undefined {
-  let [low, high] = [0, ring.size];
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (ring.at(middle)!.number < number) low = middle + 1;
-    else high = middle;
-  }
-  const one = ring.at(low);
-  return one?.number === number ? one : undefined;
 }

@@ -1,6 +1,6 @@
 // All documents sent and received: the latest ones, with requests and answers paired.
-import { type Direction, type DocumentKind, type DocumentLimits, DocumentLog, type LoggedDocument } from './document_log';
 import type { Environment } from '../base/environment';
+import { type Direction, type DocumentKind, type DocumentLimits, DocumentLog, type LoggedDocument } from './document_log';
 
 const usual_limits: DocumentLimits = { most: 20_000, most_bytes: 16 * 1024 * 1024 };
 

@@ -1,10 +1,10 @@
 // Received events, errors and gaps.
 import { type Client, type Gap, type ReceiveError, type ReceiveEvent, type Results, RoisError } from 'rois-client';
 
-import type { Documents } from './documents';
 import type { Environment } from '../base/environment';
 import { Pulse } from '../base/pulse';
 import { Ring } from '../base/ring';
+import type { Documents } from './documents';
 
 /** State of the details: not requested, requested, available, or gone (expired or of another session). */
 export type Details = { state: 'none' | 'asked' } | { state: 'there'; results: Results } | { state: 'gone'; reason: string };

@@ -1,7 +1,7 @@
 // Recordings of `rois record` and `rois replay`: one JSON object on each line.
+import type { Environment } from '../base/environment';
 import type { Direction, LoggedDocument } from './document_log';
 import { Documents } from './documents';
-import type { Environment } from '../base/environment';
 
 const format = 'rois-recording-1';
 

@@ -2,9 +2,9 @@
 import { signal } from '@preact/signals';
 import { type Client, condition_xml, not, parse_xml, property, type ReceiveEvent, type SubscribeOptions, type Subscription, text_element, request } from 'rois-client';
 
+import type { Environment } from '../base/environment';
 import type { LoggedDocument } from './document_log';
 import type { Documents } from './documents';
-import type { Environment } from '../base/environment';
 
 export interface SubscriptionEntry {
   id: string; // subscribe_id

@@ -1,11 +1,10 @@
 // Message counts, response times and refusals of the last two minutes, by second.
-import type { Client } from 'rois-client';
-
+import type { Environment } from '../base/environment';
+import type { Poll } from '../base/poll';
+import { Ring } from '../base/ring';
 import type { LoggedDocument } from './document_log';
 import type { Documents } from './documents';
-import type { Environment } from '../base/environment';
-import { Poll } from '../base/poll';
-import { Ring } from '../base/ring';
+import type { OwnRequests } from './own_requests';
 
 export interface Second {
   at: number; // begin, ms since 1970
@@ -31,13 +30,12 @@ export class Traffic {
 
   constructor(
     private readonly environment: Environment,
-    private readonly documents: Documents,
-    private readonly client: () => Client | undefined,
-    may_ask: () => boolean,
+    private readonly requests: OwnRequests,
+    documents: Documents,
     private readonly period = 1000, // ms
   ) {
     documents.listen((document) => this.on_document(document));
-    this.ping = new Poll(environment, period, () => this.ask(), may_ask);
+    this.ping = requests.poll(period, () => this.ask());
   }
 
   /** Adds the refusals of this page before its reload. */
@@ -72,9 +70,8 @@ export class Traffic {
 
   // The engine itself answers `search`; queries to components would add load there.
   private async ask(): Promise<void> {
-    const client = this.client();
-    if (!client || this.environment.now() - this.answered_at < 0.9 * this.period) return;
-    await this.documents.as_own(() => client.search());
+    if (this.environment.now() - this.answered_at < 0.9 * this.period) return;
+    await this.requests.send((client) => client.search());
   }
 }
 

@@ -2,8 +2,8 @@ import { useEffect, useState } from 'preact/hooks';
 
 import { useConsole } from '../../shell/context';
 import { Button, type ButtonProps } from '../button';
-import { curl_of } from './curl';
 import * as texts from '../texts';
+import { curl_of } from './curl';
 
 export interface CopyProps extends Omit<ButtonProps, 'icon' | 'children'> {
   text: string | (() => string);

@@ -1,7 +1,7 @@
 import { useMemo } from 'preact/hooks';
 
-import { CopyButton } from './copy';
 import * as texts from '../texts';
+import { CopyButton } from './copy';
 import { laid_out, pieces_of } from './xml_text';
 
 export interface XmlViewProps {
