@@ -12,11 +12,11 @@ import * as t from './texts';
 export function ParametersTab({ view }: { view: ComponentView }) {
   const { parameters } = useConsole();
   useWatch(parameters.poll(view.ref));
-  const told = parameters.of(view.ref);
+  const current = parameters.of(view.ref);
   return (
     <>
       <h3>{t.values_now()}</h3>
-      {told && told.parameters.length > 0 ? <ResultsTable label={t.values_now()} results={told} /> : <p class="soft">{t.not_told()}</p>}
+      {current && current.parameters.length > 0 ? <ResultsTable label={t.values_now()} results={current} /> : <p class="soft">{t.not_told()}</p>}
       {view.parameters.length > 0 ? <SetForm view={view} /> : <p class="soft">{t.no_parameters()}</p>}
     </>
   );

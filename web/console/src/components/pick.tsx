@@ -5,7 +5,7 @@ import type { Offered } from '../state/engine/profile_state';
 export interface PickProps {
   label: string;
   names: readonly string[];
-  /** What the names stand for; a name without an entry has no tooltip. */
+  /** The messages with these names. A name without a message has no tooltip. */
   offered: readonly Offered[];
   chosen: string;
   choose: (name: string) => void;

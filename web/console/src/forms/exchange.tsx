@@ -101,7 +101,7 @@ export async function watched(console: Console, operation: Operation, act: () =>
   return outcome;
 }
 
-// The state of the commands, or the refusal, comes first. If `follows`, it is scrolled into view whenever it grows.
+// Shows the state of the commands, or the refusal, first. If `follows`, scrolls it into view whenever it grows.
 function Came({ title, answer, error, follows }: Outcome & { title: string; follows: boolean }) {
   const { commands } = useConsole();
   void commands.pulse.beat.value;

@@ -52,8 +52,8 @@ function told(entry: LogEntry): Told {
   switch (entry.kind) {
     case 'error': {
       const { error, details } = entry.entry;
-      const said = details.state === 'there' ? details.results.parameters.filter((one) => !/^(component_ref|time)$/.test(one.name)) : [];
-      const more = said.map((one) => one.values.join('; ')).join(' · ');
+      const shown = details.state === 'there' ? details.results.parameters.filter((one) => !/^(component_ref|time)$/.test(one.name)) : [];
+      const more = shown.map((one) => one.values.join('; ')).join(' · ');
       return { tone: 'bad', kind: t.error(), title: error.error_type, component: error.component_ref?.code ?? '', more };
     }
     case 'gap': {

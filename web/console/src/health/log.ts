@@ -32,8 +32,8 @@ export function log_of({ events, traffic, history, commands }: Console): LogEntr
 
 /** The engine's reason for a refusal; may be empty. */
 export function reason_of({ text }: LoggedDocument): string {
-  const said = /<(?:\w+:)?reason>([^<]*)</.exec(text)?.[1] ?? '';
-  return unescaped(said);
+  const reason = /<(?:\w+:)?reason>([^<]*)</.exec(text)?.[1] ?? '';
+  return unescaped(reason);
 }
 
 /** The component of a refusal. For a sequence, the component of the refused step. */

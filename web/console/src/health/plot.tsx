@@ -60,7 +60,7 @@ export function Plot({ title, lines, now, text, short, cursor }: PlotProps) {
     const point = pointed !== undefined ? point_near(line.series, pointed) : last && now - last.at <= fresh_for ? last : undefined;
     return point === undefined ? t.none() : text(point.value);
   };
-  const told = lines.map((line) => `${line.name} ${value_at(line)}`).join(', ');
+  const values = lines.map((line) => `${line.name} ${value_at(line)}`).join(', ');
   return (
     <figure class="health-plot">
       <figcaption>
@@ -84,7 +84,7 @@ export function Plot({ title, lines, now, text, short, cursor }: PlotProps) {
         aria-valuemin={-shown_for / 1000}
         aria-valuemax={0}
         aria-valuenow={Math.round(((pointed ?? now) - now) / 1000)}
-        aria-valuetext={`${clock_time(pointed ?? now, false)}: ${told}`}
+        aria-valuetext={`${clock_time(pointed ?? now, false)}: ${values}`}
         onKeyDown={pressed}
         onBlur={() => (cursor.value = undefined)}
       >

@@ -10,7 +10,7 @@ import { distance, obstacle_at, turned } from '../state/floor/floor';
 import { Button, error_text, Fact, Form, IconButton, SelectField, TextField } from '../ui';
 import { type Driver, follow, go, motions_of, stop, target_text } from './driving';
 import type { Target } from './interaction';
-import { age, certainty, degrees, metres, position } from './says';
+import { age, certainty, degrees, metres, position } from './formats';
 import type { Shown } from './scene';
 import { session_of } from './session';
 import * as t from './texts';

@@ -7,7 +7,7 @@ import type { Console } from '../state/console';
 import { distance, on_map } from '../state/floor/floor';
 import type { FloorMap } from '../state/floor/floor_map';
 import { type Driver, drivers_of, motions_of, whither_of } from './driving';
-import { position } from './says';
+import { position } from './formats';
 import type { Shown } from './scene';
 import type { Point } from './view';
 

@@ -11,7 +11,7 @@ export interface Target extends Point {
   whom?: string;
 }
 
-/** What is under a point of the screen. */
+/** The thing under a point of the screen. */
 export type Hit =
   | { what: 'floor' }
   | { what: 'target' }
@@ -38,7 +38,7 @@ export interface Interaction {
 
 export const at_rest: Interaction = { view: undefined, target: undefined, chosen: undefined, cursor: undefined, gesture: { kind: 'none' } };
 
-/** What an input needs to know. */
+/** The surroundings of an input. */
 export interface Surroundings {
   size: Size;
   /** The view while `view` is undefined. */

@@ -110,8 +110,8 @@ function values_in(document: LoggedDocument): Results {
   try {
     const element = parse_xml(document.text);
     if (!is_notification(element)) return results_of(element);
-    const told = notification_of(element);
-    return told.name === 'receive_event' ? told.results : new Results();
+    const notification = notification_of(element);
+    return notification.name === 'receive_event' ? notification.results : new Results();
   } catch {
     return new Results(); // a recording may have any content
   }

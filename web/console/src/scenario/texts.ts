@@ -14,7 +14,7 @@ export const shipped_hint = text('Opens the included reception scenario of figur
 export const undo = text('Undo', '元に戻す');
 export const unnamed = text('Scenario', 'シナリオ');
 export const not_connected = text('Connect first', '先に接続してください');
-export const mend_first = text('Fix the problems first', '先に誤りを直してください');
+export const fix_first = text('Fix the problems first', '先に誤りを直してください');
 
 // State of the run
 export const never_run = text('Not started', '未開始');

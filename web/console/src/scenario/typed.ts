@@ -3,7 +3,7 @@ import type { Parameter, ParameterProfile } from 'rois-client';
 
 import { data_type, is_packed, problem_of } from '../forms/data_type';
 import type { ComponentView } from '../state/engine/profile_state';
-import * as w from './texts';
+import * as t from './texts';
 import { Trouble } from './trouble';
 
 /** The arguments of a command: its own and the component's parameters. */
@@ -18,7 +18,7 @@ export function typed_arguments(component: ComponentView, command_type: string, 
   const made: Parameter[] = [];
   for (const { name, text } of given) {
     const declared = known.find((one) => one.name.toLowerCase() === name.toLowerCase());
-    if (!declared) return Trouble.raise(() => w.no_argument(component.ref, name, known.map((one) => one.name)));
+    if (!declared) return Trouble.raise(() => t.no_argument(component.ref, name, known.map((one) => one.name)));
     let argument = made.find((one) => one.name === declared.name);
     if (!argument) made.push((argument = { name: declared.name, data_type_ref: declared.data_type_ref, values: [] }));
     add_value(argument, text);
@@ -26,9 +26,9 @@ export function typed_arguments(component: ComponentView, command_type: string, 
   for (const { name, data_type_ref, values } of made) {
     const type = data_type(data_type_ref.code);
     const items = type.is_list && is_packed(type) ? values.join(' ').split(/\s+/).filter(Boolean) : values;
-    if (!type.is_list && values.length !== 1) Trouble.raise(() => w.one_value(name, type.name, values.length));
+    if (!type.is_list && values.length !== 1) Trouble.raise(() => t.one_value(name, type.name, values.length));
     const wrong = items.find((one) => problem_of(type, one) !== undefined);
-    if (wrong !== undefined) Trouble.raise(() => w.not_of_type(name, wrong, type.name));
+    if (wrong !== undefined) Trouble.raise(() => t.not_of_type(name, wrong, type.name));
   }
   return made;
 }

@@ -1,4 +1,4 @@
-// What the lanes, boxes and gaps of the drawing share.
+// The context that lanes, boxes and gaps of the drawing share.
 import type { Drag } from './drag';
 import type { Slot } from './model';
 import type { RunView } from './running';

@@ -90,12 +90,12 @@ export class Console {
   readonly selection = new Selection();
 
   private token: string | undefined;
-  private speaker: Client | undefined;
+  private current_client: Client | undefined;
   private stops: Stop[] = [];
   private session = '';
 
   constructor(readonly environment: Environment) {
-    const client = () => this.speaker;
+    const client = () => this.current_client;
     const token = () => this.token;
     this.notices = new Notices(environment);
     this.link = new LinkState(environment);
@@ -149,8 +149,8 @@ export class Console {
 
   /** The client, for operations that are missing below. */
   get client(): Client {
-    if (!this.speaker) throw new Error('not connected: call connect first');
-    return this.speaker;
+    if (!this.current_client) throw new Error('not connected: call connect first');
+    return this.current_client;
   }
 
   /** The current token, for curl lines and HTTP requests. */
@@ -164,7 +164,7 @@ export class Console {
     this.token = token;
     // Bindings are not repeated: borrowers bind again in the new session.
     const client = new Client(this.environment.origin, { most_delay, rebind: false, ...(token !== undefined && { token }) }, this.environment.open_socket);
-    this.speaker = client;
+    this.current_client = client;
     this.stops = [
       this.link.follow(client, token, () => void client.close({ deadline: 0 })), // first: the others ask whether it is open
       client.on('document', ({ direction, text }) => this.documents.note(direction, text)),
@@ -177,19 +177,19 @@ export class Console {
 
   /** Retries at once to open a lost link. */
   retry(): void {
-    this.speaker?.retry();
+    this.current_client?.retry();
   }
 
   /** Ends the session at once. The engine stops its commands. */
   async close(): Promise<void> {
-    const client = this.speaker;
+    const client = this.current_client;
     await client?.close({ deadline: 1000 });
     this.link.set_phase('closed', '');
   }
 
   private leave(): void {
     for (const stop of this.stops.splice(0)) stop();
-    void this.speaker?.close({ deadline: 1000 });
+    void this.current_client?.close({ deadline: 1000 });
     this.forget_session();
   }
 
@@ -236,7 +236,7 @@ export class Console {
     }
   }
 
-  // --- What comes ---
+  // --- Received documents ---
 
   private on_document(document: LoggedDocument): void {
     if (document.kind !== 'answer') return;

@@ -184,7 +184,7 @@ export function Chart({ view, opened, open }: ChartProps) {
     act();
   };
 
-  const told = focused.value;
+  const chosen = focused.value;
   return (
     <div class="timeline-frame" ref={frame} onScroll={redraw}>
       <div class="timeline-inside" style={{ height: `${lanes.value.reduce((sum, one) => sum + one.height, axis_height)}px` }}>
@@ -209,11 +209,11 @@ export function Chart({ view, opened, open }: ChartProps) {
             onPointerLeave={() => hover(undefined)}
             onDblClick={() => view.undo()}
           />
-          <Tip view={view} layout={layout} frame={frame} hovered={hovered.value} focused={told} />
+          <Tip view={view} layout={layout} frame={frame} hovered={hovered.value} focused={chosen} />
         </div>
       </div>
       <p id="timeline-help" class="unseen">{t.help()}</p>
-      <p class="unseen" role="status">{told ? sentence(describe_whole(console, told.thing, view.sources.at)) : ''}</p>
+      <p class="unseen" role="status">{chosen ? sentence(describe_whole(console, chosen.thing, view.sources.at)) : ''}</p>
     </div>
   );
 }

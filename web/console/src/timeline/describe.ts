@@ -37,11 +37,11 @@ export function describe(thing: Thing, at: number): Description {
 
 /** Includes why it failed, as far as known. */
 export function describe_whole(console: Console, thing: Thing, at: number): Description {
-  const told = describe(thing, at);
+  const described = describe(thing, at);
   const opened = opened_by(thing);
-  if (opened.kind !== 'command' || !has_failed(opened.entry)) return told;
+  if (opened.kind !== 'command' || !has_failed(opened.entry)) return described;
   const reasons = why(console, opened.entry);
-  return reasons.length === 0 ? told : { ...told, facts: [...told.facts.filter(([name]) => name !== t.reason()), [t.reason(), reasons.join(' ').replace(/^reason: /, '')]] };
+  return reasons.length === 0 ? described : { ...described, facts: [...described.facts.filter(([name]) => name !== t.reason()), [t.reason(), reasons.join(' ').replace(/^reason: /, '')]] };
 }
 
 /** In one line. */

@@ -32,7 +32,7 @@ export interface Lane {
 
 export interface Layout {
   range: Range;
-  oldest: number; // nothing is known before
+  oldest: number; // the oldest known time
   width: number;
   height: number; // of all lanes
   lanes: Lane[];

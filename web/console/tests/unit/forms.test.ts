@@ -176,7 +176,7 @@ describe('the list of choices', () => {
   test('has names if the codebook is known', () => {
     const codebook = 'urn:x-rois:def:codebook:simulation::reaction';
     const told = new Results([{ name: 'available_reactions', data_type_ref: { code: 'RoISIdentifier[]', codebook_ref: codebook }, values: ['9', '51'] }]);
-    expect(options_for(asked('reaction_ref', 'RoISIdentifier'), { ...things, told }).list).toEqual([{ value: '9', codebook, label: 'bow the head' }, { value: '51', codebook }]);
+    expect(options_for(asked('reaction_ref', 'RoISIdentifier'), { ...things, parameters: told }).list).toEqual([{ value: '9', codebook, label: 'bow the head' }, { value: '51', codebook }]);
     expect(with_name(codebook, '28')).toBe('28 – wave the hand');
     expect(with_name('urn:other', '28')).toBe('28');
   });

@@ -5,7 +5,7 @@ import { at_rest, type Hit, type Input, type Interaction, is_map_key, stepped, t
 import { Glide } from '../../src/map/painting/glide';
 import { Labels } from '../../src/map/painting/labels';
 import { label_of } from '../../src/map/painting/picture';
-import { age } from '../../src/map/says';
+import { age } from '../../src/map/formats';
 import { scene_of, type Told } from '../../src/map/scene';
 import { box_around, fitted, panned, pinched, round_step, to_floor, to_screen, with_point, zoomed } from '../../src/map/view';
 import { Ring } from '../../src/state/base/ring';

@@ -9,7 +9,7 @@ import { frame_box, frames_of } from '../../src/map/painting/ground';
 import type { Palette } from '../../src/map/painting/palette';
 import { Pen } from '../../src/map/painting/pen';
 import { knob_distance } from '../../src/map/painting/picture';
-import { age } from '../../src/map/says';
+import { age } from '../../src/map/formats';
 import { MapSession } from '../../src/map/session';
 import type { Console } from '../../src/state/console';
 import { profile_xml, settled, World } from './world';

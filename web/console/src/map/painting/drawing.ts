@@ -199,7 +199,7 @@ export class Drawing {
     const { shown } = this.session.scene();
     const { age_text } = this.tools;
     const is_same = (one: Shown, before: Shown | undefined) => one.key === before?.key && one.freshness === before.freshness && label_of(one, age_text) === label_of(before, age_text);
-    return shown.length !== this.shown.length || shown.some((one, i) => !is_same(one, this.shown[i]) || this.glide.is_news(one.key, told(one), now, this.slack_of(one)));
+    return shown.length !== this.shown.length || shown.some((one, i) => !is_same(one, this.shown[i]) || this.glide.is_news(one.key, received_pose(one), now, this.slack_of(one)));
   }
 
   // Robot positions are polled and so have noise. Persons are reported only when they move.
@@ -302,7 +302,7 @@ export class Drawing {
   }
 
   private pose_of(one: Shown): FloorPose {
-    return this.glide.pose(one.key, told(one), this.console.environment.now(), this.slack_of(one));
+    return this.glide.pose(one.key, received_pose(one), this.console.environment.now(), this.slack_of(one));
   }
 
   private pen(context: Context, view: View): Pen {
@@ -310,7 +310,7 @@ export class Drawing {
   }
 }
 
-function told({ x, y, th }: Shown): FloorPose {
+function received_pose({ x, y, th }: Shown): FloorPose {
   return th === undefined ? { x, y } : { x, y, th };
 }
 

@@ -22,24 +22,24 @@ export class Glide {
   private ways = new Map<string, Way>();
 
   /** The drawn pose for a received one. A resting thing keeps its drawn pose until it is more than `slack` mm away. */
-  pose(key: string, told: FloorPose, now: number, slack = 0): FloorPose {
+  pose(key: string, received: FloorPose, now: number, slack = 0): FloorPose {
     const way = this.ways.get(key);
-    if (way === undefined || distance(way.to, told) > leap) {
-      this.ways.set(key, { from: told, to: told, began: now, takes: quickest, anchor: told, moved: now });
-      return told;
+    if (way === undefined || distance(way.to, received) > leap) {
+      this.ways.set(key, { from: received, to: received, began: now, takes: quickest, anchor: received, moved: now });
+      return received;
     }
-    if (is_off(way.anchor, told, slack)) [way.anchor, way.moved] = [told, now];
-    if (!is_off(way.to, told, 0) || now - way.moved >= settles) return between(way, now);
+    if (is_off(way.anchor, received, slack)) [way.anchor, way.moved] = [received, now];
+    if (!is_off(way.to, received, 0) || now - way.moved >= settles) return between(way, now);
     const takes = Math.min(slowest, Math.max(quickest, now - way.began));
-    const next = { ...way, from: this.is_still ? told : between(way, now), to: told, began: now, takes };
+    const next = { ...way, from: this.is_still ? received : between(way, now), to: received, began: now, takes };
     this.ways.set(key, next);
     return between(next, now);
   }
 
   /** Whether drawing this pose would change the picture. */
-  is_news(key: string, told: FloorPose, now: number, slack: number): boolean {
+  is_news(key: string, received: FloorPose, now: number, slack: number): boolean {
     const way = this.ways.get(key);
-    return way === undefined || is_off(way.anchor, told, slack) || (now - way.moved < settles && is_off(way.to, told, 0));
+    return way === undefined || is_off(way.anchor, received, slack) || (now - way.moved < settles && is_off(way.to, received, 0));
   }
 
   /** Whether any thing is moving between poses. */

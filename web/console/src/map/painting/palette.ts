@@ -1,4 +1,4 @@
-// The colours of ui/tokens.css for canvases.
+// The colours of ui/styles/tokens.css for canvases.
 import { color } from '../../shell/theme';
 
 const names = {

@@ -1,4 +1,4 @@
-// Stop for everything: whether all robots are stopped, by whomever, and the way to do it. Works without a session and without a link.
+// Stop for everything: whether all robots are stopped, by any session, and the operations to stop and clear. Works without a session and a link.
 import { computed, effect, signal } from '@preact/signals';
 import { read_stop_state } from 'rois-client';
 
@@ -9,7 +9,7 @@ import type { MetricsState } from './metrics_state';
 
 const deadline = 5000; // ms
 const settled_after = 1500; // ms: an older scrape may have been under way when the gateway answered
-const period = 250; // ms between two questions whether all components have confirmed; most do within 500 ms
+const period = 250; // ms between two requests of /readyz; most components confirm within 500 ms
 
 export interface EverythingView {
   stopped: boolean;
@@ -18,11 +18,11 @@ export interface EverythingView {
 }
 
 export class EverythingState {
-  /** Why the last press did not get through; empty when it did. */
+  /** Why the last `stop()` failed; empty after a success. */
   readonly trouble = signal('');
-  private readonly said = signal({ at: 0, stopped: false, waiting: [] as readonly string[] });
+  private readonly answered = signal({ at: 0, stopped: false, waiting: [] as readonly string[] });
 
-  /** What the gateway has answered, until its metrics are newer. */
+  /** The gateway's last answer. Valid until its metrics are newer. */
   readonly view = computed<EverythingView>(() => {
     const { stopped, waiting } = this.known();
     return { stopped, waiting };
@@ -42,7 +42,7 @@ export class EverythingState {
     effect(() => (this.is_unconfirmed.value ? confirmations.watch() : undefined));
   }
 
-  /** Never rejects: `trouble` says why it did not get through. */
+  /** Never rejects: `trouble` has the reason of a failure. */
   stop(): Promise<void> {
     return this.post('/rois/stop').then(
       () => void (this.trouble.value = ''),
@@ -57,29 +57,29 @@ export class EverythingState {
 
   private known(): { stopped: boolean; waiting: readonly string[]; count: number } {
     const scrape = this.metrics.latest.value;
-    const said = this.said.value;
-    if (!scrape || scrape.at < said.at + settled_after) return { ...said, count: said.waiting.length };
+    const answered = this.answered.value;
+    if (!scrape || scrape.at < answered.at + settled_after) return { ...answered, count: answered.waiting.length };
     const stopped = (scrape.value('rois_everything_stopped') ?? 0) > 0;
     const count = stopped ? (scrape.value('rois_components_not_halted') ?? 0) : 0;
-    return { stopped, waiting: count > 0 ? said.waiting : [], count };
+    return { stopped, waiting: count > 0 ? answered.waiting : [], count };
   }
 
   private async post(path: string): Promise<void> {
     const answer = await this.fetch(path, 'POST');
     if (!answer.ok) throw new Error(`status ${answer.status}`);
     const { stopped, not_halted } = read_stop_state(await answer.text());
-    this.said.value = { at: this.environment.now(), stopped, waiting: not_halted };
+    this.answered.value = { at: this.environment.now(), stopped, waiting: not_halted };
   }
 
-  // Who has not confirmed yet. /readyz has a line for each of them, and one while everything is stopped.
+  // Finds the components that have not confirmed yet. /readyz has a line for each of them, and one while everything is stopped.
   private async ask(): Promise<void> {
-    const before = this.said.peek();
+    const before = this.answered.peek();
     const answer = await this.fetch('/readyz', 'GET');
     const text = await answer.text();
     const stopped = text.startsWith('stopped');
     const waiting = [...text.matchAll(/^(.*) has not confirmed that it stands still$/gm)].map((one) => one[1]!);
-    const is_known = answer.ok || stopped || waiting.length > 0; // else it says what else is wrong
-    if (is_known && this.said.peek() === before) this.said.value = { at: this.environment.now(), stopped, waiting };
+    const is_known = answer.ok || stopped || waiting.length > 0; // else /readyz reports another problem
+    if (is_known && this.answered.peek() === before) this.answered.value = { at: this.environment.now(), stopped, waiting };
   }
 
   private fetch(path: string, method: string): Promise<Response> {

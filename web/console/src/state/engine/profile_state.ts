@@ -52,7 +52,7 @@ const own_profiles: ComponentProfile[] = [
 export class ProfileState {
   /** The latest profile; undefined before the first. */
   readonly profile = signal<Profile | undefined>(undefined);
-  readonly told_at = signal(0);
+  readonly reported_at = signal(0);
   readonly components = computed<readonly ComponentView[]>(() => (this.profile.value ? views_of(this.profile.value) : []));
   readonly by_ref = computed<ReadonlyMap<string, ComponentView>>(() => new Map(this.components.value.map((one) => [one.ref, one])));
   readonly engine = computed<EngineView | undefined>(() => {
@@ -90,7 +90,7 @@ export class ProfileState {
 
   tell(profile: Profile, at: number): void {
     this.profile.value = profile;
-    this.told_at.value = at;
+    this.reported_at.value = at;
   }
 }
 

@@ -19,7 +19,7 @@ export class EntitiesState {
   readonly all = new Map<string, Entity>();
   readonly pulse: Pulse;
   /** Time of the last event with results in ms since 1970; 0: none yet. */
-  told_at = 0;
+  reported_at = 0;
   private readonly watchers = new Watchers(() => this.begin(), () => this.end());
   private readonly subscribed = new Map<string, Promise<Subscription | undefined>>();
   private stop_clock = () => {};
@@ -68,7 +68,7 @@ export class EntitiesState {
   event(event: ReceiveEvent): void {
     const kind = kind_of_event(event);
     const has_results = event.results.parameters.length > 0 || event.results.located.length > 0;
-    if (has_results && entity_events.includes(event.event_type)) this.told_at = this.environment.now();
+    if (has_results && entity_events.includes(event.event_type)) this.reported_at = this.environment.now();
     if (kind && !has_results) this.without_results(kind, event.component_ref.code);
     else if (kind) this.localized(kind, event);
     else if (event.event_type === 'person_identified') this.identified(event);
@@ -82,7 +82,7 @@ export class EntitiesState {
   }
 
   forget(): void {
-    this.told_at = 0;
+    this.reported_at = 0;
     this.all.clear();
     this.pulse.touch();
   }

@@ -56,7 +56,7 @@ export class HallState {
   readonly pulse: Pulse;
   readonly poll: Poll;
   /** Time of the last answer in ms since 1970; 0: none yet. */
-  told_at = 0;
+  reported_at = 0;
   private moved_at = 0;
 
   constructor(
@@ -113,14 +113,14 @@ export class HallState {
 
   forget(): void {
     this.visitors.clear();
-    this.told_at = 0;
+    this.reported_at = 0;
     this.pulse.touch();
   }
 
   private is_due(): boolean {
     const now = this.environment.now();
     const is_at_work = this.parts.commands.open().some((one) => one.component === this.component.value?.ref);
-    return is_at_work || now - this.moved_at < rests_after || now - this.told_at >= period_at_rest;
+    return is_at_work || now - this.moved_at < rests_after || now - this.reported_at >= period_at_rest;
   }
 
   private async tell(command_type: string, named: Arguments): Promise<Outcome> {
@@ -139,7 +139,7 @@ export class HallState {
     const [places, known, steered] = [results.texts('position_data').map(pose_of), results.texts('known'), results.texts('steered')];
     const is = (text: string | undefined) => text === 'true' || text === '1';
     const refs = results.texts('visitor_ref');
-    let changed = refs.length !== this.visitors.size || this.told_at === 0;
+    let changed = refs.length !== this.visitors.size || this.reported_at === 0;
     const before = new Map(this.visitors);
     this.visitors.clear();
     refs.forEach((ref, i) => {
@@ -148,9 +148,9 @@ export class HallState {
       changed ||= !then || then.x !== now.x || then.y !== now.y || then.th !== now.th || then.known !== now.known || then.steered !== now.steered;
       this.visitors.set(ref, now);
     });
-    this.told_at = this.environment.now();
+    this.reported_at = this.environment.now();
     if (!changed) return;
-    this.moved_at = this.told_at;
+    this.moved_at = this.reported_at;
     this.pulse.touch();
   }
 }

@@ -35,7 +35,7 @@ export interface Entity extends Thing {
   kind: EntityKind;
   /** Whether the component's last event lists it. */
   is_seen: boolean;
-  /** Since when events of its component arrive without results; absent while they have results. */
+  /** When events of its component began to arrive without results, ms since 1970; undefined while they have results. */
   unknown_since?: number;
   /** The identified person, if known. */
   identity?: { ref: string; codebook: string; at: number };
@@ -46,13 +46,13 @@ const trail_step = 50; // mm between two points
 const gap = { ms: 2000, mm: 700 }; // no report for this time and then a jump of this distance begins a new trail
 
 /** Updates the position of a thing, or creates it. */
-export function placed<T extends Thing>(known: T | undefined, located: Located, told: { codebook: string; component: string; at: number }, make: (thing: Thing) => T): T {
+export function placed<T extends Thing>(known: T | undefined, located: Located, report: { codebook: string; component: string; at: number }, make: (thing: Thing) => T): T {
   const [x, y, z] = located.position;
-  const is_gap = known !== undefined && told.at - known.at > gap.ms && Math.hypot(known.x - x, known.y - y) > gap.mm;
-  const thing = known ?? make({ ref: located.ref, crs: located.crs, x, y, z, trail: new Ring(most_points), ...told });
+  const is_gap = known !== undefined && report.at - known.at > gap.ms && Math.hypot(known.x - x, known.y - y) > gap.mm;
+  const thing = known ?? make({ ref: located.ref, crs: located.crs, x, y, z, trail: new Ring(most_points), ...report });
   thing.crs = located.crs;
-  thing.component = told.component;
-  thing.at = told.at;
+  thing.component = report.component;
+  thing.at = report.at;
   thing.x = x;
   thing.y = y;
   thing.z = z;
@@ -60,7 +60,7 @@ export function placed<T extends Thing>(known: T | undefined, located: Located, 
   set_or_delete(thing, 'covariance', located.covariance);
   set_or_delete(thing, 'reliability', located.reliability);
   const last = thing.trail.at(-1);
-  if (!last || Math.hypot(last.x - x, last.y - y) >= trail_step) thing.trail.push({ x, y, at: told.at, ...(is_gap && { begins: true }) });
+  if (!last || Math.hypot(last.x - x, last.y - y) >= trail_step) thing.trail.push({ x, y, at: report.at, ...(is_gap && { begins: true }) });
   return thing;
 }
 
@@ -71,8 +71,8 @@ function set_or_delete<T extends object, Key extends keyof T>(thing: T, key: Key
 
 /** The positions in a result; from texts `x, y, th` if the engine sends no `located` elements. */
 export function located_in(results: Results, refs: string, positions = 'position_data'): Located[] {
-  const told = results.located.filter((one) => one.of === positions);
-  if (told.length > 0) return told;
+  const located = results.located.filter((one) => one.of === positions);
+  if (located.length > 0) return located;
   const poses = results.poses(positions);
   const crs = results.get(positions)?.data_type_ref.codebook_ref ?? '';
   return results.texts(refs).flatMap((ref, i): Located[] => {

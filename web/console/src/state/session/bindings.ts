@@ -14,7 +14,7 @@ export class Bindings {
   readonly mine = signal<ReadonlySet<string>>(new Set());
   private readonly borrowed = new Map<string, number>(); // bound only for borrowers, with their number
   private readonly kept = new Set<string>();
-  private readonly left = new Map<string, unknown>(); // released, with the other owners known then: the metrics may still name this console
+  private readonly left = new Map<string, unknown>(); // released components, and the owners known at that time: the metrics may still name this console as the owner
 
   constructor(
     private readonly client: () => Client,
@@ -68,7 +68,7 @@ export class Bindings {
     };
   }
 
-  /** Binds any component of a type, perhaps one that is already bound. */
+  /** Binds a component of this type; may choose one that this console has already bound. */
   async borrow_any(type: string): Promise<{ ref: string; give_back: GiveBack }> {
     const before = this.mine.value;
     const ref = code_of(await this.client().bind_any(type));
@@ -99,7 +99,7 @@ export class Bindings {
   private async give_back(refs: string[]): Promise<void> {
     for (const ref of refs) {
       if (!this.borrowed.has(ref) || this.lower(ref) > 0 || this.kept.has(ref) || !this.mine.value.has(ref)) continue;
-      this.gone(ref); // before the answer, so that a new borrower binds it again
+      this.gone(ref); // before the answer arrives, so that the next borrower binds it again
       await this.client()
         .release(ref)
         .catch(() => undefined); // the session is lost, and the binding with it

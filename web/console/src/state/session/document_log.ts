@@ -32,34 +32,34 @@ const polls = /^((query|search|get_command_result)(_response)?|receive_event)$/;
 
 const number_of = (one: LoggedDocument) => one.number;
 
-/** Numbers only increase. Any document may be missing once it is forgotten. */
+/** Numbers only increase. Forgotten documents are missing, also between others. */
 export class DocumentLog implements Iterable<LoggedDocument> {
-  private readonly said: Ring<LoggedDocument>;
+  private readonly kept: Ring<LoggedDocument>;
   private readonly polled: Ring<LoggedDocument>;
   private next = 0;
 
   constructor({ most, most_bytes }: DocumentLimits) {
     // A UTF-16 text takes up to two bytes a unit.
     const weigh = ({ text }: LoggedDocument) => 2 * text.length + 200;
-    this.said = new Ring(most, most_bytes, weigh);
+    this.kept = new Ring(most, most_bytes, weigh);
     this.polled = new Ring(Math.ceil(most * share_of_polls), most_bytes * share_of_polls, weigh);
   }
 
   push(document: LoggedDocument): void {
     this.next = document.number + 1;
-    (document.is_own && polls.test(document.name) ? this.polled : this.said).push(document);
+    (document.is_own && polls.test(document.name) ? this.polled : this.kept).push(document);
   }
 
   /** Number of stored documents. */
   get size(): number {
-    return this.said.size + this.polled.size;
+    return this.kept.size + this.polled.size;
   }
   get bytes(): number {
-    return this.said.bytes + this.polled.bytes;
+    return this.kept.bytes + this.polled.bytes;
   }
   /** The number of the oldest stored document. */
   get first(): number {
-    return Math.min(this.said.at(0)?.number ?? this.next, this.polled.at(0)?.number ?? this.next);
+    return Math.min(this.kept.at(0)?.number ?? this.next, this.polled.at(0)?.number ?? this.next);
   }
   /** The number of the next document. */
   get end(): number {
@@ -69,7 +69,7 @@ export class DocumentLog implements Iterable<LoggedDocument> {
     return this.numbered(this.next - 1);
   }
   numbered(number: number): LoggedDocument | undefined {
-    return this.said.find(number, number_of) ?? this.polled.find(number, number_of);
+    return this.kept.find(number, number_of) ?? this.polled.find(number, number_of);
   }
   list(): LoggedDocument[] {
     return [...this];
@@ -77,7 +77,7 @@ export class DocumentLog implements Iterable<LoggedDocument> {
   *[Symbol.iterator](): Iterator<LoggedDocument> {
     let [i, j] = [0, 0];
     for (;;) {
-      const [one, other] = [this.said.at(i), this.polled.at(j)];
+      const [one, other] = [this.kept.at(i), this.polled.at(j)];
       if (!one && !other) return;
       if (!other || (one && one.number < other.number)) {
         yield one!;

@@ -39,7 +39,7 @@ export class LinkState {
   session_since = 0;
   /** When the last document arrived, in ms since 1970; 0: none yet. Not a signal, because it changes all the time; ages are updated each
       second. */
-  heard_at = 0;
+  received_at = 0;
 
   constructor(private readonly environment: Environment) {
     this.set_phase('connecting', '');
@@ -80,7 +80,7 @@ export class LinkState {
       client.on('state', changed),
       client.on('gap', (gap) => this.note_gap(gap)),
       client.on('document', ({ direction }) => {
-        if (direction === 'in') this.heard_at = this.environment.now();
+        if (direction === 'in') this.received_at = this.environment.now();
       }),
     ];
     return () => {

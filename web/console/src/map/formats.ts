@@ -6,8 +6,8 @@ import * as texts from './texts';
 
 /** `4.20 m`; below a metre `0.25 m`. */
 export function metres(mm: number, digits = 2): string {
-  const said = (mm / 1000).toFixed(digits);
-  return texts.metres(Number(said) === 0 ? (0).toFixed(digits) : said);
+  const written = (mm / 1000).toFixed(digits);
+  return texts.metres(Number(written) === 0 ? (0).toFixed(digits) : written);
 }
 
 /** `x 4.20 m, y 3.00 m` */
