@@ -168,7 +168,7 @@ describe('the list of choices', () => {
     robots: [{ ...at, ref: 'robot1', codebook: 'urn:robot' }],
     entities: [person, { ...person, ref: 'person-2', is_seen: false }, { ...person, ref: 'face-1', kind: 'face', identity: undefined }],
     components: ['navigation'],
-    told: new Results([
+    parameters: new Results([
       { name: 'synthesizable_languages', ...value.strings(['en', 'ja']) },
       { name: 'available_reactions', data_type_ref: { code: 'RoISIdentifier[]', codebook_ref: 'urn:reaction' }, values: ['1', '2'] },
     ]),
