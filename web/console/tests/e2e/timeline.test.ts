@@ -220,6 +220,7 @@ describe('the time line', () => {
     stage.page(
       async (page) => {
         await lane(page, 'navigation').waitFor();
+        await expect.poll(() => page.evaluate(() => (window as unknown as Page_).rois.status.of('navigation')?.status)).toBe('READY');
         stage.front.cut();
         await page.getByText('Connection lost', { exact: true }).first().waitFor();
         stage.front.restore();
