@@ -46,7 +46,7 @@ test('in Node over TLS, cuts lose nothing', async () => {
   const gateway = await start();
   const tls = await TlsProxy.before(gateway.port);
   const program = `import { connect } from '${root}/web/client/dist/node.js';
-    import { endure } from '${root}/web/client/build/tests/endurance.js';
+    import { endure } from '${root}/web/client/build/tests/kit/endurance.js';
     console.log(JSON.stringify(await endure(connect, process.env.ROIS_URL)));`;
   try {
     await cut_a_hundred_times(tls.port, async ({ port }) => {

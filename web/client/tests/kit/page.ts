@@ -13,7 +13,7 @@ const program = process.env['CHROMIUM'] ?? '/usr/bin/chromium';
 // An import map loads the package without a bundler.
 const html = `<!doctype html><title>rois-client</title><script type="importmap">{"imports": {"rois-client": "/dist/browser.js"}}</script>`;
 
-const folders: Record<string, string> = { '/dist/': `${root}/web/client/dist/`, '/tests/': `${root}/web/client/build/tests/` };
+const folders: Record<string, string> = { '/dist/': `${root}/web/client/dist/`, '/tests/': `${root}/web/client/build/tests/kit/` };
 
 /** Opens a page of this origin; `/dist/browser.js` is routed to the client. */
 export async function bring_client(page: Page, origin: string): Promise<void> {
