@@ -1,5 +1,5 @@
 """Runs 500 commands, each with 20 events, through docs/examples/rois.py, while the caller cuts the link to ROIS_URL. Prints the outcome as
-JSON; web/client/tests/python.test.ts checks it."""
+JSON; web/client/tests/gateway/python.test.ts checks it."""
 import collections
 import json
 import os

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Runs $1 commands (default: 500), each with 20 events, with the functions of docs/examples/reception.sh, while the caller cuts the link to
-# ROIS_URL. Prints the outcome as JSON; web/client/tests/shell.test.ts checks it.
+# ROIS_URL. Prints the outcome as JSON; web/client/tests/gateway/shell.test.ts checks it.
 set -eu
 wanted=${1:-500}
 events_each=20

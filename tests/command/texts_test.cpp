@@ -6,7 +6,6 @@
 #include "command/input/arguments.hpp"
 #include "command/output/pretty.hpp"
 #include "command/output/terminal.hpp"
-#include "command/scenario/variables.hpp"
 
 namespace rois::command {
 namespace {
@@ -103,56 +102,6 @@ TEST(Arguments, AreRefusedWithTheReason) {
     expect_refused({"volume=loud"}, "volume: ");
     expect_refused({"volume=1", "volume=2"}, "volume: ");
     expect_refused({"levels=1 x"}, "levels: ");
-}
-
-// --- Variables of scenarios ---
-
-struct AScenario : testing::Test {
-    bool take(std::vector<Step> const& steps) { return variables.take(steps, &results, printed); }
-
-    Results results{{texts("ref", {"p1", "p2"}), texts("at", {"0, 0, 0", "1000, 0, 180"})}, {}};
-    Variables variables{{{"list", ""}, {"one", "1"}, {"x", ""}, {"y", ""}}};
-    std::vector<std::string> printed;
-};
-
-TEST_F(AScenario, FillsInVariables) {
-    take({AddValue{"list", "a"}, AddValue{"list", "b"}, Print{"{list} and {one}, not {"}});
-    EXPECT_THAT(printed, ElementsAre("a, b and 1, not {"));
-}
-
-TEST_F(AScenario, TakesTheFirstResultThatIsNotInAList) {
-    EXPECT_TRUE(take({TakeResult{"x", "ref", {}, {}, {}}, AddValue{"list", "{x}"}}));
-    EXPECT_TRUE(take({TakeResult{"x", "ref", "list", {}, {}}, TakeResult{"y", "at", {}, "ref", "{x}"}, Print{"{x} {y}"},
-                      AddValue{"list", "{x}"}}));
-    EXPECT_FALSE(take({TakeResult{"x", "ref", "list", {}, {}}}));
-    EXPECT_FALSE(take({TakeResult{"x", "nothing", {}, {}, {}}}));
-    EXPECT_THAT(printed, ElementsAre("p2 1000, 0, 180"));
-}
-
-TEST_F(AScenario, ChangesNothingWhenAStepDoesNotHold) {
-    EXPECT_FALSE(take({SetVariable{"x", "new"}, Print{"new"}, When{"one", When::Relation::is, "2"}}));
-    EXPECT_TRUE(printed.empty());
-    EXPECT_TRUE(take({When{"x", When::Relation::empty, {}}}));
-}
-
-TEST_F(AScenario, Compares) {
-    using enum When::Relation;
-    take({AddValue{"list", "a"}, AddValue{"list", "1"}, SetVariable{"x", "0, 0, 0"}});
-    EXPECT_TRUE(take({When{"one", is, "{one}"}}));
-    EXPECT_FALSE(take({When{"one", is_not, "1"}}));
-    EXPECT_TRUE(take({When{"one", in, "list"}}));
-    EXPECT_FALSE(take({When{"one", not_in, "list"}}));
-    EXPECT_FALSE(take({When{"y", in, "list"}})) << "nothing is in no list";
-    EXPECT_TRUE(take({When{"y", not_in, "list"}}));
-    EXPECT_TRUE(take({When{"one", not_empty, {}}}));
-    EXPECT_TRUE(take({When{"x", near, "300, 400, 0", 500}}));
-    EXPECT_FALSE(take({When{"x", near, "300, 401, 0", 500}}));
-    EXPECT_THROW(take({When{"x", near, "here", 500}}), Trouble);
-}
-
-TEST_F(AScenario, CountsAndComputesAPlaceInFrontOfAPerson) {
-    take({CountUp{"y"}, CountUp{"y"}, PlaceBefore{"x", "1000, 2000, 90", 500, 0}, Print{"{y}: {x}"}});
-    EXPECT_THAT(printed, ElementsAre(HasSubstr("2: 1000, 2500, ")));
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ private:
         for (auto const& [name, state] : scenario_.states)
             for (auto const& trigger : state.triggers)
                 if (trigger.kind == Trigger::Kind::event) types.insert(trigger.event_type);
-        for (auto const& type : types) context_.ok(Subscribe{type, {}, true});
+        for (auto const& type : types) subscriptions_.insert(context_.ok(Subscribe{type, {}, true}).subscribe_id);
     }
 
     void enter(std::string const& name) {
@@ -136,6 +136,7 @@ private:
     }
 
     void take_event(ReceiveEvent const& event) {
+        if (!subscriptions_.contains(event.subscribe_id)) return;  // of another program in this session
         auto const results = event.results ? *event.results : Results{};
         auto const is_meant = [&](Trigger const& trigger) {
             return trigger.kind == Trigger::Kind::event && trigger.event_type == event.event_type &&
@@ -158,9 +159,10 @@ private:
         };
         if (fire_if(is_meant, nullptr, "completed " + std::string{to_text(status_)}) || waits_for_more()) return;
         auto const reason = reason_of(context_, decisive_);
-        throw Trouble{exit_of(status_), state_->place + ": the commands of " + rois::quoted(state_->name) + " ended with " +
-                                            std::string{to_text(status_)} + ", and no trigger is for that" +
-                                            (reason.empty() ? "" : ": " + reason)};
+        auto const exit = status_ == CompletedStatus::ok ? Exit::error : exit_of(status_);
+        throw Trouble{exit, state_->place + ": the commands of " + rois::quoted(state_->name) + " ended with " +
+                                std::string{to_text(status_)} + ", and no trigger expects that" +
+                                (reason.empty() ? "" : ": " + reason)};
     }
 
     bool waits_for_more() const {
@@ -276,6 +278,7 @@ private:
     RobotScenario scenario_;
     Variables variables_;
     std::map<std::string, ComponentEntry> bound_;
+    std::set<SubscribeId> subscriptions_;
     ScenarioState const* state_ = nullptr;
     Clock::time_point entered_;
     std::vector<CommandId> pending_;

@@ -164,22 +164,18 @@ private:
         using enum When::Relation;
         static std::array<std::pair<std::string_view, When::Relation>, 6> const relations{
             {{"is", is}, {"is_not", is_not}, {"in", in}, {"not_in", not_in}, {"empty", empty}, {"near", near}}};
-        std::optional<When> read;
-        for (auto const& [attribute, relation] : relations) {
-            auto const operand = element.attribute(attribute);
-            if (!operand) continue;
-            if (read) throw element.complain("a 'when' must have exactly one condition");
-            read = When{variable, relation, known_text(element, *operand)};
-        }
-        if (!read)
-            throw element.complain("a 'when' needs one of " +
+        auto const is_given = [&](auto const& one) { return element.attribute(one.first).has_value(); };
+        if (std::ranges::count_if(relations, is_given) != 1)
+            throw element.complain("a 'when' needs exactly one of " +
                                    listed(relations, [](auto const& one) { return std::string{one.first}; }));
-        if (read->relation == in || read->relation == not_in) known_variable(element, read->operand);
-        if (read->relation == empty && !is_true(read->operand)) read->relation = not_empty;
-        if ((read->relation == near) != element.attribute("within").has_value())
+        auto const& [attribute, relation] = *std::ranges::find_if(relations, is_given);
+        When read{variable, relation, known_text(element, element.attribute(attribute, ""))};
+        if (read.relation == in || read.relation == not_in) known_variable(element, read.operand);
+        if (read.relation == empty && !is_true(read.operand)) read.relation = not_empty;
+        if ((read.relation == near) != element.attribute("within").has_value())
             throw element.complain("'near' and 'within' belong together");
-        read->within = element.number("within", 0);
-        return *read;
+        read.within = element.number("within", 0);
+        return read;
     }
 
     void check_state(xml::Element const& element, std::string const& name) const {
@@ -213,7 +209,9 @@ private:
 RobotScenario read_robot_scenario(std::shared_ptr<xml::Schemas const> const& schemas, std::string const& name, std::string text) {
     auto const document = xml::Document::parse(schemas, name, std::move(text));
     auto const root = document.root();
-    if (root.name() != "robot_scenario") throw root.complain("this is not a robot scenario: expected the element robot_scenario");
+    if (root.name() != "robot_scenario")
+        throw root.complain("this is not a robot scenario: expected the element robot_scenario, not " +
+                            rois::quoted(root.name()));
     return ScenarioParser{root}.take();
 }
 

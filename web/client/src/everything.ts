@@ -1,4 +1,4 @@
-// Stop for everything: halts all robots of a gateway, whoever commands them. Needs no session, and works while a client's link is lost.
+// Stop for everything: halts all robots of a gateway, also those that other sessions command. Needs no session, and works while a client's link is lost.
 import { stop_state_of } from './answers.js';
 import { RoisError } from './errors.js';
 import type { StopState } from './messages.js';
@@ -21,7 +21,7 @@ export function stop_everything(url: string, options: EverythingOptions = {}): P
   return post(url, 'stop', options);
 }
 
-/** Lets commands start again. Gives the state afterwards. */
+/** Allows commands again. Returns the state after that. */
 export function clear_everything(url: string, options: EverythingOptions = {}): Promise<StopState> {
   return post(url, 'clear', options);
 }
@@ -38,7 +38,7 @@ async function post(url: string, what: string, { token, deadline = 10_000 }: Eve
   }
 }
 
-/** Reads what /rois/stop and /rois/clear answer with. Throws RoisError `protocol` for any other text. */
+/** Parses the answer of /rois/stop and /rois/clear. Throws RoisError `protocol` for any other text. */
 export function read_stop_state(text: string): StopState {
   try {
     return stop_state_of(parse_xml(text));

@@ -71,7 +71,7 @@ export class Link {
   private session = '';
   private last_sequence = 0; // of the session
   private socket: Socket | undefined;
-  private ready = false; // the session is there and calls may be sent
+  private ready = false; // the session exists, and calls may be sent
   private queue: Call[] = []; // not yet sent
   private in_flight: Call[] = []; // sent and unanswered, in order
   private last_received_at = 0;
@@ -350,7 +350,7 @@ export class Link {
     this.listener.state_changed(state, reason);
   }
 
-  // --- What comes ---
+  // --- Received documents ---
 
   private received(text: string): void {
     this.last_received_at = performance.now();

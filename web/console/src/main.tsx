@@ -1,18 +1,18 @@
-import './ui/tokens.css';
-import './ui/base.css';
-import './ui/widgets.css';
+import './ui/styles/tokens.css';
+import './ui/styles/base.css';
+import './ui/styles/widgets.css';
 import './shell/shell.css';
 
 import { render } from 'preact';
 
-import { Console } from './state/console';
-import { keep, restore } from './state/keeping';
 import { type Language, language, wished_language } from './i18n/i18n';
 import { panels } from './panels';
 import { App } from './shell/app';
 import { browser, visit } from './shell/environment';
 import { begin_layout } from './shell/navigation';
 import { follow_system, type Theme, theme } from './shell/theme';
+import { Console } from './state/console';
+import { keep, restore } from './state/keeping';
 
 theme.value = (browser.recall('theme') as Theme | undefined) ?? 'system';
 language.value = (browser.recall('language') as Language | undefined) ?? wished_language(navigator.languages);

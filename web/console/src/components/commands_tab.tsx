@@ -2,10 +2,10 @@
 import { useState } from 'preact/hooks';
 import { command, request, sequence_xml } from 'rois-client';
 
-import { arguments_in, ArgumentFields, asked_by, CommandProgress, Exchange, type Inputs, last_outcome, misplaced, problems_in, signature, useDraft } from '../forms';
+import { arguments_in, ArgumentFields, asked_by, CommandProgress, Exchange, type Inputs, last_outcome, misplaced, problems_in, useDraft } from '../forms';
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
-import type { ComponentView } from '../state/profile_state';
+import type { ComponentView } from '../state/engine/profile_state';
 import { Checkbox, Form } from '../ui';
 import { Pick } from './pick';
 import * as t from './texts';
@@ -17,13 +17,9 @@ export function CommandsTab({ view }: { view: ComponentView }) {
   const names = in_order(view.commands.map((one) => one.name));
   const [name, choose] = useDraft(`${view.ref} command`, names[0] ?? '');
   if (!names.includes(name)) return <p>{t.no_commands()}</p>;
-  const tell = (one: string) => {
-    const offered = view.commands.find((each) => each.name === one);
-    return offered && signature(offered);
-  };
   return (
     <>
-      <Pick label={t.choose_command()} names={names} chosen={name} choose={choose} tell={tell} />
+      <Pick label={t.choose_command()} names={names} offered={view.commands} chosen={name} choose={choose} />
       <CommandForm key={name} view={view} name={name} />
     </>
   );

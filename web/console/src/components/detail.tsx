@@ -1,7 +1,7 @@
 // A component: status, owner and messages.
 import { shown_description, useDraft } from '../forms';
 import { useConsole } from '../shell/context';
-import type { ComponentView } from '../state/profile_state';
+import type { ComponentView } from '../state/engine/profile_state';
 import { Button, StatusBadge, Tabs, tried } from '../ui';
 import { CommandsTab } from './commands_tab';
 import { EventsTab } from './events_tab';

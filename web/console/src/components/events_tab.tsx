@@ -1,11 +1,11 @@
 // The Events tab: a form for each event of a component, its subscriptions and the latest events.
 import { component_ref, Condition, condition_xml, parse_xml, request, text_element } from 'rois-client';
 
-import { Exchange, signature, useDraft } from '../forms';
+import { Exchange, useDraft } from '../forms';
 import { clock_time } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
-import type { ComponentView, Offered } from '../state/profile_state';
-import { reason_of } from '../state/reason_of';
+import { reason_of } from '../state/base/reason_of';
+import type { ComponentView, Offered } from '../state/engine/profile_state';
 import { Button, Checkbox, Form, TextArea, tried } from '../ui';
 import { Pick } from './pick';
 import * as t from './texts';
@@ -17,13 +17,9 @@ export function EventsTab({ view }: { view: ComponentView }) {
   const [name, choose] = useDraft(`${view.ref} event`, names[0] ?? '');
   const event = view.events.find((one) => one.name === name);
   if (!event) return <p>{t.no_events()}</p>;
-  const tell = (one: string) => {
-    const offered = view.events.find((each) => each.name === one);
-    return offered && signature(offered);
-  };
   return (
     <>
-      <Pick label={t.choose_event()} names={names} chosen={name} choose={choose} tell={tell} />
+      <Pick label={t.choose_event()} names={names} offered={view.events} chosen={name} choose={choose} />
       <SubscribeForm key={name} view={view} event={event} />
       <Subscriptions event_type={name} />
       <LastEvents view={view} event_type={name} />

@@ -4,7 +4,7 @@ import { component_ref_xml, element, parameter_xml, request } from 'rois-client'
 
 import { arguments_in, ArgumentFields, asked_by, Exchange, type Inputs, problems_in, ResultsTable, useDraft } from '../forms';
 import { useConsole, useWatch } from '../shell/context';
-import type { ComponentView } from '../state/profile_state';
+import type { ComponentView } from '../state/engine/profile_state';
 import { Form } from '../ui';
 import { written } from './commands_tab';
 import * as t from './texts';
@@ -12,11 +12,11 @@ import * as t from './texts';
 export function ParametersTab({ view }: { view: ComponentView }) {
   const { parameters } = useConsole();
   useWatch(parameters.poll(view.ref));
-  const told = parameters.of(view.ref);
+  const current = parameters.of(view.ref);
   return (
     <>
       <h3>{t.values_now()}</h3>
-      {told && told.parameters.length > 0 ? <ResultsTable label={t.values_now()} results={told} /> : <p class="soft">{t.not_told()}</p>}
+      {current && current.parameters.length > 0 ? <ResultsTable label={t.values_now()} results={current} /> : <p class="soft">{t.not_told()}</p>}
       {view.parameters.length > 0 ? <SetForm view={view} /> : <p class="soft">{t.no_parameters()}</p>}
     </>
   );

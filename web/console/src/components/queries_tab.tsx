@@ -1,9 +1,9 @@
 // The Queries tab: a form for each query of a component.
 import { component_ref, condition_xml, request, text_element } from 'rois-client';
 
-import { Exchange, signature, useDraft } from '../forms';
+import { Exchange, useDraft } from '../forms';
 import { useConsole } from '../shell/context';
-import type { ComponentView } from '../state/profile_state';
+import type { ComponentView } from '../state/engine/profile_state';
 import { Form } from '../ui';
 import { Pick } from './pick';
 import * as t from './texts';
@@ -21,13 +21,9 @@ export function QueriesTab({ view }: { view: ComponentView }) {
   const query = view.queries.find((one) => one.name === name);
   const results = query?.results.map((one) => `${one.name} (${one.data_type_ref.code})`).join(', ') ?? '';
   const mine = component_ref(view.ref);
-  const tell = (one: string) => {
-    const offered = view.queries.find((each) => each.name === one);
-    return offered && signature(offered);
-  };
   return (
     <>
-      <Pick label={t.choose_query()} names={names} chosen={name} choose={choose} tell={tell} />
+      <Pick label={t.choose_query()} names={names} offered={view.queries} chosen={name} choose={choose} />
       <Form key={name} class="component-form">
         {results !== '' && <p class="soft">{t.answers(results)}</p>}
         <Exchange

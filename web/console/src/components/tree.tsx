@@ -3,7 +3,7 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 
 import { shown_description } from '../forms';
 import { useConsole } from '../shell/context';
-import type { ComponentView, EngineView } from '../state/profile_state';
+import type { ComponentView, EngineView } from '../state/engine/profile_state';
 import { Icon, StatusBadge } from '../ui';
 import { holder_text } from './holder';
 import * as texts from './texts';

@@ -2,9 +2,9 @@
 import { useRef, useState } from 'preact/hooks';
 
 import { useConsole, useWatch } from '../shell/context';
-import { bounds_around, ground_of, type Point } from '../state/floor';
-import type { Bounds, FloorMap } from '../state/floor_map';
-import { floor_point, rect, SmallFloor } from '../ui/small_floor';
+import { bounds_around, ground_of, type Point } from '../state/floor/floor';
+import type { Bounds, FloorMap } from '../state/floor/floor_map';
+import { floor_point, rect, SmallFloor } from '../ui/drawing/small_floor';
 import { is_number } from './checking';
 import type { Area } from './model';
 import * as t from './texts';

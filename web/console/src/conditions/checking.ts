@@ -11,7 +11,6 @@ export type Problem = 'no_reference' | 'no_value' | 'no_number' | 'no_time' | 'n
 
 const wrong: readonly Problem[] = ['no_number', 'reversed', 'no_xml', 'unwritable'];
 
-
 export interface Found {
   field: ProblemField;
   problem: Problem;

@@ -2,9 +2,9 @@
 import { signal } from '@preact/signals';
 import { Condition, everything } from 'rois-client';
 
+import type { Stop } from '../state/base/environment';
+import { Poll } from '../state/base/poll';
 import type { Console } from '../state/console';
-import type { Stop } from '../state/environment';
-import { Poll } from '../state/poll';
 import { type Draft, leaves_of, type Node } from './model';
 import { is_of_results, type Reference } from './vocabulary';
 import { condition_of, written } from './writing';

@@ -19,7 +19,7 @@ export function MatchesView({ store }: { store: ConditionStore }) {
   const missing = problems_of(draft.root, references).length;
   useWatch(status.poll);
   useWatch(store.matches);
-  useEffect(() => store.matches.look_for(condition, eligible(draft, profile.components.value)), [condition.xml, draft.purpose, draft.event_type, draft.query_type, profile.told_at.value]);
+  useEffect(() => store.matches.look_for(condition, eligible(draft, profile.components.value)), [condition.xml, draft.purpose, draft.event_type, draft.query_type, profile.reported_at.value]);
   const found = store.matches.found.value;
   const shown = found?.refs.filter(eligible(draft, profile.components.value)) ?? [];
   return (

@@ -1,7 +1,7 @@
 // Imports a condition from XML.
 import { useState } from 'preact/hooks';
 
-import { reason_of } from '../state/reason_of';
+import { reason_of } from '../state/base/reason_of';
 import { Button, Dialog, TextArea } from '../ui';
 import { draft_read } from './reading';
 import type { ConditionStore } from './store';

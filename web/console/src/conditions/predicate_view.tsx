@@ -3,11 +3,11 @@ import { useState } from 'preact/hooks';
 
 import { Badge, Checkbox, Field, IconButton, SelectField } from '../ui';
 import { AreaFields } from './area_fields';
-import { type Found, type ProblemField, problems_of } from './checking';
+import { problems_of } from './checking';
 import { type AreaKind, type Node, type Operator, type Predicate, with_changed } from './model';
 import type { ConditionStore } from './store';
 import * as t from './texts';
-import { ValueFields } from './value_fields';
+import { complaint_of, ValueFields } from './value_fields';
 import { is_spatial, operators_for, type Reference, resolved } from './vocabulary';
 
 export function PredicateView({ store, predicate, remove, wrap }: { store: ConditionStore; predicate: Predicate; remove: () => void; wrap: () => void }) {
@@ -55,14 +55,6 @@ export function PredicateView({ store, predicate, remove, wrap }: { store: Condi
       )}
     </div>
   );
-}
-
-/** The problem of a field: an error if the value is wrong, a hint if it is missing. */
-export function complaint_of(found: readonly Found[], field: ProblemField): { error?: string; hint?: string } {
-  const one = found.find((each) => each.field === field);
-  if (!one) return {};
-  const text = t.problem_named(one.problem);
-  return one.is_missing ? { hint: text } : { error: text };
 }
 
 function needs_distance({ operator }: Pick<Predicate, 'operator'>): boolean {

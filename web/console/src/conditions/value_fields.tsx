@@ -1,10 +1,17 @@
 // The value of a comparison: a text, number, time or choice.
 import { Field, SelectField, TextField } from '../ui';
-import type { Found } from './checking';
+import type { Found, ProblemField } from './checking';
 import type { Predicate } from './model';
-import { complaint_of } from './predicate_view';
 import * as t from './texts';
 import { has_two_values, is_temporal, type Reference } from './vocabulary';
+
+/** The problem of a field: an error if the value is wrong, a hint if it is missing. */
+export function complaint_of(found: readonly Found[], field: ProblemField): { error?: string; hint?: string } {
+  const one = found.find((each) => each.field === field);
+  if (!one) return {};
+  const text = t.problem_named(one.problem);
+  return one.is_missing ? { hint: text } : { error: text };
+}
 
 interface Props {
   predicate: Predicate;

@@ -4,7 +4,7 @@ import type { ParameterProfile } from 'rois-client';
 import { all_values, data_type, type DataType } from '../forms/data_type';
 import { is_position, units_of } from '../forms/describe';
 import { options_for, type World } from '../forms/options';
-import type { ComponentView } from '../state/profile_state';
+import type { ComponentView } from '../state/engine/profile_state';
 import type { Draft, Operator } from './model';
 
 export type ValueType = 'text' | 'number' | 'bool' | 'time' | 'position';
@@ -23,8 +23,8 @@ export interface Reference {
   is_closed: boolean;
 }
 
-/** Knowledge of the engine and its world. */
-export interface Known extends Omit<World, 'components' | 'told'> {
+/** The components, things and places that references and values come from. */
+export interface Known extends Omit<World, 'components' | 'parameters'> {
   components: readonly ComponentView[];
   engines: readonly string[];
 }
@@ -39,10 +39,10 @@ export function references_of(known: Known, { purpose, event_type, query_type }:
   });
   const { components } = known;
   const results = purpose === 'subscribe' ? results_of(components, 'events', event_type) : purpose === 'query' ? results_of(components, 'queries', query_type) : [];
-  const told = results.map((one) => typed(words.includes(one.name.toLowerCase()) ? `Result/${one.name}` : one.name, one, 'result', known));
-  if (told.some((one) => one.type === 'position')) told.push(word('located', [], { type: 'position', is_list: true, of: 'result' }));
+  const of_results = results.map((one) => typed(words.includes(one.name.toLowerCase()) ? `Result/${one.name}` : one.name, one, 'result', known));
+  if (of_results.some((one) => one.type === 'position')) of_results.push(word('located', [], { type: 'position', is_list: true, of: 'result' }));
   return [
-    ...told,
+    ...of_results,
     word('component_ref', components.map((one) => one.ref)),
     word('component_type', unique(components.flatMap((one) => [one.type, ...one.includes])).sort()),
     word('status', statuses),
@@ -89,7 +89,7 @@ function parameters_of(components: readonly ComponentView[]): ParameterProfile[]
 function typed(path: string, profile: ParameterProfile, of: Reference['of'], known: Known): Reference {
   const of_type = data_type(profile.data_type_ref.code);
   const type = type_of(of_type, profile);
-  const { list, is_closed } = options_for({ ...profile, need: { kind: 'optional' } }, { ...known, components: known.components.map((one) => one.ref), told: undefined });
+  const { list, is_closed } = options_for({ ...profile, need: { kind: 'optional' } }, { ...known, components: known.components.map((one) => one.ref), parameters: undefined });
   const options = list.map((one) => one.value);
   const unit = type === 'number' ? (units_of(profile.description)[0] ?? '') : '';
   return { path, type, is_list: of_type.is_list, of, description: profile.description ?? '', unit, options, is_closed };

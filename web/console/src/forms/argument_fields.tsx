@@ -5,7 +5,7 @@ import type { Parameter } from 'rois-client';
 
 import { useConsole, useWatch } from '../shell/context';
 import type { Console } from '../state/console';
-import type { ComponentView } from '../state/profile_state';
+import type { ComponentView } from '../state/engine/profile_state';
 import { data_type, type Problem } from './data_type';
 import type { Asked } from './describe';
 import { type Inputs, parameters_from, problems_of, with_input } from './inputs';
@@ -24,7 +24,7 @@ export interface ArgumentFieldsProps {
 export function ArgumentFields({ view, asked, inputs, change, problems }: ArgumentFieldsProps) {
   const console = useConsole();
   useWatch(console.parameters.poll(view.ref));
-  const told = console.parameters.of(view.ref);
+  const current = console.parameters.of(view.ref);
   const has_things = asked.some(is_of_things);
   void (has_things && console.now.value); // robots and persons change all the time: updating once a second is enough
   const world = what_there_is(console, view.ref);
@@ -39,7 +39,7 @@ export function ArgumentFields({ view, asked, inputs, change, problems }: Argume
           change={(input) => change(with_input(inputs, one.name, input))}
           problem={problems[one.name]}
           options={options_for(one, world)}
-          now={told?.texts(one.name).join('; ') || undefined}
+          now={current?.texts(one.name).join('; ') || undefined}
         />
       ))}
     </div>
@@ -48,8 +48,8 @@ export function ArgumentFields({ view, asked, inputs, change, problems }: Argume
 
 /** Problems in the entered values. A value that the component already has may be omitted. */
 export function problems_in(console: Console, ref: string, asked: readonly Asked[], inputs: Inputs): Record<string, Problem> {
-  const told = console.parameters.of(ref);
-  return problems_of(asked, inputs, (name) => told !== undefined && told.texts(name).length > 0);
+  const current = console.parameters.of(ref);
+  return problems_of(asked, inputs, (name) => current !== undefined && current.texts(name).length > 0);
 }
 
 /** The entered values as parameters of a message. Identifiers get the codebook of the chosen option. */
@@ -68,7 +68,7 @@ function what_there_is({ map, robots, entities, profile, parameters }: Console, 
     robots: robots.all.values(),
     entities: entities.all.values(),
     components: profile.components.value.map((one) => one.ref),
-    told: parameters.of(ref),
+    parameters: parameters.of(ref),
   };
 }
 

@@ -5,7 +5,7 @@ import { useEffect } from 'preact/hooks';
 
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
-import { type CommandEntry, has_ended } from '../state/commands_state';
+import { type CommandEntry, has_ended } from '../state/session/commands_state';
 import { Button, StatusBadge, tried } from '../ui';
 import * as t from './exchange_texts';
 import { why } from './why';

@@ -1,7 +1,7 @@
 // Reads units, choices and mandatory parameters from the descriptions in profiles.
 import type { MessageProfile, ParameterProfile } from 'rois-client';
 
-import type { ComponentView } from '../state/profile_state';
+import type { ComponentView } from '../state/engine/profile_state';
 import { data_type } from './data_type';
 
 const names: Record<string, string> = { millimetre: 'mm', millimeter: 'mm', degree: '°', millisecond: 'ms', second: 's', percent: '%', metre: 'm', meter: 'm' };

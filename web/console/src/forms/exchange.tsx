@@ -6,14 +6,14 @@ import { parse_xml, type Operation, Results, results_of, RoisError } from 'rois-
 
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
-import type { CommandEntry } from '../state/commands_state';
 import type { Console } from '../state/console';
-import type { LoggedDocument } from '../state/documents';
+import type { CommandEntry } from '../state/session/commands_state';
+import type { LoggedDocument } from '../state/session/document_log';
 import { Button, CurlButton, error_text, type IconName, StatusBadge, XmlView } from '../ui';
 import { CommandProgress } from './command_progress';
-import { ResultsTable } from './results_table';
 import { draft, useDraft } from './drafts';
 import * as t from './exchange_texts';
+import { ResultsTable } from './results_table';
 
 export interface ExchangeProps {
   /** Name for buttons and regions: `navigation start`. */
@@ -101,7 +101,7 @@ export async function watched(console: Console, operation: Operation, act: () =>
   return outcome;
 }
 
-// The state of the commands, or the refusal, comes first. If `follows`, it is scrolled into view whenever it grows.
+// Shows the state of the commands, or the refusal, first. If `follows`, scrolls it into view whenever it grows.
 function Came({ title, answer, error, follows }: Outcome & { title: string; follows: boolean }) {
   const { commands } = useConsole();
   void commands.pulse.beat.value;

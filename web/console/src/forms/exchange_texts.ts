@@ -1,5 +1,5 @@
 import { type Both, text, text_of } from '../i18n/i18n';
-import type { CommandState } from '../state/commands_state';
+import type { CommandState } from '../state/session/commands_state';
 
 const ends: Record<CommandState, Both> = {
   waiting: ['Waiting for its turn.', '順番を待っています。'],

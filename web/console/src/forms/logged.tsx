@@ -1,8 +1,8 @@
 // A logged document, and the details of an event or error.
 import { useConsole } from '../shell/context';
 import { show_document } from '../shell/navigation';
-import type { LoggedDocument } from '../state/documents';
-import type { Details } from '../state/events_state';
+import type { LoggedDocument } from '../state/session/document_log';
+import type { Details } from '../state/session/events_state';
 import { Button, XmlView } from '../ui';
 import * as t from './exchange_texts';
 import { ResultsTable } from './results_table';

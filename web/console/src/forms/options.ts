@@ -1,7 +1,7 @@
 // Choices for a parameter: places, robots, persons, components, and values that the component itself offers.
 import type { Results } from 'rois-client';
 
-import type { Entity, Robot } from '../state/things';
+import type { Entity, Robot } from '../state/floor/things';
 import { name_in } from './codebooks';
 import { all_values, data_type } from './data_type';
 import { type Asked, choices_of, is_position, same } from './describe';
@@ -14,7 +14,7 @@ export interface World {
   entities: Iterable<Entity>;
   components: readonly string[];
   /** The component's own parameters (`get_parameter`). */
-  told: Results | undefined;
+  parameters: Results | undefined;
 }
 
 /** Choices. Other texts may be typed unless `is_closed`. */
@@ -27,7 +27,7 @@ export function options_for(asked: Asked, world: World): Options {
   const type = data_type(asked.data_type_ref.code);
   const closed = all_values(type) ?? choices_of(asked.description);
   if (closed.length > 0) return { list: closed.map((value) => ({ value })), is_closed: true };
-  const able = offered_by(asked.name, world.told);
+  const able = offered_by(asked.name, world.parameters);
   if (able.length > 0) return { list: able, is_closed: false };
   if (is_position(asked)) return { list: world.places.map((value) => ({ value })), is_closed: false };
   if (type.kind === 'identifier' || /_ref$/i.test(asked.name)) return { list: things_for(asked.name, world), is_closed: false };
@@ -35,11 +35,11 @@ export function options_for(asked: Asked, world: World): Options {
 }
 
 // `language` is chosen from `synthesizable_languages`, `reaction_ref` from `available_reactions`.
-function offered_by(name: string, told: Results | undefined): Option[] {
+function offered_by(name: string, parameters: Results | undefined): Option[] {
   const plural = name.replace(/_ref$/i, '').replace(/s$/, '') + 's';
-  const list = told?.parameters.find((one) => !same(one.name, name) && one.name.toLowerCase().endsWith(`_${plural.toLowerCase()}`));
+  const list = parameters?.parameters.find((one) => !same(one.name, name) && one.name.toLowerCase().endsWith(`_${plural.toLowerCase()}`));
   const codebook = list?.data_type_ref.codebook_ref;
-  return list && told ? told.texts(list.name).map((value) => option_of(value, codebook)) : [];
+  return list && parameters ? parameters.texts(list.name).map((value) => option_of(value, codebook)) : [];
 }
 
 function option_of(value: string, codebook: string | undefined): Option {

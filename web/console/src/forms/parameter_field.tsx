@@ -91,9 +91,9 @@ function Item({ asked, input, options, now, type, own, text, put }: ItemProps) {
         {options.list.map((one) => <option key={one.value} value={one.value}>{one.label ?? one.value}</option>)}
       </select>
     );
-  const said = input?.is_empty ? t.is_empty() : preset;
+  const placeholder = input?.is_empty ? t.is_empty() : preset;
   if (type.kind === 'text' && !type.is_list && long.test(asked.name))
-    return <textarea {...own} rows={3} spellcheck={false} placeholder={said} value={text} onInput={(event) => put(event.currentTarget.value)} />;
+    return <textarea {...own} rows={3} spellcheck={false} placeholder={placeholder} value={text} onInput={(event) => put(event.currentTarget.value)} />;
   const mode = type.kind === 'integer' ? 'numeric' : type.kind === 'number' ? 'decimal' : undefined;
   return (
     <>
@@ -102,7 +102,7 @@ function Item({ asked, input, options, now, type, own, text, put }: ItemProps) {
         type="text"
         autocomplete="off"
         spellcheck={false}
-        placeholder={said}
+        placeholder={placeholder}
         {...(mode && { inputMode: mode })}
         {...(options.list.length > 0 && { list })}
         value={text}

@@ -1,24 +1,24 @@
 // Explains why a command failed, from the engine's results and the console's knowledge of the hall.
 import { pose_of } from 'rois-client';
 
-import type { CommandEntry } from '../state/commands_state';
 import type { Console } from '../state/console';
-import type { Bounds, FloorMap } from '../state/floor_map';
+import type { Bounds, FloorMap } from '../state/floor/floor_map';
+import type { CommandEntry } from '../state/session/commands_state';
 import * as t from './exchange_texts';
 
 const most_errors = 3;
 
 /** Sentences, the most reliable first: the engine's reason, then the console's findings. */
 export function why(console: Console, entry: CommandEntry): string[] {
-  const said = entry.results?.parameters.filter((one) => one.name !== 'status').map((one) => `${one.name}: ${one.values.join('; ')}`) ?? [];
-  if (entry.state === 'OK' || entry.state === 'waiting' || entry.state === 'running') return said;
+  const reasons = entry.results?.parameters.filter((one) => one.name !== 'status').map((one) => `${one.name}: ${one.values.join('; ')}`) ?? [];
+  if (entry.state === 'OK' || entry.state === 'waiting' || entry.state === 'running') return reasons;
   const errors = console.events.errors
     .list()
     .filter(({ error, at }) => error.component_ref?.code === entry.component && at >= entry.sent_at && at <= (entry.ended_at ?? at))
     .slice(-most_errors)
     .map(({ error, details }) => [t.told_error(error.error_type), ...(details.state === 'there' ? details.results.parameters.map((one) => `${one.name}: ${one.values.join('; ')}`) : [])].join(' '));
   const found = entry.state === 'ERROR' ? misplaced(console, entry) : entry.state === 'OUT_OF_RESOURCES' ? in_use(console, entry) : [];
-  return [...said, ...errors, ...found];
+  return [...reasons, ...errors, ...found];
 }
 
 /** Target positions that are outside the map or inside furniture. Also shown before sending. */

@@ -1,5 +1,5 @@
 // Rows for sessions, limits and problems from /metrics. Older gateways have fewer metrics, so fewer rows.
-import type { Scrape } from '../state/metrics_state';
+import type { Scrape } from '../state/engine/metrics_state';
 
 export interface SessionRow {
   number: string;

@@ -5,7 +5,7 @@ import { CommandProgress, DetailsOf, LoggedXml } from '../forms';
 import { clock_time, duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import * as shell from '../shell/texts';
-import type { Phase } from '../state/link_state';
+import type { Phase } from '../state/session/link_state';
 import { Badge, Button, type Tone, XmlView } from '../ui';
 import { type LogEntry, log_of, reason_of, refused_component } from './log';
 import * as t from './texts';
@@ -52,8 +52,8 @@ function told(entry: LogEntry): Told {
   switch (entry.kind) {
     case 'error': {
       const { error, details } = entry.entry;
-      const said = details.state === 'there' ? details.results.parameters.filter((one) => !/^(component_ref|time)$/.test(one.name)) : [];
-      const more = said.map((one) => one.values.join('; ')).join(' · ');
+      const shown = details.state === 'there' ? details.results.parameters.filter((one) => !/^(component_ref|time)$/.test(one.name)) : [];
+      const more = shown.map((one) => one.values.join('; ')).join(' · ');
       return { tone: 'bad', kind: t.error(), title: error.error_type, component: error.component_ref?.code ?? '', more };
     }
     case 'gap': {

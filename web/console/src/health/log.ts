@@ -1,13 +1,13 @@
 // The session's error log: errors, gaps, refusals, lost links.
 import { code_of, parse_xml } from 'rois-client';
 
-import type { CommandEntry } from '../state/commands_state';
 import type { Console } from '../state/console';
-import type { LoggedDocument } from '../state/documents';
-import type { ErrorEntry, GapEntry } from '../state/events_state';
 import type { Span } from '../state/history';
-import { placed_commands, units_of } from '../state/sequences';
-import { unescaped } from '../ui/xml_text';
+import type { CommandEntry } from '../state/session/commands_state';
+import type { LoggedDocument } from '../state/session/document_log';
+import type { ErrorEntry, GapEntry } from '../state/session/events_state';
+import { placed_commands, units_of } from '../state/session/sequences';
+import { unescaped } from '../ui/xml/xml_text';
 
 export type LogEntry = { at: number; key: string } & (
   | { kind: 'error'; entry: ErrorEntry }
@@ -32,8 +32,8 @@ export function log_of({ events, traffic, history, commands }: Console): LogEntr
 
 /** The engine's reason for a refusal; may be empty. */
 export function reason_of({ text }: LoggedDocument): string {
-  const said = /<(?:\w+:)?reason>([^<]*)</.exec(text)?.[1] ?? '';
-  return unescaped(said);
+  const reason = /<(?:\w+:)?reason>([^<]*)</.exec(text)?.[1] ?? '';
+  return unescaped(reason);
 }
 
 /** The component of a refusal. For a sequence, the component of the refused step. */

@@ -5,8 +5,8 @@ import { useRef } from 'preact/hooks';
 import { clock_time } from '../i18n/i18n';
 import { shown_theme } from '../shell/theme';
 import { Table } from '../ui';
-import { type Sheet, useDrawing } from '../ui/drawing';
-import { time_marks, value_marks } from '../ui/scales';
+import { type Sheet, useDrawing } from '../ui/drawing/drawing';
+import { time_marks, value_marks } from '../ui/drawing/scales';
 import { fresh_for, highest, longest_gap, point_near, type Series, shown_for } from './series';
 import * as t from './texts';
 
@@ -60,7 +60,7 @@ export function Plot({ title, lines, now, text, short, cursor }: PlotProps) {
     const point = pointed !== undefined ? point_near(line.series, pointed) : last && now - last.at <= fresh_for ? last : undefined;
     return point === undefined ? t.none() : text(point.value);
   };
-  const told = lines.map((line) => `${line.name} ${value_at(line)}`).join(', ');
+  const values = lines.map((line) => `${line.name} ${value_at(line)}`).join(', ');
   return (
     <figure class="health-plot">
       <figcaption>
@@ -84,7 +84,7 @@ export function Plot({ title, lines, now, text, short, cursor }: PlotProps) {
         aria-valuemin={-shown_for / 1000}
         aria-valuemax={0}
         aria-valuenow={Math.round(((pointed ?? now) - now) / 1000)}
-        aria-valuetext={`${clock_time(pointed ?? now, false)}: ${told}`}
+        aria-valuetext={`${clock_time(pointed ?? now, false)}: ${values}`}
         onKeyDown={pressed}
         onBlur={() => (cursor.value = undefined)}
       >

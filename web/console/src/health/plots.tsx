@@ -2,9 +2,9 @@ import { useSignal } from '@preact/signals';
 
 import { count_text, language } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
-import type { LoggedDocument } from '../state/documents';
-import type { Scrape } from '../state/metrics_state';
-import type { Second } from '../state/traffic';
+import type { Scrape } from '../state/engine/metrics_state';
+import type { LoggedDocument } from '../state/session/document_log';
+import type { Second } from '../state/session/traffic';
 import { Plot } from './plot';
 import { documents_a_second, growth, inside, latencies, shown_for } from './series';
 import * as t from './texts';

@@ -1,6 +1,6 @@
 // Converts measurements to the lines of a plot.
-import type { Scrape } from '../state/metrics_state';
-import { median, type Second } from '../state/traffic';
+import type { Scrape } from '../state/engine/metrics_state';
+import { median, type Second } from '../state/session/traffic';
 
 export interface Point {
   at: number; // ms since 1970

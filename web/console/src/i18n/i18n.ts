@@ -18,12 +18,12 @@ export type Both = readonly [en: string, ja: string] | string;
  * are rendered again when the language changes.
  */
 export function text(en: string, ja = en): () => string {
-  return () => said([en, ja]);
+  return () => translated([en, ja]);
 }
 
 /** A text with arguments: `text_of((n: number) => [`${n} a second`, `毎秒 ${n}`])`. */
 export function text_of<Given extends unknown[]>(made: (...given: Given) => Both): (...given: Given) => string {
-  return (...given) => said(made(...given));
+  return (...given) => translated(made(...given));
 }
 
 /** Whether the main pointer is a finger. Texts then do not mention keys and mouse. */
@@ -31,7 +31,7 @@ export function is_touched(): boolean {
   return globalThis.matchMedia?.('(pointer: coarse)').matches ?? false;
 }
 
-function said(both: Both): string {
+function translated(both: Both): string {
   return typeof both === 'string' ? both : both[language.value === 'ja' ? 1 : 0];
 }
 
@@ -57,15 +57,15 @@ export function clock_time(at: number, with_ms = true): string {
 /** A time span: `0.4 s`, `12 s`, `3 min`, `2 h`. */
 export function duration(ms: number): string {
   const japanese = language.value === 'ja';
-  const said = (n: number, digits: number, en: string, ja: string) => {
+  const written = (n: number, digits: number, en: string, ja: string) => {
     const text = n.toFixed(digits); // both languages use a decimal point; toLocaleString takes 1 ms
     return japanese ? `${text}${ja}` : `${text} ${en}`;
   };
-  if (ms < 1000) return said(Math.max(0, Math.round(ms)), 0, 'ms', 'ミリ秒');
-  if (ms < 9950) return said(ms / 1000, 1, 's', '秒');
-  if (ms < 60_000) return said(Math.floor(ms / 1000), 0, 's', '秒');
-  if (ms < 3_600_000) return said(Math.floor(ms / 60_000), 0, 'min', '分');
-  return said(Math.floor(ms / 3_600_000), 0, 'h', '時間');
+  if (ms < 1000) return written(Math.max(0, Math.round(ms)), 0, 'ms', 'ミリ秒');
+  if (ms < 9950) return written(ms / 1000, 1, 's', '秒');
+  if (ms < 60_000) return written(Math.floor(ms / 1000), 0, 's', '秒');
+  if (ms < 3_600_000) return written(Math.floor(ms / 60_000), 0, 'min', '分');
+  return written(Math.floor(ms / 3_600_000), 0, 'h', '時間');
 }
 
 export function count_text(n: number): string {

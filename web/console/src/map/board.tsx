@@ -5,10 +5,10 @@ import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { useConsole } from '../shell/context';
 import { shown_theme } from '../shell/theme';
 import { watch_size } from '../ui';
-import { Drawing } from './drawing';
 import { is_map_key } from './interaction';
-import { read_palette } from './palette';
-import { age, metres, position } from './says';
+import { Drawing } from './painting/drawing';
+import { read_palette } from './painting/palette';
+import { age, metres, position } from './formats';
 import { session_of } from './session';
 import * as texts from './texts';
 import type { Point } from './view';
@@ -27,7 +27,7 @@ export function Board({ begun, pointed, send }: BoardProps) {
   const session = session_of(console);
   const element = useRef<HTMLCanvasElement>(null);
   const drawing = useRef<Drawing>();
-  const said = useSignal('');
+  const announcement = useSignal('');
 
   useEffect(() => {
     const canvas = element.current!;
@@ -85,7 +85,7 @@ export function Board({ begun, pointed, send }: BoardProps) {
     if (event.key === 'Enter' && event.ctrlKey) return send();
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     drawing.current!.act({ kind: 'key', key, shift: event.shiftKey, ctrl: event.ctrlKey });
-    said.value = spoken();
+    announcement.value = spoken();
   }
 
   // For screen readers: the cursor's position and the things near it.
@@ -100,7 +100,7 @@ export function Board({ begun, pointed, send }: BoardProps) {
     <>
       <canvas ref={element} class="map-canvas" tabIndex={0} role="application" aria-label={texts.canvas()} onKeyDown={pressed} {...pointers} />
       <p class="unseen" role="status">
-        {said.value}
+        {announcement.value}
       </p>
     </>
   );

@@ -2,12 +2,12 @@
 import { value } from 'rois-client';
 
 import { show_document, show_panel } from '../shell/navigation';
-import type { CommandEntry } from '../state/commands_state';
 import type { Console } from '../state/console';
-import type { Robot } from '../state/things';
+import type { Robot } from '../state/floor/things';
+import type { CommandEntry } from '../state/session/commands_state';
 import type { Target } from './interaction';
+import { target_words } from './formats';
 import type { Shown } from './scene';
-import { target_words } from './says';
 import * as texts from './texts';
 
 /** A robot and the components of its engine that move it. */
@@ -47,8 +47,8 @@ export function target_text({ x, y, th, place }: Target): string {
 /** Sends the robot. `time_limit` in ms; 0: none. Rejects if the command is not accepted. */
 export async function go(console: Console, driver: Driver, target: Target, time_limit: number): Promise<void> {
   const named = { target_position: value.strings([target_text(target)]), time_limit: value.int(time_limit) };
-  const said = target_words(target);
-  await drive(console, driver, driver.navigation!, named, said, texts.arrived(driver.name, said));
+  const words = target_words(target);
+  await drive(console, driver, driver.navigation!, named, words, texts.arrived(driver.name, words));
 }
 
 /** Makes the robot follow a person, by the permanent name if known. */

@@ -4,10 +4,10 @@ import { pose_of, type Parameter } from 'rois-client';
 
 import { useConsole } from '../shell/context';
 import type { Console } from '../state/console';
-import type { FloorMap } from '../state/floor_map';
+import { distance, on_map } from '../state/floor/floor';
+import type { FloorMap } from '../state/floor/floor_map';
 import { type Driver, drivers_of, motions_of, whither_of } from './driving';
-import { distance, on_map } from '../state/floor';
-import { position } from './says';
+import { position } from './formats';
 import type { Shown } from './scene';
 import type { Point } from './view';
 

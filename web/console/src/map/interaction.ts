@@ -1,5 +1,5 @@
 // Map input by pointer, wheel and keys, as pure functions from state to state.
-import { turned } from '../state/floor';
+import { turned } from '../state/floor/floor';
 import { panned, pinched, type Point, type Size, to_floor, to_screen, type View, with_point, zoomed } from './view';
 
 /** Target for a robot. Without `th`, the robot keeps its direction of arrival. */
@@ -11,7 +11,7 @@ export interface Target extends Point {
   whom?: string;
 }
 
-/** What is under a point of the screen. */
+/** The thing under a point of the screen. */
 export type Hit =
   | { what: 'floor' }
   | { what: 'target' }
@@ -38,7 +38,7 @@ export interface Interaction {
 
 export const at_rest: Interaction = { view: undefined, target: undefined, chosen: undefined, cursor: undefined, gesture: { kind: 'none' } };
 
-/** What an input needs to know. */
+/** The surroundings of an input. */
 export interface Surroundings {
   size: Size;
   /** The view while `view` is undefined. */

@@ -3,7 +3,7 @@ import { useConsole } from '../shell/context';
 import { Button, tried } from '../ui';
 import { motions_of, stop } from './driving';
 import { type Goal, goals_of, useGoals } from './goals';
-import { age } from './says';
+import { age } from './formats';
 import { session_of } from './session';
 import * as t from './texts';
 

@@ -2,8 +2,8 @@
 import { effect, signal, untracked } from '@preact/signals';
 import { command, RoisError } from 'rois-client';
 
-import type { GiveBack } from '../state/bindings';
 import type { Console } from '../state/console';
+import type { GiveBack } from '../state/session/bindings';
 
 /** Types of components to bind and start, if the engine has them. */
 export const observing_types = ['PersonDetection', 'PersonLocalization', 'PersonIdentification', 'FaceLocalization', 'SoundLocalization'];

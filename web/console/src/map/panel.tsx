@@ -8,11 +8,11 @@ import { useConsole, useWatch } from '../shell/context';
 import { Button, IconButton } from '../ui';
 import { Board } from './board';
 import { TargetCard, ThingCard, useSending } from './cards';
-import type { Drawing } from './drawing';
-import { short_name } from './ground';
 import { key_zoom } from './interaction';
 import { Motions } from './motions';
-import { age, metres, position } from './says';
+import type { Drawing } from './painting/drawing';
+import { short_name } from './painting/ground';
+import { age, metres, position } from './formats';
 import { session_of } from './session';
 import * as t from './texts';
 import { ThingsTable } from './things_table';
@@ -126,7 +126,7 @@ function Remarks() {
   const { lost } = session.scene();
   return (
     <>
-      {!link.is_open && link.heard_at > 0 && <p class="map-remark map-stale">{t.not_live(age(now.value - link.heard_at))}</p>}
+      {!link.is_open && link.received_at > 0 && <p class="map-remark map-stale">{t.not_live(age(now.value - link.received_at))}</p>}
       {view.state === 'unknown' && link.is_open && <p class="map-remark">{t.loading_map()}</p>}
       {view.state === 'none' && <p class="map-remark">{t.no_map()}</p>}
       {view.state === 'trouble' && (

@@ -1,7 +1,7 @@
 // The things on the floor now, each with its freshness.
-import type { FloorMap, RobotFrame } from '../state/floor_map';
-import { ellipse_of, type Entity, type Robot, type Thing } from '../state/things';
-import { distance, frame_named, out_of, turned_by } from '../state/floor';
+import { distance, frame_named, out_of, turned_by } from '../state/floor/floor';
+import type { FloorMap, RobotFrame } from '../state/floor/floor_map';
+import { ellipse_of, type Entity, type Robot, type Thing } from '../state/floor/things';
 import type { Point } from './view';
 
 export type Kind = 'robot' | Entity['kind'];

@@ -2,11 +2,11 @@
 import { effect, signal, untracked } from '@preact/signals';
 
 import type { Console } from '../state/console';
-import type { FloorMap } from '../state/floor_map';
+import type { FloorMap } from '../state/floor/floor_map';
 import { type Driver, drivers_of } from './driving';
-import { all_layers, type Layers } from './ground';
 import { at_rest, type Interaction } from './interaction';
 import { Observer } from './observer';
+import { all_layers, type Layers } from './painting/ground';
 import { type Scene, scene_of } from './scene';
 
 export class MapSession {

@@ -110,7 +110,7 @@ export const position = text('Position', '位置');
 export const certainty = text('Certainty', '確かさ');
 export const certain = text_of((about: string) => [`± ${about} (95 %)`, `± ${about}(95 %)`]);
 export const uncertain = text('unknown', '不明');
-export const told = text('Told', '通知');
+export const reported = text('Reported', '通知');
 export const ago = text_of((age: string) => [`${age} ago`, `${age}前`]);
 export const told_by = text('Reported by', '通知元');
 export const freshness = text_of((state: string, kind: string, age: string) =>

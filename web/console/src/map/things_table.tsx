@@ -3,7 +3,7 @@ import { untracked } from '@preact/signals';
 
 import { useConsole } from '../shell/context';
 import { Button } from '../ui';
-import { age, certainty, degrees, position } from './says';
+import { age, certainty, degrees, position } from './formats';
 import type { Shown } from './scene';
 import { session_of } from './session';
 import * as t from './texts';
@@ -21,7 +21,7 @@ export function ThingsTable() {
       <caption class="unseen">{t.table_label()}</caption>
       <thead>
         <tr>
-          {[t.kind_column(), t.name(), t.state(), t.position(), t.direction(), t.certainty(), t.told()].map((title) => (
+          {[t.kind_column(), t.name(), t.state(), t.position(), t.direction(), t.certainty(), t.reported()].map((title) => (
             <th key={title} scope="col">{title}</th>
           ))}
           {is_shown && <th scope="col"><span class="unseen">{t.choose()}</span></th>}

@@ -4,9 +4,9 @@ import { useSignal } from '@preact/signals';
 import { useConsole } from '../shell/context';
 import * as panel_titles from '../shell/panel_titles';
 import { Badge, Button, Checkbox, error_text, Pop } from '../ui';
-import { all_layers, type Layers } from './ground';
 import { Help } from './help';
-import { age } from './says';
+import { all_layers, type Layers } from './painting/ground';
+import { age } from './formats';
 import { session_of } from './session';
 import * as t from './texts';
 
@@ -42,7 +42,7 @@ function Observe() {
   void entities.pulse.beat.value;
   const { is_wanted, is_busy, on, refused } = observer.state.value;
   const of = observer.components.length;
-  const old = now.value - entities.told_at; // ms
+  const old = now.value - entities.reported_at; // ms
   const is_blind = on.length > 0 && entities.is_blind();
   const is_fresh = old < fresh_for;
   const why = refused.map(({ ref, error }) => `${ref}: ${error_text(error)}`).join('\n');
@@ -64,7 +64,7 @@ function Observe() {
       {is_wanted && !console.link.is_open && <Badge>{t.observe_unlinked()}</Badge>}
       {is_wanted && console.link.is_open && (
         <Badge tone={refused.length > 0 || is_blind ? 'warning' : on.length === of && is_fresh ? 'good' : 'busy'} title={why || undefined}>
-          {t.observing(on.length, of)}, {is_blind ? t.observe_blind() : entities.told_at === 0 ? t.observe_silent() : t.observe_age(age(old))}
+          {t.observing(on.length, of)}, {is_blind ? t.observe_blind() : entities.reported_at === 0 ? t.observe_silent() : t.observe_age(age(old))}
         </Badge>
       )}
       {refused.length > 0 && (

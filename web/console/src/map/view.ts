@@ -1,6 +1,6 @@
 // The visible part of the floor. Floor: mm, x to the right, y up. Screen: CSS pixels, y down.
 
-import type { Point } from '../state/floor';
+import type { Point } from '../state/floor/floor';
 
 export type { Point };
 /** On the screen. */

@@ -1,6 +1,6 @@
 // The rows of the message list: documents and gaps that match the filter, updated incrementally.
-import type { GapEntry } from '../state/events_state';
-import type { LoggedDocument } from '../state/documents';
+import type { LoggedDocument } from '../state/session/document_log';
+import type { GapEntry } from '../state/session/events_state';
 
 export type Category = 'event' | 'completed' | 'error' | 'notice' | 'request' | 'answer';
 export const categories: readonly Category[] = ['event', 'completed', 'error', 'notice', 'request', 'answer'];

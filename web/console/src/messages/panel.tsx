@@ -6,7 +6,7 @@ import { useEffect, useMemo, useState } from 'preact/hooks';
 import { is_touched } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import type { Console } from '../state/console';
-import type { LoggedDocument } from '../state/documents';
+import type { LoggedDocument } from '../state/session/document_log';
 import { Button, EmptyState, SplitPane, useIsWide, VirtualList } from '../ui';
 import { categories, Feed, is_gap, no_filter, type Row, type Source } from './feed';
 import { Reader } from './reader';

@@ -7,9 +7,8 @@ import { clock_time } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import { show_component } from '../shell/navigation';
 import type { Console } from '../state/console';
-import type { LoggedDocument } from '../state/documents';
-import type { Details, ErrorEntry, EventEntry } from '../state/events_state';
-import type { Ring } from '../state/ring';
+import type { LoggedDocument } from '../state/session/document_log';
+import type { Details } from '../state/session/events_state';
 import { Badge, Button, Checkbox, CurlButton, StatusBadge, XmlView } from '../ui';
 import type { ShownRecording } from './shown';
 import { command_of, component_of, expire_of } from './summary';
@@ -66,12 +65,12 @@ function Live({ document }: { document: LoggedDocument }) {
   }
   if (document.name === 'receive_event') {
     void events.pulse.beat.value;
-    const entry = entry_of(document.is_own ? events.own_events : events.events, document);
+    const entry = (document.is_own ? events.own_events : events.events).find(document.number, (one) => one.document);
     return entry ? <DetailsOf details={entry.details} expire={expire_of(document)} ask={() => void events.fetch_event(entry)} /> : <p class="soft">{t.not_kept()}</p>;
   }
   if (document.name === 'receive_error') {
     void events.pulse.beat.value;
-    const entry = entry_of(events.errors, document);
+    const entry = events.errors.find(document.number, (one) => one.document);
     return entry ? <DetailsOf details={entry.details} expire={undefined} ask={() => void events.fetch_error(entry)} /> : null;
   }
   return <Values results={values_in(document)} />;
@@ -111,8 +110,8 @@ function values_in(document: LoggedDocument): Results {
   try {
     const element = parse_xml(document.text);
     if (!is_notification(element)) return results_of(element);
-    const told = notification_of(element);
-    return told.name === 'receive_event' ? told.results : new Results();
+    const notification = notification_of(element);
+    return notification.name === 'receive_event' ? notification.results : new Results();
   } catch {
     return new Results(); // a recording may have any content
   }
@@ -123,19 +122,6 @@ function place_of({ kind, text }: LoggedDocument): { line: number; column: numbe
   const found = kind === 'fault' ? /^[^>]*?\sline="(\d+)"/.exec(text.slice(text.indexOf('<fault'))) : null;
   const column = /^[^>]*?\scolumn="(\d+)"/.exec(text.slice(text.indexOf('<fault')))?.[1];
   return found ? { line: Number(found[1]), column: Number(column ?? 1) } : undefined;
-}
-
-// Entries are in the order of their documents.
-function entry_of<Entry extends EventEntry | ErrorEntry>(ring: Ring<Entry>, { number }: LoggedDocument): Entry | undefined {
-  let low = 0;
-  let high = ring.size;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (ring.at(middle)!.document < number) low = middle + 1;
-    else high = middle;
-  }
-  const found = ring.at(low);
-  return found?.document === number ? found : undefined;
 }
 
 const most_later = 500; // documents searched after a request for its answer

@@ -1,7 +1,7 @@
 // State of the panel, kept while another panel is shown.
 import { signal } from '@preact/signals';
 
-import type { Recording } from '../state/recording';
+import type { Recording } from '../state/session/recording';
 import { type Filter, no_filter, type Row } from './feed';
 
 export interface ShownRecording extends Recording {

@@ -1,6 +1,6 @@
 // Summarizes a document in a few words without parsing it.
-import type { LoggedDocument } from '../state/documents';
-import { unescaped } from '../ui/xml_text';
+import type { LoggedDocument } from '../state/session/document_log';
+import { unescaped } from '../ui/xml/xml_text';
 
 const known = new WeakMap<LoggedDocument, string>();
 

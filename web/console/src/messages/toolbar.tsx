@@ -3,8 +3,8 @@ import { useRef } from 'preact/hooks';
 
 import { useConsole } from '../shell/context';
 import * as panel_titles from '../shell/panel_titles';
-import { reason_of } from '../state/reason_of';
-import { read_recording, recording_of } from '../state/recording';
+import { reason_of } from '../state/base/reason_of';
+import { read_recording, recording_of } from '../state/session/recording';
 import { Button, Checkbox, save_file, SelectField, TextField } from '../ui';
 import { categories, type Category, type Feed, type Filter, type Row } from './feed';
 import { chosen_of_recording, filter, paused, recording } from './shown';

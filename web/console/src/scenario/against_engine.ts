@@ -1,11 +1,11 @@
 // Checks a scenario against the engine's profile and warns. The scenario may still run, because engines change.
-import type { ComponentView, ProfileState } from '../state/profile_state';
+import type { ComponentView, ProfileState } from '../state/engine/profile_state';
 import type { Scenario, ScenarioCommand } from './model';
 import type { Problem } from './read';
 import { line_and_column, type Node } from './source';
+import * as t from './texts';
 import { Trouble, type Say } from './trouble';
 import { known_arguments, typed_arguments } from './typed';
-import * as w from './texts';
 
 export function against_engine(scenario: Scenario, text: string, profile: ProfileState): Problem[] {
   const found: Problem[] = [];
@@ -14,7 +14,7 @@ export function against_engine(scenario: Scenario, text: string, profile: Profil
   for (const { name, ref, type, node } of scenario.components) {
     const component = ref !== '' ? profile.component(ref) : profile.of_type(type)[0];
     meant.set(name, component);
-    if (!component) complain(node, () => (ref !== '' ? w.no_component(ref) : w.none_of_type(type)));
+    if (!component) complain(node, () => (ref !== '' ? t.no_component(ref) : t.none_of_type(type)));
   }
   const all = profile.components.value;
   const has_event = (component: ComponentView, type: string) => component.events.some((one) => one.name.toLowerCase() === type.toLowerCase());
@@ -24,12 +24,12 @@ export function against_engine(scenario: Scenario, text: string, profile: Profil
     const component = meant.get(name);
     if (!component) return;
     const is_known = type === 'set_parameter' || component.commands.some((one) => one.name.toLowerCase() === type.toLowerCase());
-    if (!is_known) return void complain(node, () => w.no_command(component.ref, type));
+    if (!is_known) return void complain(node, () => t.no_command(component.ref, type));
     const known = known_arguments(component, type);
     try {
       typed_arguments(component, type, given.filter(({ text: value }) => !value.includes('{')));
       for (const { name: argument } of given)
-        if (!known.some((one) => one.name.toLowerCase() === argument.toLowerCase())) complain(node, () => w.no_argument(component.ref, argument, known.map((one) => one.name)));
+        if (!known.some((one) => one.name.toLowerCase() === argument.toLowerCase())) complain(node, () => t.no_argument(component.ref, argument, known.map((one) => one.name)));
     } catch (trouble) {
       if (trouble instanceof Trouble) complain(node, trouble.say);
     }
@@ -39,11 +39,11 @@ export function against_engine(scenario: Scenario, text: string, profile: Profil
     for (const command of [...state.commands, ...state.leaving]) check_command(command);
     const { query } = state;
     const asked = query && (query.component === '' ? all : [meant.get(query.component)].filter((one) => one !== undefined));
-    if (query && asked!.length > 0 && !asked!.some((one) => has_query(one, query.type))) complain(query.node, () => w.no_query_of(query.type));
+    if (query && asked!.length > 0 && !asked!.some((one) => has_query(one, query.type))) complain(query.node, () => t.no_query_of(query.type));
     for (const { kind, event_type, component, node } of state.triggers) {
       if (kind !== 'event') continue;
       const tellers = component === '' ? all : [meant.get(component)].filter((one) => one !== undefined);
-      if (tellers.length > 0 && !tellers.some((one) => has_event(one, event_type))) complain(node, () => w.no_event_of(event_type));
+      if (tellers.length > 0 && !tellers.some((one) => has_event(one, event_type))) complain(node, () => t.no_event_of(event_type));
     }
   }
   return found;

@@ -2,9 +2,9 @@
 import { computed, signal } from '@preact/signals';
 
 import reception from '../../../../client-cpp/scenarios/reception.xml?raw';
+import { Pulse } from '../state/base/pulse';
+import { Ring } from '../state/base/ring';
 import type { Console } from '../state/console';
-import { Pulse } from '../state/pulse';
-import { Ring } from '../state/ring';
 import { Machine, type Outcome } from './machine';
 import type { Scenario, State, Trigger } from './model';
 import { read_scenario } from './read';

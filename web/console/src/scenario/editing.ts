@@ -1,5 +1,5 @@
 // Editing in forms: the place and content of new elements, and choices for values.
-import type { ComponentView } from '../state/profile_state';
+import type { ComponentView } from '../state/engine/profile_state';
 import { type AttributeType, rule_of, steps } from './grammar';
 import { type Node, nodes_in, with_attribute, with_child } from './source';
 

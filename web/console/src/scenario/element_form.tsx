@@ -6,7 +6,7 @@ import { closed_choices, relation_of, relations, steps_for, suggestions, with_ne
 import { actions, type AttributeRule, is_of, rule_of, statuses } from './grammar';
 import type { Problem } from './read';
 import { moved, type Node, read_source, with_attribute, with_state_renamed, with_text, without } from './source';
-import * as w from './texts';
+import * as t from './texts';
 
 export interface FormProps {
   desk: Desk;
@@ -21,11 +21,11 @@ export function problems_at(problems: readonly Problem[], node: Node): string[] 
 
 /** With its name and buttons to move and remove it. */
 export function ElementCard({ desk, root, node }: FormProps) {
-  const title = w.element(node.name);
+  const title = t.element(node.name);
   const sisters = (node.parent?.children ?? []).filter((one) => same_group(one, node));
   const { text } = desk;
   const may_not = desk.is_running.value;
-  const said = problems_at(desk.reading.value.problems, node);
+  const problems = problems_at(desk.reading.value.problems, node);
   const is_step = node.parent !== undefined && node.parent.name !== 'state' && node.parent.name !== 'robot_scenario';
   return (
     <div class={`scenario-card scenario-card-${is_step ? 'step' : 'own'}`} data-element={node.name} role="group" aria-label={title}>
@@ -33,13 +33,13 @@ export function ElementCard({ desk, root, node }: FormProps) {
         <span class="scenario-card-title">{title}</span>
         {sisters.length > 1 && (
           <>
-            <IconButton small icon="up" label={w.earlier(title)} disabled={may_not || sisters[0] === node} onClick={() => desk.edit(moved(text.value, node, -1), '')} />
-            <IconButton small icon="down" label={w.later(title)} disabled={may_not || sisters.at(-1) === node} onClick={() => desk.edit(moved(text.value, node, 1), '')} />
+            <IconButton small icon="up" label={t.earlier(title)} disabled={may_not || sisters[0] === node} onClick={() => desk.edit(moved(text.value, node, -1), '')} />
+            <IconButton small icon="down" label={t.later(title)} disabled={may_not || sisters.at(-1) === node} onClick={() => desk.edit(moved(text.value, node, 1), '')} />
           </>
         )}
-        <IconButton small icon="close" label={w.remove(title)} disabled={may_not} onClick={() => desk.edit(without(text.value, node), '')} />
+        <IconButton small icon="close" label={t.remove(title)} disabled={may_not} onClick={() => desk.edit(without(text.value, node), '')} />
       </header>
-      {said.map((one) => <p key={one} class="field-error">{one}</p>)}
+      {problems.map((one) => <p key={one} class="field-error">{one}</p>)}
       <ElementFields desk={desk} root={root} node={node} />
       {node.children.length > 0 && (
         <div class="scenario-steps">
@@ -69,7 +69,7 @@ export function Adder({ desk, root, parent, names }: { desk: Desk; root: Node; p
   return (
     <div class="scenario-adder">
       <select
-        aria-label={`${w.add_choose()} ${w.element(parent.name)}`}
+        aria-label={`${t.add_choose()} ${t.element(parent.name)}`}
         value=""
         disabled={desk.is_running.value}
         onChange={(event) => {
@@ -77,8 +77,8 @@ export function Adder({ desk, root, parent, names }: { desk: Desk; root: Node; p
           event.currentTarget.value = '';
         }}
       >
-        <option value="">{w.add_choose()}</option>
-        {names.map((one) => <option key={one} value={one}>{w.element(one)}</option>)}
+        <option value="">{t.add_choose()}</option>
+        {names.map((one) => <option key={one} value={one}>{t.element(one)}</option>)}
       </select>
     </div>
   );
@@ -104,11 +104,11 @@ export function ElementFields({ desk, root, node }: FormProps) {
     <>
       {names.length > hidden.length && <div class="scenario-fields">{names.filter((one) => !hidden.includes(one)).map(field)}</div>}
       {rule.text && (
-        <TextField hide_label label={w.value_of(w.element(node.name))} value={node.element.text.trim()} change={change_text} input={{ disabled: desk.is_running.value, placeholder: w.text_with() }} />
+        <TextField hide_label label={t.value_of(t.element(node.name))} value={node.element.text.trim()} change={change_text} input={{ disabled: desk.is_running.value, placeholder: t.text_with() }} />
       )}
       {hidden.length > 0 && (
         <details class="scenario-more">
-          <summary>{w.more()}</summary>
+          <summary>{t.more()}</summary>
           <div class="scenario-fields">{hidden.map(field)}</div>
         </details>
       )}
@@ -119,7 +119,7 @@ export function ElementFields({ desk, root, node }: FormProps) {
 function AttributeField({ desk, root, node, name, rule }: FormProps & { name: string; rule: AttributeRule }) {
   const { profile } = useConsole();
   const value = node.element.attribute(name);
-  const label = w.attribute(name);
+  const label = t.attribute(name);
   const is_locked = desk.is_running.value;
   const change = (to: string) => {
     const wanted = to === '' && !rule.required ? undefined : to;
@@ -130,7 +130,7 @@ function AttributeField({ desk, root, node, name, rule }: FormProps & { name: st
   const closed = rule.type === 'status' ? [...statuses] : rule.type === 'boolean' ? ['true', 'false'] : closed_choices(rule.type, root);
   if (closed) {
     const now = (value ?? '').trim();
-    const none = rule.required ? [] : [{ value: '', label: name === 'status' || name === 'component' ? w.none_chosen() : w.not_given() }];
+    const none = rule.required ? [] : [{ value: '', label: name === 'status' || name === 'component' ? t.none_chosen() : t.not_given() }];
     const unknown = now !== '' && !closed.includes(now) ? [{ value: now, label: `${now} ?` }] : [];
     const choices = [...none, ...closed.map((one) => ({ value: one, label: one })), ...unknown];
     return (
@@ -139,7 +139,7 @@ function AttributeField({ desk, root, node, name, rule }: FormProps & { name: st
       </fieldset>
     );
   }
-  const wrong = value !== undefined && !is_of(rule.type, value) ? w.wrong_value(label, value, rule.type) : undefined;
+  const wrong = value !== undefined && !is_of(rule.type, value) ? t.wrong_value(name, node.name, value, rule.type) : undefined;
   const meant = (component: string) => component_meant(root, component, profile);
   return (
     <TextField
@@ -172,7 +172,7 @@ function WhenFields({ desk, root, node }: FormProps) {
     <div class="scenario-fields">
       {field('variable')}
       <fieldset class="scenario-lock" disabled={desk.is_running.value}>
-        <SelectField label={w.relation()} value={relation ?? 'is'} change={turn} choices={relations.map((one) => ({ value: one, label: w.attribute(one).replace('_', ' ') }))} />
+        <SelectField label={t.relation()} value={relation ?? 'is'} change={turn} choices={relations.map((one) => ({ value: one, label: t.attribute(one).replace('_', ' ') }))} />
       </fieldset>
       {relation && field(relation)}
       {relation === 'near' && field('within')}

@@ -1,7 +1,7 @@
 // Notifications that a running scenario has received and not processed.
 import type { Completed, Notification, ReceiveEvent } from 'rois-client';
 
-import type { Environment } from '../state/environment';
+import type { Environment } from '../state/base/environment';
 
 export type News = ReceiveEvent | Completed;
 

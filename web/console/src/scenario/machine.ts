@@ -1,15 +1,16 @@
 // Runs a scenario, as `rois scenario` does. docs/rois-command.md defines states, triggers and steps.
 import { code_of, type Completed, type CompletedStatus, component_ref, type CommandMessage, type ReceiveEvent, Results, type Subscription } from 'rois-client';
 
-import type { GiveBack } from '../state/bindings';
+import type { Stop } from '../state/base/environment';
 import type { Console } from '../state/console';
-import type { Stop } from '../state/environment';
+import type { GiveBack } from '../state/session/bindings';
+import { to_double } from './grammar';
 import { Inbox } from './inbox';
 import type { Scenario, ScenarioCommand, State, Trigger, TriggerKind } from './model';
+import * as t from './texts';
 import { Trouble } from './trouble';
 import { typed_arguments } from './typed';
 import { listed, Variables } from './variables';
-import * as w from './texts';
 
 /** Receives the steps of a run. */
 export interface Observer {
@@ -63,7 +64,7 @@ export class Machine {
         this.check();
         if (this.next === undefined) in_a_row = 0;
         if (in_a_row === most_in_a_row) await new Promise<void>((resolve) => this.console.environment.after((in_a_row = 0), resolve));
-        if (this.next === undefined) await this.hear();
+        if (this.next === undefined) await this.process_next();
         else await this.enter(this.scenario.states.get(this.next)!);
       }
       return { how: this.state.failed ? 'failed' : 'ended', state: this.state.name };
@@ -87,11 +88,11 @@ export class Machine {
   private check(): void {
     switch (this.inbox.ended) {
       case 'stopped':
-        return Trouble.raise(w.stopped);
+        return Trouble.raise(t.stopped);
       case 'session':
-        return Trouble.raise(w.session_ended);
+        return Trouble.raise(t.session_ended);
       case 'closed':
-        return Trouble.raise(w.connection_closed);
+        return Trouble.raise(t.connection_closed);
     }
   }
 
@@ -128,7 +129,7 @@ export class Machine {
     this.pending = [];
     this.status = 'OK';
     this.observer.entered(state);
-    this.tell(this.variables.take(state.steps, undefined) ?? []);
+    this.publish(this.variables.take(state.steps, undefined) ?? []);
     this.inbox.clear(); // earlier events do not trigger in the new state
     this.entered = this.console.environment.now();
     this.pending = await this.execute(state.commands);
@@ -139,7 +140,7 @@ export class Machine {
   private async execute(commands: readonly ScenarioCommand[]): Promise<string[]> {
     const units = commands.map((command): CommandMessage => {
       const ref = this.refs.get(command.component)!;
-      const component = this.console.profile.component(ref) ?? Trouble.raise(() => w.no_component(ref));
+      const component = this.console.profile.component(ref) ?? Trouble.raise(() => t.no_component(ref));
       const given = command.arguments.map(({ name, text }) => ({ name, text: this.variables.filled(text) }));
       const made: CommandMessage = { kind: 'command', component_ref: ref, command_type: command.type, command_id: '', arguments: typed_arguments(component, command.type, given) };
       return command.delay === undefined ? made : { ...made, delay_time: command.delay };
@@ -153,7 +154,7 @@ export class Machine {
     return (await this.console.query(type, component === '' ? undefined : component_ref(this.refs.get(component)!))).results;
   }
 
-  private async hear(): Promise<void> {
+  private async process_next(): Promise<void> {
     const due = this.next_timer();
     const news = await this.inbox.take(due);
     this.check();
@@ -178,16 +179,16 @@ export class Machine {
     const is_meant = (trigger: Trigger) => trigger.kind === 'completed' && (trigger.status === undefined || trigger.status === ended);
     if (await this.fire_if(is_meant, undefined, `completed ${ended}`)) return;
     const { name, triggers } = this.state;
-    if (!triggers.some(({ kind }) => kind === 'event' || kind === 'after')) Trouble.raise(() => w.unexpected_end(name, ended));
+    if (!triggers.some(({ kind }) => kind === 'event' || kind === 'after')) Trouble.raise(() => t.unexpected_end(name, ended));
   }
 
   // --- Timers, from the entry of the state ---
 
-  private due({ seconds }: Trigger): number {
-    const text = this.variables.filled(seconds);
-    const read = text.trim() === '' ? NaN : Number(text);
-    if (!(read >= 0 && read < 1e9)) Trouble.raise(() => w.no_seconds(this.state.name, text));
-    return this.entered + read * 1000;
+  private due(trigger: Trigger): number {
+    const text = this.variables.filled(trigger.seconds);
+    const seconds = to_double(text) ?? NaN;
+    if (!(seconds >= 0 && seconds < 1e9)) Trouble.raise(() => t.no_seconds(this.state.name, text));
+    return this.entered + seconds * 1000;
   }
 
   private timers(): Trigger[] {
@@ -228,7 +229,7 @@ export class Machine {
 
   private async leave(trigger: Trigger, by: string, printed: string[]): Promise<void> {
     const from = this.state;
-    this.tell(printed);
+    this.publish(printed);
     if (from.leaving.length > 0) this.observer.leaving(from, trigger);
     await this.wait_for_all(await this.execute(from.leaving));
     this.observer.left(from, trigger, by);
@@ -244,7 +245,7 @@ export class Machine {
     }
   }
 
-  private tell(printed: readonly string[]): void {
+  private publish(printed: readonly string[]): void {
     for (const line of printed) this.observer.printed(line);
     this.observer.variables(this.variables);
   }

@@ -13,7 +13,7 @@ import { EditView } from './edit_view';
 import type { Problem } from './read';
 import { RunState, RunView, state_of } from './run_view';
 import type { Node } from './source';
-import * as w from './texts';
+import * as t from './texts';
 
 type Part = 'run' | 'edit' | 'xml';
 
@@ -30,9 +30,9 @@ export default function ScenarioPanel() {
     if (!desk.is_running.value) part.value = 'edit';
   };
   const tabs = [
-    { id: 'run' as const, title: w.tab_run(), icon: 'play' as const },
-    { id: 'edit' as const, title: w.tab_edit(), icon: 'sequence' as const },
-    { id: 'xml' as const, title: w.tab_xml(), icon: 'messages' as const },
+    { id: 'run' as const, title: t.tab_run(), icon: 'play' as const },
+    { id: 'edit' as const, title: t.tab_edit(), icon: 'sequence' as const },
+    { id: 'xml' as const, title: t.tab_xml(), icon: 'messages' as const },
   ];
   return (
     <div class="scenario-panel" ref={frame}>
@@ -44,9 +44,9 @@ export default function ScenarioPanel() {
           id={is_wide ? 'scenario' : 'scenario-below'}
           direction={is_wide ? 'row' : 'column'}
           share={is_wide ? 0.56 : 0.5}
-          first={scenario ? <Diagram desk={desk} scenario={scenario} edit={edit} /> : <EmptyState icon="scenario" title={w.cannot_draw()} />}
+          first={scenario ? <Diagram desk={desk} scenario={scenario} edit={edit} /> : <EmptyState icon="scenario" title={t.cannot_draw()} />}
           second={
-            <Tabs label={w.tabs()} tabs={tabs} chosen={part.value} choose={(id) => (part.value = id)}>
+            <Tabs label={t.tabs()} tabs={tabs} chosen={part.value} choose={(id) => (part.value = id)}>
               {part.value === 'run' && <RunView desk={desk} />}
               {part.value === 'edit' && <EditView desk={desk} />}
               {part.value === 'xml' && <XmlPart desk={desk} />}
@@ -62,7 +62,7 @@ function Bar({ desk, started }: { desk: Desk; started: () => void }) {
   const { link, notices } = useConsole();
   const is_running = desk.is_running.value;
   const { scenario } = desk.reading.value;
-  const why_not = !link.is_open ? w.not_connected() : scenario ? undefined : w.mend_first();
+  const why_not = !link.is_open ? t.not_connected() : scenario ? undefined : t.fix_first();
   const start = () => {
     started();
     void desk.start().then(() => tell_end(desk, notices));
@@ -70,25 +70,25 @@ function Bar({ desk, started }: { desk: Desk; started: () => void }) {
   const open = async () => {
     const file = await chosen_file('.xml,application/xml,text/xml');
     if (!file) return;
-    await file.text().then((text) => desk.open(file.name, text), (error: unknown) => void notices.tell('error', w.file_unreadable(), { detail: String(error), about: 'scenario' }));
+    await file.text().then((text) => desk.open(file.name, text), (error: unknown) => void notices.tell('error', t.file_unreadable(), { detail: String(error), about: 'scenario' }));
   };
   return (
     <header class="scenario-bar">
       <div class="scenario-bar-title">
-        <h2>{desk.drawn.value?.name || w.unnamed()}</h2>
+        <h2>{desk.drawn.value?.name || t.unnamed()}</h2>
         <span class="scenario-soft">{desk.file_name.value}</span>
       </div>
       {is_running ? (
-        <Button look="danger" icon="stop" onClick={() => desk.stop()}>{w.stop()}</Button>
+        <Button look="danger" icon="stop" onClick={() => desk.stop()}>{t.stop()}</Button>
       ) : (
-        <Button look="primary" icon="play" disabled={why_not !== undefined} title={why_not} onClick={start}>{w.start()}</Button>
+        <Button look="primary" icon="play" disabled={why_not !== undefined} title={why_not} onClick={start}>{t.start()}</Button>
       )}
       <RunState desk={desk} />
       <div class="scenario-bar-end">
-        <Button small look="quiet" icon="undo" disabled={is_running || !desk.can_undo.value} onClick={() => desk.undo()}>{w.undo()}</Button>
-        <Button small look="quiet" icon="refresh" title={w.shipped_hint()} disabled={is_running || desk.is_as_shipped} onClick={() => desk.open_shipped()}>{w.shipped()}</Button>
-        <Button small look="quiet" icon="upload" disabled={is_running} onClick={() => void open()}>{w.open()}</Button>
-        <Button small look="quiet" icon="download" onClick={() => save_file(desk.file_name.value, [desk.text.value])}>{w.save()}</Button>
+        <Button small look="quiet" icon="undo" disabled={is_running || !desk.can_undo.value} onClick={() => desk.undo()}>{t.undo()}</Button>
+        <Button small look="quiet" icon="refresh" title={t.shipped_hint()} disabled={is_running || desk.is_as_shipped} onClick={() => desk.open_shipped()}>{t.shipped()}</Button>
+        <Button small look="quiet" icon="upload" disabled={is_running} onClick={() => void open()}>{t.open()}</Button>
+        <Button small look="quiet" icon="download" onClick={() => save_file(desk.file_name.value, [desk.text.value])}>{t.save()}</Button>
       </div>
     </header>
   );
@@ -98,7 +98,7 @@ function Bar({ desk, started }: { desk: Desk; started: () => void }) {
 function tell_end(desk: Desk, notices: Notices): void {
   const { tone, text, why } = state_of(desk.run, false);
   if (tone === 'calm') return;
-  notices.tell(tone === 'good' ? 'good' : 'error', `${desk.drawn.value?.name || w.unnamed()}: ${text}`, { about: 'scenario', ...(why !== undefined && { detail: why }) });
+  notices.tell(tone === 'good' ? 'good' : 'error', `${desk.drawn.value?.name || t.unnamed()}: ${text}`, { about: 'scenario', ...(why !== undefined && { detail: why }) });
 }
 
 // Errors, and warnings about the engine.
@@ -111,7 +111,7 @@ function Problems({ desk, choose }: { desk: Desk; choose: (state: string) => voi
   return (
     <details class={problems.length > 0 ? 'scenario-problems scenario-problems-bad' : 'scenario-problems'} open={problems.length > 0}>
       <summary>
-        <Icon name="warning" /> {problems.length > 0 ? w.problems() : w.warnings()} ({all.length})
+        <Icon name="warning" /> {problems.length > 0 ? t.problems() : t.warnings()} ({all.length})
       </summary>
       <ul>
         {all.slice(0, 50).map((one) => <ProblemLine key={`${one.line} ${one.column} ${one.say()}`} problem={one} choose={choose} />)}
@@ -122,7 +122,7 @@ function Problems({ desk, choose }: { desk: Desk; choose: (state: string) => voi
 
 function ProblemLine({ problem, choose }: { problem: Problem; choose: (state: string) => void }) {
   const state = state_around(problem.node);
-  const text = <><span class="scenario-soft">{w.at_line(problem.line, problem.column)}</span> {problem.say()}</>;
+  const text = <><span class="scenario-soft">{t.at_line(problem.line, problem.column)}</span> {problem.say()}</>;
   return <li>{state === undefined ? text : <button type="button" class="scenario-link" onClick={() => choose(state)}>{text}</button>}</li>;
 }
 
@@ -134,8 +134,8 @@ function state_around(node: Node | undefined): string | undefined {
 function XmlPart({ desk }: { desk: Desk }) {
   return (
     <fieldset class="scenario-xml" disabled={desk.is_running.value}>
-      {desk.is_running.value && <p class="scenario-locked"><Icon name="info" /> {w.locked()}</p>}
-      <TextArea label={w.xml_label()} hide_label value={desk.text.value} change={(text) => desk.edit(text, 'xml')} rows={30} />
+      {desk.is_running.value && <p class="scenario-locked"><Icon name="info" /> {t.locked()}</p>}
+      <TextArea label={t.xml_label()} hide_label value={desk.text.value} change={(text) => desk.edit(text, 'xml')} rows={30} />
     </fieldset>
   );
 }

@@ -9,24 +9,24 @@ import { shown_name } from './picture';
 import { nodes_in, with_text } from './source';
 import { Trouble } from './trouble';
 import { listed } from './variables';
-import * as w from './texts';
+import * as t from './texts';
 
 const most_shown = 300;
 
 /** The state of a run as tone and text. */
 export function state_of(run: Run | undefined, is_running: boolean): { tone: Tone; text: string; why?: string } {
-  if (!run) return { tone: 'calm', text: w.never_run() };
-  if (is_running) return { tone: 'busy', text: run.state === '' ? w.binding() : w.running() };
+  if (!run) return { tone: 'calm', text: t.never_run() };
+  if (is_running) return { tone: 'busy', text: run.state === '' ? t.binding() : t.running() };
   const { outcome } = run;
   switch (outcome?.how) {
     case 'ended':
-      return { tone: 'good', text: w.ended(shown_name(outcome.state)) };
+      return { tone: 'good', text: t.ended(shown_name(outcome.state)) };
     case 'failed':
-      return { tone: 'bad', text: w.failed(shown_name(outcome.state)) };
+      return { tone: 'bad', text: t.failed(shown_name(outcome.state)) };
     case 'trouble':
-      return { tone: 'bad', text: w.trouble(), why: outcome.trouble instanceof Trouble ? outcome.trouble.say() : error_text(outcome.trouble) };
+      return { tone: 'bad', text: t.trouble(), why: outcome.trouble instanceof Trouble ? outcome.trouble.say() : error_text(outcome.trouble) };
     default:
-      return { tone: 'calm', text: w.was_stopped() };
+      return { tone: 'calm', text: t.was_stopped() };
   }
 }
 
@@ -39,7 +39,7 @@ export function RunState({ desk }: { desk: Desk }) {
   return (
     <span class="scenario-run-state">
       <Badge tone={tone}>{text}</Badge>
-      {run && <span class="scenario-soft">{w.for_so_long(duration(until - run.began_at))}</span>}
+      {run && <span class="scenario-soft">{t.for_so_long(duration(until - run.began_at))}</span>}
     </span>
   );
 }
@@ -72,9 +72,9 @@ function History({ desk }: { desk: Desk }) {
   };
   return (
     <section class="scenario-history">
-      <h3>{w.history()}</h3>
-      <div class="scenario-history-frame" ref={frame} onScroll={scrolled} tabIndex={0} role="region" aria-label={w.history()}>
-        {entries.length === 0 && <p class="scenario-soft">{w.no_history()}</p>}
+      <h3>{t.history()}</h3>
+      <div class="scenario-history-frame" ref={frame} onScroll={scrolled} tabIndex={0} role="region" aria-label={t.history()}>
+        {entries.length === 0 && <p class="scenario-soft">{t.no_history()}</p>}
         <ol>
           {entries.map((one) => <Entry key={one.number} entry={one} is_new={one.number === last && desk.is_running.value} />)}
         </ol>
@@ -90,7 +90,7 @@ function Entry({ entry, is_new }: { entry: HistoryEntry; is_new: boolean }) {
       <li class="scenario-print">
         {time}
         <Icon name="messages" />
-        <span><span class="unseen">{w.printed()}: </span><span class="scenario-printed">{entry.line}</span></span>
+        <span><span class="unseen">{t.printed()}: </span><span class="scenario-printed">{entry.line}</span></span>
       </li>
     );
   return (
@@ -112,17 +112,17 @@ function VariablesTable({ desk }: { desk: Desk }) {
   const { run } = desk;
   return (
     <section class="scenario-variables">
-      <h3>{w.variables()} <span class="scenario-soft">{w.begins_hint()}</span></h3>
+      <h3>{t.variables()} <span class="scenario-soft">{t.begins_hint()}</span></h3>
       <div class="scenario-variables-frame">
         {those.length === 0 ? (
-          <p class="scenario-soft">{w.no_variables()}</p>
+          <p class="scenario-soft">{t.no_variables()}</p>
         ) : (
           <table class="table">
             <thead>
               <tr>
-                <th scope="col">{w.column_name()}</th>
-                <th scope="col">{w.column_begins()}</th>
-                <th scope="col">{w.column_value()}</th>
+                <th scope="col">{t.column_name()}</th>
+                <th scope="col">{t.column_begins()}</th>
+                <th scope="col">{t.column_value()}</th>
               </tr>
             </thead>
             <tbody>
@@ -136,14 +136,14 @@ function VariablesTable({ desk }: { desk: Desk }) {
                     <td>
                       <input
                         type="text"
-                        aria-label={w.begins_with(name)}
+                        aria-label={t.begins_with(name)}
                         value={node.element.text.trim()}
                         disabled={desk.is_running.value}
                         onInput={(event) => desk.edit(with_text(text, node, event.currentTarget.value), `variable ${name}`)}
                       />
                     </td>
                     <td class="scenario-value">
-                      {run && <span key={changed} class={changed === undefined ? undefined : 'scenario-changed'}>{value === '' ? <span class="scenario-soft">{w.nothing()}</span> : value}</span>}
+                      {run && <span key={changed} class={changed === undefined ? undefined : 'scenario-changed'}>{value === '' ? <span class="scenario-soft">{t.nothing()}</span> : value}</span>}
                     </td>
                   </tr>
                 );

@@ -1,8 +1,8 @@
 // Texts of the panel and problems of a scenario.
 import { type Both, text, text_of } from '../i18n/i18n';
+import { type AttributeType, statuses } from './grammar';
 
 const kinds_ja: Record<string, string> = { component: 'コンポーネント', variable: '変数', state: '状態' };
-
 
 // Toolbar
 export const start = text('Start', '開始');
@@ -14,7 +14,7 @@ export const shipped_hint = text('Opens the included reception scenario of figur
 export const undo = text('Undo', '元に戻す');
 export const unnamed = text('Scenario', 'シナリオ');
 export const not_connected = text('Connect first', '先に接続してください');
-export const mend_first = text('Fix the problems first', '先に誤りを直してください');
+export const fix_first = text('Fix the problems first', '先に誤りを直してください');
 
 // State of the run
 export const never_run = text('Not started', '未開始');
@@ -94,22 +94,33 @@ export const problems = text('Problems', '誤り');
 export const warnings = text('Not supported by this engine', 'このエンジンにできないこと');
 export const at_line = text_of((line: number, column: number) => [`line ${line}, column ${column}`, `${line} 行 ${column} 桁`]);
 export const file_unreadable = text('The file cannot be read', 'ファイルを読めません');
-export const unknown_element = text_of((name: string, parent: string) => [
-  parent === '' ? `unknown element '${name}'` : `unknown element '${name}' inside '${parent}'`,
-  parent === '' ? `不明な要素 '${name}'` : `'${parent}' の中に不明な要素 '${name}'`,
+export const unknown_element = text_of((name: string, parent: string, expected: readonly string[]) => [
+  `unknown element '${name}' inside '${parent}': ${one_of(expected)}`,
+  `'${parent}' の中に不明な要素 '${name}'。使えるもの: ${quoted(expected)}`,
 ]);
-export const unknown_attribute = text_of((name: string, element: string) => [`'${element}' has no attribute '${name}'`, `'${element}' に属性 '${name}' はありません`]);
-export const missing_attribute = text_of((name: string, element: string) => [`'${element}' needs the attribute '${name}'`, `'${element}' に属性 '${name}' が必要です`]);
-export const missing_element = text_of((names: string, element: string) => [`'${element}' needs one of: ${names}`, `'${element}' に次のいずれかが必要です: ${names}`]);
-export const element_out_of_order = text_of((name: string, parent: string) => [
-  `'${name}' is in the wrong place inside '${parent}'`,
-  `'${parent}' の中の '${name}' の位置が違います`,
+export const unknown_root = text_of((name: string, namespace: string) => [`unknown element '${name}' in the namespace '${namespace}'`, `名前空間 '${namespace}' に要素 '${name}' はありません`]);
+export const other_namespace = text_of((name: string, parent: string, expected: string, namespace: string) => [
+  `element '${name}' inside '${parent}' must be in the namespace '${expected}', not in '${namespace}'`,
+  `'${parent}' の中の要素 '${name}' の名前空間は '${namespace}' ではなく '${expected}' です`,
 ]);
-export const wrong_value = text_of((name: string, value: string, type: string) => [
-  `${name}: '${value}' is not of the type ${type}`,
-  `${name}: '${value}' は型 ${type} ではありません`,
+export const unknown_attribute = text_of((name: string, element: string, expected: readonly string[]) => [
+  `unknown attribute '${name}' of '${element}'${expected.length > 0 ? `: ${one_of(expected)}` : ''}`,
+  `'${element}' に属性 '${name}' はありません${expected.length > 0 ? `。使えるもの: ${quoted(expected)}` : ''}`,
 ]);
-export const no_text_here = text_of((name: string) => [`'${name}' must not have text`, `'${name}' は文字列を持てません`]);
+export const missing_attribute = text_of((name: string, element: string) => [`attribute '${name}' is missing in '${element}'`, `'${element}' に属性 '${name}' が必要です`]);
+export const missing_element = text_of((names: readonly string[], element: string) => [
+  names.length === 1 ? `element '${names[0]}' is missing in '${element}'` : `one of ${quoted(names)} is missing in '${element}'`,
+  `'${element}' に次のいずれかが必要です: ${quoted(names)}`,
+]);
+export const element_out_of_order = text_of((name: string, parent: string, expected: readonly string[]) => [
+  `element '${name}' inside '${parent}' is not allowed here${expected.length > 0 ? `: ${one_of(expected)}` : ''}`,
+  `'${parent}' の中のここに '${name}' は書けません${expected.length > 0 ? `。使えるもの: ${quoted(expected)}` : ''}`,
+]);
+export const wrong_value = text_of((name: string, element: string, value: string, type: AttributeType) => [
+  `attribute '${name}' of '${element}' has the value '${value}': expected ${forms[type]?.[0] ?? type}`,
+  `'${element}' の属性 '${name}' の値 '${value}' は正しくありません。必要な形: ${forms[type]?.[1] ?? type}`,
+]);
+export const no_text_here = text_of((text: string, element: string) => [`text '${text}' inside '${element}', which may contain only elements`, `'${element}' の中に文字列 '${text}' は書けません。書けるのは要素だけです`]);
 export const not_a_scenario = text_of((name: string) => [
   `this is not a robot scenario: expected the element robot_scenario, not '${name}'`,
   `ロボットシナリオではありません: 要素 '${name}' ではなく robot_scenario が必要です`,
@@ -120,6 +131,7 @@ export const no_way_out = text_of(() => ['nothing leads out of this state: expec
 export const no_commands = text_of(() => ['this state waits for the end of its commands, and has none', 'この状態はコマンドの終了を待ちますが、コマンドがありません']);
 export const no_query = text_of(() => ['this state waits for an answer, and has no query', 'この状態は応答を待ちますが、query がありません']);
 export const nothing_to_take = text_of(() => ['only events and answers have results to take', '結果を取り出せるのはイベントと応答だけです']);
+export const needs_list = text_of(() => ["'apart' needs 'not_in'", "'apart' には 'not_in' が必要です"]);
 export const belong_together = text_of((a: string, b: string) => [`'${a}' and '${b}' belong together`, `'${a}' と '${b}' は一緒に使います`]);
 export const one_relation = text_of((names: string) => [`a 'when' needs exactly one of ${names}`, `'when' には次のちょうど一つが必要です: ${names}`]);
 export const no_such = text_of((what: string, name: string, known: string[]) => [
@@ -129,13 +141,13 @@ export const no_such = text_of((what: string, name: string, known: string[]) => 
 
 // Endings
 export const stopped = text('stopped', '停止しました');
-export const session_ended = text('The session has ended, and its commands with it.', 'セッションが終わり、ロボットの動作も終わりました。');
-export const connection_closed = text('The connection has closed.', '接続が閉じられました。');
+export const session_ended = text('the session has ended, and its commands with it', 'セッションが終わり、ロボットの動作も終わりました');
+export const connection_closed = text('the connection has closed', '接続が閉じられました');
 export const no_place = text_of((text: string) => [`'${text}' is not a place: expected "x, y, th"`, `'${text}' は位置 "x, y, th" ではありません`]);
 export const no_seconds = text_of((state: string, text: string) => [`${state}: '${text}' is not a number of seconds`, `${state}: '${text}' は秒数ではありません`]);
 export const unexpected_end = text_of((state: string, status: string) => [
-  `The commands of '${state}' ended with ${status}, and no trigger is for that.`,
-  `'${state}' のコマンドが ${status} で終わり、それに対するトリガーがありません。`,
+  `the commands of '${state}' ended with ${status}, and no trigger expects that`,
+  `'${state}' のコマンドが ${status} で終わり、それに対するトリガーがありません`,
 ]);
 export const no_component = text_of((ref: string) => [`the engine has no component '${ref}'`, `エンジンにコンポーネント '${ref}' がありません`]);
 export const none_of_type = text_of((type: string) => [`the engine has no component of the type ${type}`, `エンジンに型 ${type} のコンポーネントがありません`]);
@@ -148,11 +160,34 @@ export const not_of_type = text_of((name: string, value: string, type: string) =
   `${name}: '${value}' is not of the type ${type}`,
   `${name}: '${value}' は型 ${type} ではありません`,
 ]);
-export const one_value = text_of((name: string) => [`${name}: expected exactly one value`, `${name}: 値はちょうど一つ必要です`]);
+export const one_value = text_of((name: string, type: string, count: number) => [
+  `${name}: the type ${type} needs exactly one value, got ${count}`,
+  `${name}: 型 ${type} の値はちょうど一つ必要ですが、${count} 個あります`,
+]);
 export const no_query_of = text_of((type: string) => [`no component of this engine answers the query '${type}'`, `このエンジンに問い合わせ '${type}' に答えるコンポーネントはありません`]);
 export const no_event_of = text_of((type: string) => [`no matching component sends the event '${type}'`, `イベント '${type}' を通知するコンポーネントがありません`]);
 
+// The forms of attribute values.
+const a_name: Both = ["a name: letters, digits, '_', '.' and '-', not beginning with a digit", "名前(英数字、'_'、'.'、'-'。数字では始まりません)"];
+const forms: Partial<Record<AttributeType, Both>> = {
+  name: a_name,
+  variable: a_name,
+  component: a_name,
+  state: a_name,
+  result: a_name,
+  status: [`one of ${statuses.join(', ')}`, `${statuses.join(', ')} のいずれか`],
+  boolean: ['true or false', 'true か false'],
+  double: ['a number', '数'],
+  natural: ['a whole number, 0 or more, of 32 bits', '0 以上の 32 ビットの整数'],
+};
 
+function quoted(names: readonly string[]): string {
+  return names.map((one) => `'${one}'`).join(', ');
+}
+
+function one_of(names: readonly string[]): string {
+  return names.length === 1 ? `expected ${quoted(names)}` : `expected one of ${quoted(names)}`;
+}
 
 // Names of elements and attributes; the XML has its own.
 const elements: Record<string, Both> = {

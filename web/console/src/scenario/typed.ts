@@ -2,9 +2,9 @@
 import type { Parameter, ParameterProfile } from 'rois-client';
 
 import { data_type, is_packed, problem_of } from '../forms/data_type';
-import type { ComponentView } from '../state/profile_state';
+import type { ComponentView } from '../state/engine/profile_state';
+import * as t from './texts';
 import { Trouble } from './trouble';
-import * as w from './texts';
 
 /** The arguments of a command: its own and the component's parameters. */
 export function known_arguments(component: ComponentView, command_type: string): ParameterProfile[] {
@@ -18,7 +18,7 @@ export function typed_arguments(component: ComponentView, command_type: string, 
   const made: Parameter[] = [];
   for (const { name, text } of given) {
     const declared = known.find((one) => one.name.toLowerCase() === name.toLowerCase());
-    if (!declared) return Trouble.raise(() => w.no_argument(component.ref, name, known.map((one) => one.name)));
+    if (!declared) return Trouble.raise(() => t.no_argument(component.ref, name, known.map((one) => one.name)));
     let argument = made.find((one) => one.name === declared.name);
     if (!argument) made.push((argument = { name: declared.name, data_type_ref: declared.data_type_ref, values: [] }));
     add_value(argument, text);
@@ -26,9 +26,9 @@ export function typed_arguments(component: ComponentView, command_type: string, 
   for (const { name, data_type_ref, values } of made) {
     const type = data_type(data_type_ref.code);
     const items = type.is_list && is_packed(type) ? values.join(' ').split(/\s+/).filter(Boolean) : values;
-    if (!type.is_list && values.length !== 1) Trouble.raise(() => w.one_value(name));
+    if (!type.is_list && values.length !== 1) Trouble.raise(() => t.one_value(name, type.name, values.length));
     const wrong = items.find((one) => problem_of(type, one) !== undefined);
-    if (wrong !== undefined) Trouble.raise(() => w.not_of_type(name, wrong, data_type_ref.code));
+    if (wrong !== undefined) Trouble.raise(() => t.not_of_type(name, wrong, type.name));
   }
   return made;
 }

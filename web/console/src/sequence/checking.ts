@@ -2,7 +2,7 @@
 import type { Problem as FieldProblem } from '../forms/data_type';
 import { asked_by, command_types, same } from '../forms/describe';
 import { given, type Inputs, problems_of as field_problems } from '../forms/inputs';
-import type { ComponentView } from '../state/profile_state';
+import type { ComponentView } from '../state/engine/profile_state';
 import { type CommandStep, commands_in, type Lane, type Step, steps_of } from './model';
 import { milliseconds } from './units';
 

@@ -5,6 +5,7 @@ import { useConsole } from '../shell/context';
 import { IconButton } from '../ui';
 import { useDrag } from './drag';
 import { step_key } from './keys';
+import type { LaneContext } from './lane_context';
 import { found, type Lane, type ParallelStep, type Slot, type Step, with_branch, with_moved } from './model';
 import { run_view, type RunView } from './running';
 import { SlotView } from './slot_view';
@@ -56,19 +57,6 @@ export function Drawing({ store, adding, set_adding, open_form }: DrawingProps) 
       </div>
     </div>
   );
-}
-
-export interface LaneContext {
-  store: SequenceStore;
-  view: RunView;
-  adding: Slot | undefined;
-  set_adding: (slot: Slot | undefined) => void;
-  drag: ReturnType<typeof useDrag>;
-  /** The step with the Tab stop. */
-  first: number | undefined;
-  go_to: (step: number) => void;
-  /** Moves the focus to the form of the selected step. */
-  open_form: () => void;
 }
 
 function LaneView({ lane, label, context }: { lane: Lane; label: string; context: LaneContext }) {

@@ -3,7 +3,7 @@ import { ArgumentFields } from '../forms/argument_fields';
 import { CommandProgress } from '../forms/command_progress';
 import { asked_by, command_types, same } from '../forms/describe';
 import { useConsole } from '../shell/context';
-import type { ComponentView } from '../state/profile_state';
+import type { ComponentView } from '../state/engine/profile_state';
 import { Button, EmptyState, error_text, Form, SelectField, TextField } from '../ui';
 import { is_unfinished, type Problem } from './checking';
 import { type CommandStep, found, type ParallelStep, type Step, with_branch, with_changed, without_branch } from './model';

@@ -1,5 +1,5 @@
 // Sequences stored in this browser by name, as XML.
-import type { Environment } from '../state/environment';
+import type { Environment } from '../state/base/environment';
 
 const place = 'sequences';
 const most = 100;

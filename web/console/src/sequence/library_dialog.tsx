@@ -1,7 +1,7 @@
 // Stores sequences in this browser; imports and exports XML.
 import { useRef, useState } from 'preact/hooks';
 
-import { reason_of } from '../state/reason_of';
+import { reason_of } from '../state/base/reason_of';
 import { Button, CopyButton, Dialog, Field, IconButton, save_file, TextArea, TextField } from '../ui';
 import { commands_in, new_lane } from './model';
 import type { SequenceStore } from './store';

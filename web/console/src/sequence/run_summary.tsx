@@ -2,7 +2,7 @@
 import { why } from '../forms/why';
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
-import { type CommandEntry, has_ended } from '../state/commands_state';
+import { type CommandEntry, has_ended } from '../state/session/commands_state';
 import { Badge, Button, error_text, StatusBadge } from '../ui';
 import type { Run, SequenceStore } from './store';
 import * as t from './texts';

@@ -1,5 +1,5 @@
 // Progress of a sequence by step. The engine reports commands only; waits and branches are inferred.
-import { type CommandEntry, type CommandState, has_ended } from '../state/commands_state';
+import { type CommandEntry, type CommandState, has_ended } from '../state/session/commands_state';
 import type { Lane, Step } from './model';
 import { milliseconds } from './units';
 

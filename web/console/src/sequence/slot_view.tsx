@@ -2,7 +2,7 @@
 import { useLayoutEffect, useRef } from 'preact/hooks';
 
 import { Button, IconButton, joined } from '../ui';
-import type { LaneContext } from './drawing';
+import type { LaneContext } from './lane_context';
 import { new_command, new_parallel, new_wait, type Slot, type Step, with_inserted } from './model';
 import * as t from './texts';
 

@@ -3,7 +3,7 @@ import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import { Icon, joined, StatusBadge } from '../ui';
 import { is_unfinished } from './checking';
-import type { LaneContext } from './drawing';
+import type { LaneContext } from './lane_context';
 import type { CommandStep, ParallelStep, Step, WaitStep } from './model';
 import type { StepState } from './running';
 import * as t from './texts';

@@ -4,9 +4,9 @@ import { type CommandUnit, type Parameter, parse_xml, request, RoisError, sequen
 
 import { arguments_in } from '../forms/argument_fields';
 import { asked_by, same } from '../forms/describe';
-import { type CommandEntry, has_ended } from '../state/commands_state';
 import type { Console } from '../state/console';
-import { placed_commands, units_of } from '../state/sequences';
+import { type CommandEntry, has_ended } from '../state/session/commands_state';
+import { placed_commands, units_of } from '../state/session/sequences';
 import { problems_in_sequence, type Profiles } from './checking';
 import { draft_of, draft_text } from './draft';
 import { drop_sequence, keep_sequence, kept_sequences } from './library';

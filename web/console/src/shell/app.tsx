@@ -16,7 +16,7 @@ export function App({ console }: { console: Console }) {
     document.title = texts.title();
   }, [language.value]);
   const { phase } = console.link.view.value;
-  const is_stale = console.link.heard_at > 0 && /^(lost|draining|refused|closed)$/.test(phase);
+  const is_stale = console.link.received_at > 0 && /^(lost|draining|refused|closed)$/.test(phase);
   return (
     <ConsoleContext.Provider value={console}>
       <div class="app">

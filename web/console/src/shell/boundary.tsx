@@ -1,7 +1,7 @@
 // Error boundary: a failed panel does not affect the others.
 import { Component, type ComponentChildren } from 'preact';
 
-import { reason_of } from '../state/reason_of';
+import { reason_of } from '../state/base/reason_of';
 import { Button } from '../ui/button';
 import { Icon } from '../ui/icon';
 import * as texts from '../ui/texts';

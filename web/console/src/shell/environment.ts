@@ -1,7 +1,7 @@
 // The browser as the state's environment.
 import { open_socket } from 'rois-client';
 
-import type { Environment } from '../state/environment';
+import type { Environment } from '../state/base/environment';
 
 const prefix = 'rois-console.';
 

@@ -9,13 +9,13 @@ const stale_after = 5000; // ms; the console sends a request every second
 export function LinkMark() {
   const { link, now } = useConsole();
   const { phase, reason } = link.view.value;
-  const age = now.value - link.heard_at;
+  const age = now.value - link.received_at;
   return (
     <div class="link-mark">
       <Badge tone={link.is_open && age > stale_after ? 'warning' : tone_of(phase)} title={reason}>
         {t.phase(phase)}
       </Badge>
-      {link.heard_at > 0 && <span class="link-age">{t.age(Math.max(0, age))}</span>}
+      {link.received_at > 0 && <span class="link-age">{t.age(Math.max(0, age))}</span>}
     </div>
   );
 }
@@ -24,16 +24,16 @@ export function LinkBanner() {
   const console = useConsole();
   const { phase, reason, since } = console.link.view.value;
   const missed = console.link.missed.value;
-  const heard = console.link.heard_at;
+  const heard = console.link.received_at;
   // A quick reconnect should not flash a banner.
   const is_long = console.now.value - since > 1500;
-  const said = () => {
+  const sentence = () => {
     if (phase === 'lost') return `${t.is_old(console.now.value - heard)} ${t.lost_hint()}`;
     if (phase === 'draining') return heard > 0 ? `${t.draining_hint()} ${t.is_old(console.now.value - heard)}` : t.draining_hint();
     if (phase === 'connecting') return is_long ? t.connecting_hint() : '';
     return { refused: t.refused_hint(), closed: t.closed_hint() }[phase as string] ?? '';
   };
-  const text = said();
+  const text = sentence();
   return (
     <div class="banners" role="status" aria-live="polite">
       {text !== '' && (

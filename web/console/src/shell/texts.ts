@@ -1,5 +1,5 @@
-import type { Phase } from '../state/link_state';
 import { type Both, count_text, duration, text, text_of } from '../i18n/i18n';
+import type { Phase } from '../state/session/link_state';
 
 const phases: Record<Phase, Both> = {
   connecting: ['Connecting', '接続中'],

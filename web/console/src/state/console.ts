@@ -19,27 +19,29 @@ import {
   type XmlElement,
 } from 'rois-client';
 
-import { Bindings } from './bindings';
-import { CommandsState } from './commands_state';
-import { Documents, type LoggedDocument } from './documents';
-import { EntitiesState } from './entities_state';
-import type { Environment, Stop } from './environment';
-import { EventsState } from './events_state';
-import { EverythingState } from './everything';
-import { MapState } from './floor_map';
+import type { Environment, Stop } from './base/environment';
+import { reason_of } from './base/reason_of';
+import { EverythingState } from './engine/everything';
+import { MetricsState } from './engine/metrics_state';
+import { ParametersState } from './engine/parameters_state';
+import { ProfileState } from './engine/profile_state';
+import { StatusState } from './engine/status_state';
+import { EntitiesState } from './floor/entities_state';
+import { MapState } from './floor/floor_map';
+import { HallState } from './floor/hall_state';
+import { RobotsState } from './floor/robots_state';
 import { History } from './history';
-import { HallState } from './hall_state';
-import { LinkState } from './link_state';
-import { MetricsState } from './metrics_state';
 import { Notices } from './notices';
-import { ParametersState } from './parameters_state';
-import { ProfileState } from './profile_state';
-import { reason_of } from './reason_of';
-import { RobotsState } from './robots_state';
 import { Selection } from './selection';
-import { StatusState } from './status_state';
-import { SubscriptionsState } from './subscriptions_state';
-import { Traffic } from './traffic';
+import { Bindings } from './session/bindings';
+import { CommandsState } from './session/commands_state';
+import type { LoggedDocument } from './session/document_log';
+import { Documents } from './session/documents';
+import { EventsState } from './session/events_state';
+import { LinkState } from './session/link_state';
+import { OwnRequests } from './session/own_requests';
+import { SubscriptionsState } from './session/subscriptions_state';
+import { Traffic } from './session/traffic';
 
 /** Commands that the engine has accepted. */
 export interface Accepted {
@@ -88,20 +90,19 @@ export class Console {
   readonly selection = new Selection();
 
   private token: string | undefined;
-  private speaker: Client | undefined;
+  private current_client: Client | undefined;
   private stops: Stop[] = [];
   private session = '';
 
   constructor(readonly environment: Environment) {
-    const client = () => this.speaker;
+    const client = () => this.current_client;
     const token = () => this.token;
-    const components = () => this.profile.components.value;
-    const is_open = () => this.link.is_open;
     this.notices = new Notices(environment);
     this.link = new LinkState(environment);
     this.documents = new Documents(environment);
-    this.status = new StatusState(environment, this.documents, client, components, is_open);
-    this.parameters = new ParametersState(environment, this.documents, client, is_open);
+    const requests = new OwnRequests(environment, this.documents, client, () => this.link.is_open);
+    this.status = new StatusState(environment, requests, this.profile);
+    this.parameters = new ParametersState(requests);
     this.metrics = new MetricsState(environment, token, () => !/^(connecting|lost|closed)$/.test(this.link.view.value.phase)); // else the gateway is unreachable
     this.everything = new EverythingState(environment, token, this.metrics);
     this.bindings = new Bindings(
@@ -116,7 +117,7 @@ export class Console {
       () => this.client,
       (event_type, error) => this.notices.tell('warning', event_type, { detail: reason_of(error), about: event_type }),
     );
-    this.robots = new RobotsState(environment, this.documents, client, components, () => this.commands.open().length > 0, is_open);
+    this.robots = new RobotsState(environment, requests, this.profile, () => this.commands.open().length > 0);
     this.entities = new EntitiesState(
       environment,
       (event_type) => this.subscriptions.subscribe_own(event_type),
@@ -125,15 +126,13 @@ export class Console {
       (ref) => this.profile.component(ref)?.engine ?? '',
     );
     this.map = new MapState(environment, token);
-    this.traffic = new Traffic(environment, this.documents, client, is_open);
+    this.traffic = new Traffic(environment, requests, this.documents);
     this.history = new History(environment, this);
     this.hall = new HallState(environment, {
-      documents: this.documents,
+      requests,
       commands: this.commands,
       profile: this.profile,
-      client,
       run: (ref, command_type, named) => this.run(ref, command_type, named, { give_back: true }),
-      may_ask: is_open,
     });
     this.now.value = environment.now();
     environment.every(1000, () => (this.now.value = environment.now()));
@@ -150,8 +149,8 @@ export class Console {
 
   /** The client, for operations that are missing below. */
   get client(): Client {
-    if (!this.speaker) throw new Error('not connected: call connect first');
-    return this.speaker;
+    if (!this.current_client) throw new Error('not connected: call connect first');
+    return this.current_client;
   }
 
   /** The current token, for curl lines and HTTP requests. */
@@ -165,7 +164,7 @@ export class Console {
     this.token = token;
     // Bindings are not repeated: borrowers bind again in the new session.
     const client = new Client(this.environment.origin, { most_delay, rebind: false, ...(token !== undefined && { token }) }, this.environment.open_socket);
-    this.speaker = client;
+    this.current_client = client;
     this.stops = [
       this.link.follow(client, token, () => void client.close({ deadline: 0 })), // first: the others ask whether it is open
       client.on('document', ({ direction, text }) => this.documents.note(direction, text)),
@@ -178,19 +177,19 @@ export class Console {
 
   /** Retries at once to open a lost link. */
   retry(): void {
-    this.speaker?.retry();
+    this.current_client?.retry();
   }
 
   /** Ends the session at once. The engine stops its commands. */
   async close(): Promise<void> {
-    const client = this.speaker;
+    const client = this.current_client;
     await client?.close({ deadline: 1000 });
     this.link.set_phase('closed', '');
   }
 
   private leave(): void {
     for (const stop of this.stops.splice(0)) stop();
-    void this.speaker?.close({ deadline: 1000 });
+    void this.current_client?.close({ deadline: 1000 });
     this.forget_session();
   }
 
@@ -237,7 +236,7 @@ export class Console {
     }
   }
 
-  // --- What comes ---
+  // --- Received documents ---
 
   private on_document(document: LoggedDocument): void {
     if (document.kind !== 'answer') return;

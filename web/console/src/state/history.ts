@@ -1,13 +1,13 @@
 // History for the time line: each component's status and owner, and the state of the link.
 import { effect, type ReadonlySignal } from '@preact/signals';
 
-import type { Bindings } from './bindings';
-import type { Environment, Stop } from './environment';
-import type { LinkState } from './link_state';
-import type { MetricsState } from './metrics_state';
-import { Pulse } from './pulse';
-import { Ring } from './ring';
-import type { StatusState } from './status_state';
+import type { Environment, Stop } from './base/environment';
+import { Pulse } from './base/pulse';
+import { Ring } from './base/ring';
+import type { MetricsState } from './engine/metrics_state';
+import type { StatusState } from './engine/status_state';
+import type { Bindings } from './session/bindings';
+import type { LinkState } from './session/link_state';
 
 /** `status` and `holder` (`me` or a session number) of a component; `link`: its phase. */
 export type SpanKind = 'status' | 'holder' | 'link';
@@ -80,9 +80,9 @@ export class History {
         this.see('link', '', link.view.peek().phase, at, link.view.peek().reason);
         if (!is_open()) return;
         for (const ref of mine) this.see('holder', ref, 'me', this.environment.now());
-        const told_at = metrics.latest.peek()?.at ?? 0;
-        const is_fresh = at - told_at < stale_after;
-        const others = is_fresh ? [...all].filter(([ref]) => !mine.has(ref) && !this.was_mine(ref, told_at)) : [];
+        const reported_at = metrics.latest.peek()?.at ?? 0;
+        const is_fresh = at - reported_at < stale_after;
+        const others = is_fresh ? [...all].filter(([ref]) => !mine.has(ref) && !this.was_mine(ref, reported_at)) : [];
         for (const [ref, session] of others) this.see('holder', ref, session, this.environment.now());
         this.end_others('holder', (ref, value) => mine.has(ref) || (value !== 'me' && (!is_fresh || all.get(ref) === value)));
       }),
@@ -100,9 +100,9 @@ export class History {
   }
 
   // Metrics from before a release still name this console's session.
-  private was_mine(ref: string, told_at: number): boolean {
+  private was_mine(ref: string, reported_at: number): boolean {
     if (this.present.get(`holder ${ref}`)?.value === 'me') this.freed.set(ref, this.environment.now());
-    if ((this.freed.get(ref) ?? 0) >= told_at) return true;
+    if ((this.freed.get(ref) ?? 0) >= reported_at) return true;
     this.freed.delete(ref);
     return false;
   }
@@ -130,7 +130,7 @@ export class History {
     }
   }
 
-  // From now on the values are unknown: spans neither continue nor change.
+  // The values are unknown from now on: ends the current spans.
   private break_off(): void {
     for (const kind of ['status', 'holder'] as const) this.end_others(kind, () => false);
   }

@@ -1,11 +1,11 @@
 // Stores what the time line shows across a reload of the page. Documents are too large for that.
 import { Results } from 'rois-client';
 
-import type { CommandEntry } from './commands_state';
 import type { Console } from './console';
-import type { LoggedDocument } from './documents';
-import type { EventEntry, ErrorEntry, GapEntry } from './events_state';
 import type { Span } from './history';
+import type { CommandEntry } from './session/commands_state';
+import type { LoggedDocument } from './session/document_log';
+import type { EventEntry, ErrorEntry, GapEntry } from './session/events_state';
 
 /** Rows of each kind to store, the newest: about 1 MB in all. If the browser refuses, the next smaller number is tried. */
 const offers = [1000, 200, 40];

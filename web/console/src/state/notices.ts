@@ -1,7 +1,7 @@
 // Notices: messages at the edge of the page, also announced by screen readers.
 import { signal } from '@preact/signals';
 
-import type { Environment } from './environment';
+import type { Environment } from './base/environment';
 
 export type Severity = 'info' | 'good' | 'warning' | 'error';
 

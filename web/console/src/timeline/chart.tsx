@@ -4,14 +4,14 @@ import { useCallback, useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 
 import { useConsole } from '../shell/context';
 import { shown_theme } from '../shell/theme';
-import { useDrawing } from '../ui/drawing';
+import { useDrawing } from '../ui/drawing/drawing';
 import { watch_size } from '../ui/use_width';
 import { describe_whole, phase_text, sentence } from './describe';
 import { type Lane, lay_out, type Layout, next_thing, type Placed, thing_at, time_of } from './layout';
 import { axis_height, paint } from './paint';
 import { Pointing } from './pointing';
-import { key_of, type Thing } from './things';
 import * as t from './texts';
+import { key_of, type Thing } from './things';
 import { Tooltip } from './tooltip';
 import type { TimeView } from './view';
 
@@ -184,7 +184,7 @@ export function Chart({ view, opened, open }: ChartProps) {
     act();
   };
 
-  const told = focused.value;
+  const chosen = focused.value;
   return (
     <div class="timeline-frame" ref={frame} onScroll={redraw}>
       <div class="timeline-inside" style={{ height: `${lanes.value.reduce((sum, one) => sum + one.height, axis_height)}px` }}>
@@ -209,11 +209,11 @@ export function Chart({ view, opened, open }: ChartProps) {
             onPointerLeave={() => hover(undefined)}
             onDblClick={() => view.undo()}
           />
-          <Tip view={view} layout={layout} frame={frame} hovered={hovered.value} focused={told} />
+          <Tip view={view} layout={layout} frame={frame} hovered={hovered.value} focused={chosen} />
         </div>
       </div>
       <p id="timeline-help" class="unseen">{t.help()}</p>
-      <p class="unseen" role="status">{told ? sentence(describe_whole(console, told.thing, view.sources.at)) : ''}</p>
+      <p class="unseen" role="status">{chosen ? sentence(describe_whole(console, chosen.thing, view.sources.at)) : ''}</p>
     </div>
   );
 }

@@ -3,14 +3,14 @@ import { parse_xml } from 'rois-client';
 
 import { why } from '../forms/why';
 import { clock_time, duration } from '../i18n/i18n';
-import type { CommandEntry } from '../state/commands_state';
-import type { EventEntry } from '../state/events_state';
 import * as shell from '../shell/texts';
-import type { Span } from '../state/history';
-import type { Phase } from '../state/link_state';
 import type { Console } from '../state/console';
-import { began_at, has_failed, type Mark, mark_ref, opened_by, type Thing } from './things';
+import type { Span } from '../state/history';
+import type { CommandEntry } from '../state/session/commands_state';
+import type { EventEntry } from '../state/session/events_state';
+import type { Phase } from '../state/session/link_state';
 import * as t from './texts';
+import { began_at, has_failed, type Mark, mark_ref, opened_by, type Thing } from './things';
 
 export interface Description {
   at: number; // for sorting
@@ -37,11 +37,11 @@ export function describe(thing: Thing, at: number): Description {
 
 /** Includes why it failed, as far as known. */
 export function describe_whole(console: Console, thing: Thing, at: number): Description {
-  const told = describe(thing, at);
+  const described = describe(thing, at);
   const opened = opened_by(thing);
-  if (opened.kind !== 'command' || !has_failed(opened.entry)) return told;
+  if (opened.kind !== 'command' || !has_failed(opened.entry)) return described;
   const reasons = why(console, opened.entry);
-  return reasons.length === 0 ? told : { ...told, facts: [...told.facts.filter(([name]) => name !== t.reason()), [t.reason(), reasons.join(' ').replace(/^reason: /, '')]] };
+  return reasons.length === 0 ? described : { ...described, facts: [...described.facts.filter(([name]) => name !== t.reason()), [t.reason(), reasons.join(' ').replace(/^reason: /, '')]] };
 }
 
 /** In one line. */

@@ -2,15 +2,15 @@
 import { useEffect, useRef } from 'preact/hooks';
 import { Results } from 'rois-client';
 
-import { clock_time } from '../i18n/i18n';
 import { CommandProgress, DetailsOf, LoggedXml, ResultsTable } from '../forms';
+import { clock_time } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import { show_component } from '../shell/navigation';
-import type { CommandEntry } from '../state/commands_state';
+import type { CommandEntry } from '../state/session/commands_state';
 import { Button, Fact, IconButton, StatusBadge } from '../ui';
 import { describe, of_mark } from './describe';
-import { key_of, type Mark, mark_key, type Thing } from './things';
 import * as t from './texts';
+import { key_of, type Mark, mark_key, type Thing } from './things';
 import type { TimeView } from './view';
 
 export interface DetailsProps {

@@ -1,6 +1,6 @@
 // Computes lanes and boxes from the sources and the shown range. Draws nothing.
-import type { CommandEntry } from '../state/commands_state';
 import type { Span } from '../state/history';
+import type { CommandEntry } from '../state/session/commands_state';
 import { end_of, first_since, oldest_of, type Rows, type Sources } from './sources';
 import { has_failed, key_of, type Mark, mark_ref, type Thing } from './things';
 import type { Range } from './view';
@@ -32,7 +32,7 @@ export interface Lane {
 
 export interface Layout {
   range: Range;
-  oldest: number; // nothing is known before
+  oldest: number; // the oldest known time
   width: number;
   height: number; // of all lanes
   lanes: Lane[];

@@ -1,6 +1,6 @@
 // Draws the layout.
-import type { Sheet } from '../ui/drawing';
-import { time_marks } from '../ui/scales';
+import type { Sheet } from '../ui/drawing/drawing';
+import { time_marks } from '../ui/drawing/scales';
 import type { Tone } from '../ui/states';
 import { tone_of } from '../ui/states';
 import { type Box, type Layout, type Placed, x_of } from './layout';

@@ -1,10 +1,10 @@
 // The data to draw, live or as of a pause.
-import type { CommandEntry } from '../state/commands_state';
+import type { Ring } from '../state/base/ring';
 import type { Console } from '../state/console';
-import type { LoggedDocument } from '../state/documents';
-import type { ErrorEntry, EventEntry, GapEntry } from '../state/events_state';
 import { longest_blink, type Span } from '../state/history';
-import type { Ring } from '../state/ring';
+import type { CommandEntry } from '../state/session/commands_state';
+import type { LoggedDocument } from '../state/session/document_log';
+import type { ErrorEntry, EventEntry, GapEntry } from '../state/session/events_state';
 
 /** Common interface of a ring and its copy. */
 export interface Rows<T> extends Iterable<T> {

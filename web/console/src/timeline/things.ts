@@ -1,8 +1,8 @@
 // The things on the time line.
-import type { CommandEntry } from '../state/commands_state';
-import type { LoggedDocument } from '../state/documents';
-import type { ErrorEntry, EventEntry, GapEntry } from '../state/events_state';
 import type { Span } from '../state/history';
+import type { CommandEntry } from '../state/session/commands_state';
+import type { LoggedDocument } from '../state/session/document_log';
+import type { ErrorEntry, EventEntry, GapEntry } from '../state/session/events_state';
 import type { Tone } from '../ui/states';
 import { tone_of } from '../ui/states';
 

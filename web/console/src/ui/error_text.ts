@@ -1,7 +1,7 @@
 import { RoisError } from 'rois-client';
 
 import type { useConsole } from '../shell/context';
-import { reason_of } from '../state/reason_of';
+import { reason_of } from '../state/base/reason_of';
 import * as t from './texts';
 
 /** Shows a notice if it fails. Success removes an earlier notice `about` the same. */

@@ -1,7 +1,7 @@
 // Widgets shared by all panels.
 export * from './button';
-export * from './copy';
-export * from './curl';
+export * from './xml/copy';
+export * from './xml/curl';
 export * from './dialog';
 export * from './error_text';
 export * from './fact';
@@ -17,5 +17,5 @@ export * from './table';
 export * from './tabs';
 export * from './use_width';
 export * from './virtual_list';
-export * from './xml_text';
-export * from './xml_view';
+export * from './xml/xml_text';
+export * from './xml/xml_view';

@@ -2,7 +2,7 @@
 import { signal } from '@preact/signals';
 
 import type { Console } from '../state/console';
-import type { Outcome } from '../state/hall_state';
+import type { Outcome } from '../state/floor/hall_state';
 import { error_text } from '../ui/error_text';
 import * as words from './texts';
 

@@ -8,7 +8,7 @@ import { extname, normalize, resolve } from 'node:path';
 
 import { type Browser, chromium, type Locator, type Page } from 'playwright-core';
 
-import { Gateway, root } from '../../../client/tests/gateway.js';
+import { Gateway, root } from '../../../client/tests/kit/gateway.js';
 
 export { Gateway, root };
 
@@ -70,13 +70,13 @@ export class Front {
     return `http://127.0.0.1:${(this.server.address() as { port: number }).port}`;
   }
 
-  /** Breaks every WebSocket and refuses new ones until `mend`. */
+  /** Breaks every WebSocket and refuses new ones until `restore`. */
   cut(): void {
     this.is_cut = true;
     for (const end of this.tunnels) end();
     this.tunnels.clear();
   }
-  mend(): void {
+  restore(): void {
     this.is_cut = false;
   }
 
@@ -207,7 +207,7 @@ export class Stage {
       const unexpected = complaints.filter((one) => !options.may_complain?.test(one));
       if (unexpected.length > 0) throw new Error(`the page complains: ${unexpected.join('\n')}`);
     } finally {
-      this.front.mend();
+      this.front.restore();
       await context.close();
     }
   }

@@ -146,7 +146,7 @@ describe('health', () => {
         await figure(page, 'Round trip').getByText('–').waitFor();
         expect(await violations(page)).toBe('');
         await picture(page, 'health-lost');
-        stage.front.mend();
+        stage.front.restore();
         await figure(page, 'Link').getByText('Connected again').waitFor();
         await log(page).filter({ hasText: 'Connection lost' }).waitFor();
         await page.getByText(/^The gateway's metrics are .* old/).waitFor({ state: 'detached' });

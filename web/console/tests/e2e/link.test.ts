@@ -37,7 +37,7 @@ describe('the link', () => {
       await said(page, 'The gateway does not answer yet.').waitFor();
       await mark(page, 'Connecting').waitFor();
       await is_told(page, 'connecting');
-      stage.front.mend();
+      stage.front.restore();
       await mark(page, 'Connected').waitFor();
       await said(page, 'The gateway does not answer yet.').waitFor({ state: 'detached' });
     }, expected);
@@ -61,7 +61,7 @@ describe('the link', () => {
       await other.bind('person_detection');
       for (let i = 0; i < 20; ++i)
         for (const type of ['start', 'stop']) await hall.pass_while((await other.execute([command('person_detection', type)])).status(), 100);
-      stage.front.mend();
+      stage.front.restore();
       await mark(page, 'Connected again').waitFor();
       await said(page, /\d notifications were missed while disconnected\./).waitFor();
       await page.getByText(/The engine dropped/).first().waitFor();

@@ -65,10 +65,10 @@ describe('the map', () => {
             clearRect.apply(this, given);
           };
           rois.now.subscribe(() => (drawn.seconds += 1));
-          for (let told_at = 0; drawn.positions < 10; await new Promise((looked) => setTimeout(looked, 20))) {
+          for (let reported_at = 0; drawn.positions < 10; await new Promise((looked) => setTimeout(looked, 20))) {
             const { at } = rois.robots.all.get('robot1')!;
-            drawn.positions += Number(at !== told_at);
-            told_at = at;
+            drawn.positions += Number(at !== reported_at);
+            reported_at = at;
           }
           return drawn;
         });
@@ -97,7 +97,7 @@ describe('the map', () => {
         await row(page, 'robot1').getByText('No news').waitFor();
         expect(await violations(page)).toBe('');
         await picture(page, 'map-lost');
-        stage.front.mend();
+        stage.front.restore();
         await ready(page);
         await page.getByText(/^Not live/).waitFor({ state: 'detached' });
       },
@@ -431,7 +431,7 @@ describe('people', () => {
         await anybody.getByText('Unknown').waitFor();
         await page.locator('.map-bar').getByText('not connected', { exact: true }).waitFor();
         expect(await page.locator('.map-bar').getByText(/components work/).count()).toBe(0);
-        stage.front.mend();
+        stage.front.restore();
         await ready(page);
         await page.getByText('5 components work').waitFor();
         await page.getByRole('switch', { name: 'Observe' }).click();

@@ -167,7 +167,7 @@ describe('events and messages', () => {
         await command(page, 'person_detection');
         stage.front.cut(); // for longer than the session is kept
         await page.getByText('Connection lost', { exact: true }).waitFor();
-        stage.front.mend();
+        stage.front.restore();
         await page.getByText('The session was lost and a new one began.', { exact: false }).waitFor();
         await page.getByText('The old session was lost', { exact: false }).waitFor();
         await picture(page, 'messages-gap');

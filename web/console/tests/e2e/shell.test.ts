@@ -131,7 +131,7 @@ describe('the page', () => {
         await page.getByText('Not live', { exact: true }).waitFor();
         expect(await violations(page)).toBe('');
         await picture(page, 'shell-lost');
-        stage.front.mend();
+        stage.front.restore();
         await page.getByText('Connected again', { exact: true }).waitFor();
       },
       { may_complain: broken_link },

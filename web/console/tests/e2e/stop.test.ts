@@ -134,7 +134,7 @@ test.each(['wide', 'phone'] as const)('works while there is no WebSocket, and sa
       await page.locator('.head').getByRole('alert').getByText(/^Not stopped: /).waitFor();
       expect(await is_in_view(page.locator('.head').getByRole('alert'))).toBe(true);
       await picture(page, `stop-failed-${size}`);
-      stage.front.mend();
+      stage.front.restore();
     },
     { ...sizes[size], may_complain: broken_link },
   ));

@@ -220,9 +220,10 @@ describe('the time line', () => {
     stage.page(
       async (page) => {
         await lane(page, 'navigation').waitFor();
+        await expect.poll(() => page.evaluate(() => (window as unknown as Page_).rois.status.of('navigation')?.status)).toBe('READY');
         stage.front.cut();
         await page.getByText('Connection lost', { exact: true }).first().waitFor();
-        stage.front.mend();
+        stage.front.restore();
         await page.getByText('Connected again', { exact: true }).first().waitFor();
         await expect.poll(() => page.evaluate(() => [...(window as unknown as Page_).rois.history.past].filter((one) => one.ref === 'navigation' && one.kind === 'status').length)).toBe(1);
         await page.getByLabel('As a table').check();

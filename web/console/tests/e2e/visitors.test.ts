@@ -44,7 +44,7 @@ test('visitors are unknown until the engine has answered, and have their age whi
       expect(await page.getByRole('button', { name: 'Let in' }).isDisabled()).toBe(true);
       expect(await page.getByRole('button', { name: 'Let 1 second pass' }).isDisabled()).toBe(true);
       expect(await violations(page)).toBe('');
-      stage.front.mend();
+      stage.front.restore();
       await page.getByText('The hall is empty').waitFor();
       await page.getByText('Disconnect', { exact: true }).click();
       await page.getByText('The people in the hall are not known yet').waitFor();

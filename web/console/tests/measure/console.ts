@@ -10,7 +10,7 @@ import { existsSync, readdirSync } from 'node:fs';
 import { type Browser, chromium } from 'playwright-core';
 import { command, connect, value } from 'rois-client';
 
-import { Gateway, root } from '../../../client/tests/gateway.js';
+import { Gateway, root } from '../../../client/tests/kit/gateway.js';
 
 const people = 20;
 const seconds = Number(process.argv[2] ?? 8);

@@ -7,7 +7,7 @@ import { data_type, type Kind, problem_of } from '../../src/forms/data_type';
 import { type Asked, asked_by, choices_of, command_types, fixed_length, is_position, need_of, shown_description, units_of } from '../../src/forms/describe';
 import { inputs_of, parameters_from, problems_of, with_input } from '../../src/forms/inputs';
 import { options_for, type World as Things } from '../../src/forms/options';
-import { views_of } from '../../src/state/profile_state';
+import { views_of } from '../../src/state/engine/profile_state';
 import { profile_xml, World } from './world';
 
 function asked(name: string, type: string, more: Partial<Asked> = {}): Asked {
@@ -168,7 +168,7 @@ describe('the list of choices', () => {
     robots: [{ ...at, ref: 'robot1', codebook: 'urn:robot' }],
     entities: [person, { ...person, ref: 'person-2', is_seen: false }, { ...person, ref: 'face-1', kind: 'face', identity: undefined }],
     components: ['navigation'],
-    told: new Results([
+    parameters: new Results([
       { name: 'synthesizable_languages', ...value.strings(['en', 'ja']) },
       { name: 'available_reactions', data_type_ref: { code: 'RoISIdentifier[]', codebook_ref: 'urn:reaction' }, values: ['1', '2'] },
     ]),
@@ -176,7 +176,7 @@ describe('the list of choices', () => {
   test('has names if the codebook is known', () => {
     const codebook = 'urn:x-rois:def:codebook:simulation::reaction';
     const told = new Results([{ name: 'available_reactions', data_type_ref: { code: 'RoISIdentifier[]', codebook_ref: codebook }, values: ['9', '51'] }]);
-    expect(options_for(asked('reaction_ref', 'RoISIdentifier'), { ...things, told }).list).toEqual([{ value: '9', codebook, label: 'bow the head' }, { value: '51', codebook }]);
+    expect(options_for(asked('reaction_ref', 'RoISIdentifier'), { ...things, parameters: told }).list).toEqual([{ value: '9', codebook, label: 'bow the head' }, { value: '51', codebook }]);
     expect(with_name(codebook, '28')).toBe('28 – wave the hand');
     expect(with_name('urn:other', '28')).toBe('28');
   });

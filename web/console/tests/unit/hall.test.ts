@@ -93,10 +93,10 @@ describe('the hall', () => {
 
   test('is polled while watched', async () => {
     world.answers.set('query', () => `<component_ref rois:code="simulated_hall"/><results>${result('visitor_ref', 'string[]', 'anna', 'tanaka')}${result('position_data', 'string[]', '1000, 2000, 90', '5, 6, -90')}${result('known', 'bool[]', 'false true')}${result('steered', 'bool[]', 'true false')}</results>`);
-    expect(console.hall.told_at).toBe(0);
+    expect(console.hall.reported_at).toBe(0);
     const stop = console.hall.poll.watch();
     await settled();
-    expect(console.hall.told_at).toBe(world.now());
+    expect(console.hall.reported_at).toBe(world.now());
     expect([...console.hall.visitors.values()]).toEqual([
       { ref: 'anna', x: 1000, y: 2000, th: 90, known: false, steered: true },
       { ref: 'tanaka', x: 5, y: 6, th: -90, known: true, steered: false },

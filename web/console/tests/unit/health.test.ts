@@ -6,8 +6,8 @@ import { limits_in, sessions_in, troubles_in } from '../../src/health/counters';
 import { log_of, reason_of, refused_component } from '../../src/health/log';
 import { documents_a_second, growth, highest, inside, latencies, point_near } from '../../src/health/series';
 import type { Console } from '../../src/state/console';
-import { read_metrics, Scrape } from '../../src/state/metrics_state';
-import type { Second } from '../../src/state/traffic';
+import { read_metrics, Scrape } from '../../src/state/engine/metrics_state';
+import type { Second } from '../../src/state/session/traffic';
 import { profile_xml, settled, World } from './world';
 
 const scrape = (at: number, text: string) => new Scrape(at, read_metrics(text));

@@ -1,13 +1,13 @@
 // History and traffic of the state.
 import { beforeEach, describe, expect, test } from 'vitest';
 
-import type { Console } from '../../src/state/console';
 import { log_of, reason_of } from '../../src/health/log';
+import type { Console } from '../../src/state/console';
 import { Console as Another } from '../../src/state/console';
 import { History, type Span } from '../../src/state/history';
 import { keep, restore } from '../../src/state/keeping';
+import { median } from '../../src/state/session/traffic';
 import { of_mark } from '../../src/timeline/describe';
-import { median } from '../../src/state/traffic';
 import { profile_xml, settled, World } from './world';
 
 let world: World;

@@ -1,17 +1,17 @@
 // The floor map without a canvas: view, input and scene.
 import { describe, expect, test } from 'vitest';
 
-import { bearing, obstacle_at, on_map, turned } from '../../src/state/floor';
-import { Glide } from '../../src/map/glide';
 import { at_rest, type Hit, type Input, type Interaction, is_map_key, stepped, type Surroundings } from '../../src/map/interaction';
-import { Labels } from '../../src/map/labels';
-import { label_of } from '../../src/map/picture';
-import { age } from '../../src/map/says';
+import { Glide } from '../../src/map/painting/glide';
+import { Labels } from '../../src/map/painting/labels';
+import { label_of } from '../../src/map/painting/picture';
+import { age } from '../../src/map/formats';
 import { scene_of, type Told } from '../../src/map/scene';
 import { box_around, fitted, panned, pinched, round_step, to_floor, to_screen, with_point, zoomed } from '../../src/map/view';
-import type { FloorMap } from '../../src/state/floor_map';
-import { Ring } from '../../src/state/ring';
-import type { Entity, Robot } from '../../src/state/things';
+import { Ring } from '../../src/state/base/ring';
+import { bearing, obstacle_at, on_map, turned } from '../../src/state/floor/floor';
+import type { FloorMap } from '../../src/state/floor/floor_map';
+import type { Entity, Robot } from '../../src/state/floor/things';
 
 const size = { width: 800, height: 600 };
 const view = { x: 5000, y: 3000, scale: 0.1 };

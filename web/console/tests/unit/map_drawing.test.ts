@@ -2,14 +2,14 @@
 import type { XmlElement } from 'rois-client';
 import { beforeEach, describe, expect, test, vi } from 'vitest';
 
-import { Drawing, type Sheet } from '../../src/map/drawing';
 import { drivers_of, follow, go, motions_of, stop } from '../../src/map/driving';
 import { goals_of } from '../../src/map/goals';
-import { frame_box, frames_of } from '../../src/map/ground';
-import type { Palette } from '../../src/map/palette';
-import { Pen } from '../../src/map/pen';
-import { knob_distance } from '../../src/map/picture';
-import { age } from '../../src/map/says';
+import { Drawing, type Sheet } from '../../src/map/painting/drawing';
+import { frame_box, frames_of } from '../../src/map/painting/ground';
+import type { Palette } from '../../src/map/painting/palette';
+import { Pen } from '../../src/map/painting/pen';
+import { knob_distance } from '../../src/map/painting/picture';
+import { age } from '../../src/map/formats';
 import { MapSession } from '../../src/map/session';
 import type { Console } from '../../src/state/console';
 import { profile_xml, settled, World } from './world';

@@ -3,10 +3,11 @@ import { describe, expect, test } from 'vitest';
 
 import { category_of, Feed, type Filter, is_gap, no_filter, type Source } from '../../src/messages/feed';
 import { component_of, expire_of, summary } from '../../src/messages/summary';
-import { Documents, type LoggedDocument } from '../../src/state/documents';
-import type { GapEntry } from '../../src/state/events_state';
-import { read_recording, recording_of } from '../../src/state/recording';
-import { Ring } from '../../src/state/ring';
+import { Ring } from '../../src/state/base/ring';
+import type { LoggedDocument } from '../../src/state/session/document_log';
+import { Documents } from '../../src/state/session/documents';
+import type { GapEntry } from '../../src/state/session/events_state';
+import { read_recording, recording_of } from '../../src/state/session/recording';
 import { World } from './world';
 
 const event = '<receive_event xmlns="urn:m" sequence="1"><event_type>person_detected</event_type><expire>2026-11-20T12:01:00Z</expire><component_ref rois:code="person_detection"/><results><result rois:name="timestamp"><rois:value>2026-11-20T12:00:00Z</rois:value></result><result rois:name="number"><rois:data_type_ref rois:code="int"/><rois:value>2</rois:value></result></results></receive_event>';

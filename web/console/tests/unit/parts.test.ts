@@ -3,16 +3,16 @@ import { parse_xml } from 'rois-client';
 import { describe, expect, test } from 'vitest';
 
 import { language, duration, wished_language } from '../../src/i18n/i18n';
-import { Documents } from '../../src/state/documents';
-import { read_floor_map } from '../../src/state/floor_map';
-import { read_metrics, Scrape } from '../../src/state/metrics_state';
+import { Ring } from '../../src/state/base/ring';
+import { read_metrics, Scrape } from '../../src/state/engine/metrics_state';
+import { read_floor_map } from '../../src/state/floor/floor_map';
+import { ellipse_of } from '../../src/state/floor/things';
 import { Notices } from '../../src/state/notices';
-import { Ring } from '../../src/state/ring';
-import { placed_commands, units_of } from '../../src/state/sequences';
-import { ellipse_of } from '../../src/state/things';
-import { curl_of } from '../../src/ui/curl';
+import { Documents } from '../../src/state/session/documents';
+import { placed_commands, units_of } from '../../src/state/session/sequences';
 import { tried } from '../../src/ui/error_text';
-import { laid_out, pieces_of } from '../../src/ui/xml_text';
+import { curl_of } from '../../src/ui/xml/curl';
+import { laid_out, pieces_of } from '../../src/ui/xml/xml_text';
 import { World } from './world';
 
 describe('notices', () => {

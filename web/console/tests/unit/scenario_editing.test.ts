@@ -6,7 +6,7 @@ import { actions, steps, triggers } from '../../src/scenario/grammar';
 import { neighbour } from '../../src/scenario/picture';
 import { read_scenario } from '../../src/scenario/read';
 import { type Node, nodes_in, read_source } from '../../src/scenario/source';
-import { views_of } from '../../src/state/profile_state';
+import { views_of } from '../../src/state/engine/profile_state';
 
 const text = `<robot_scenario xmlns="urn:x-rois:scenario:1" start="a">
   <component name="voice" type="SpeechSynthesis"/>

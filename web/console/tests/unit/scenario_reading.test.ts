@@ -3,11 +3,11 @@ import { readFileSync } from 'node:fs';
 
 import { describe, expect, test } from 'vitest';
 
+import { language } from '../../src/i18n/i18n';
 import { graph_of, label_of_edge } from '../../src/scenario/graph';
 import { layout_of } from '../../src/scenario/layout';
 import { read_scenario } from '../../src/scenario/read';
 import { moved, node_of, nodes_in, plain_lines, read_source, with_attribute, with_child, with_state_renamed, with_text, without } from '../../src/scenario/source';
-import { language } from '../../src/i18n/i18n';
 
 const reception = readFileSync(new URL('../../../../client-cpp/scenarios/reception.xml', import.meta.url), 'utf8');
 
@@ -29,33 +29,9 @@ describe('reading', () => {
     expect(scenario!.variables.get('identifying')).toBe('8');
   });
 
-  // The same texts as in tests/command/rois_test.cpp.
-  const end = "<end name='b'/>";
-  test.each([
-    ["<state name='a'><nothing/></state>", "4:17: unknown element 'nothing' inside 'state'"],
-    ["<state name='a'><at_once to='c'/></state>" + end, "4:17: no state 'c'; there are a, b"],
-    ["<state name='a'/>" + end, '4:1: nothing leads out of this state: expected a trigger, or the element end'],
-    ["<state name='a'><print>{y}</print><at_once to='b'/></state>" + end, "4:17: no variable 'y'; there are x"],
-    ["<state name='a'><command component='arm' type='stop'/><at_once to='b'/></state>" + end, "4:17: no component 'arm'; there are move"],
-    ["<state name='a'><completed to='b'/></state>" + end, '4:1: this state waits for the end of its commands, and has none'],
-    ["<state name='a'><answered to='b'/></state>" + end, '4:1: this state waits for an answer, and has no query'],
-    ["<state name='a'><at_once to='b'><take variable='x' result='r'/></at_once></state>" + end, '4:33: only events and answers have results to take'],
-    ["<state name='a'><at_once to='b'><when variable='x'/></at_once></state>" + end, "4:33: a 'when' needs exactly one of is, is_not, in, not_in, empty, near"],
-    ["<state name='a'><at_once to='b'><when variable='x' near='0, 0'/></at_once></state>" + end, "4:33: 'near' and 'within' belong together"],
-    ["<state name='a'><event type='e' to='b'><take variable='x' result='r' is='1'/></event></state>" + end, "4:40: 'beside' and 'is' belong together"],
-    ["<state name='a'><at_once to='b'/></state><state name='a'><at_once to='b'/></state>" + end, "4:42: a second state 'a'"],
-    ["<state name='a'><after seconds='1'/></state>" + end, "4:17: 'after' needs the attribute 'to'"],
-    ["<state name='a'><at_once to='b' status='OK'/></state>" + end, "4:17: 'at_once' has no attribute 'status'"],
-    ["<state name='a'><command component='move' type='stop'/><completed status='FINE' to='b'/></state>" + end, "4:56: status: 'FINE' is not of the type status"],
-    ["<state name='a'><at_once to='b'/><print/></state>" + end, "4:34: 'print' is in the wrong place inside 'state'"],
-    ["<state name='a'>hello<at_once to='b'/></state>" + end, "4:1: 'state' must not have text"],
-  ])('rejects %s', (states, says) => expect(told(scenario_with(states))).toEqual([says]));
-
   test('reports all problems, and where a text is not well-formed', () => {
     expect(told(scenario_with("<state name='a'><at_once to='c'/><at_once to='d'/></state>"))).toHaveLength(2);
     expect(told('<robot_scenario>\n <a>')).toEqual(['2:5: <a> is not closed']);
-    expect(told('<scenario xmlns="urn:x-rois:simulation:hall:1" name="x"/>')).toEqual(["1:1: this is not a robot scenario: expected the element robot_scenario, not 'scenario'"]);
-    expect(told(scenario_with("<end name='b'/>"))).toEqual(["1:1: no state 'a'; there are b"]);
   });
 
   test('reports in Japanese, too', () => {

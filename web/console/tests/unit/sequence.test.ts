@@ -12,10 +12,10 @@ import {
 import { run_view } from '../../src/sequence/running';
 import { SequenceStore } from '../../src/sequence/store';
 import { lane_of, units_of_lane } from '../../src/sequence/units';
-import type { CommandEntry, CommandState } from '../../src/state/commands_state';
 import type { Console } from '../../src/state/console';
-import { views_of } from '../../src/state/profile_state';
-import { units_of } from '../../src/state/sequences';
+import { views_of } from '../../src/state/engine/profile_state';
+import type { CommandEntry, CommandState } from '../../src/state/session/commands_state';
+import { units_of } from '../../src/state/session/sequences';
 import { profile_xml, settled, World } from './world';
 
 const run = (component: string, command_type = 'start') => new_command({ component, command_type });

@@ -2,18 +2,18 @@
 import { type ReceiveEvent, Results } from 'rois-client';
 import { beforeEach, describe, expect, test } from 'vitest';
 
-import type { CommandEntry, CommandState } from '../../src/state/commands_state';
+import { Ring } from '../../src/state/base/ring';
 import type { Console } from '../../src/state/console';
-import type { EventEntry } from '../../src/state/events_state';
 import type { Span } from '../../src/state/history';
-import { Ring } from '../../src/state/ring';
+import type { CommandEntry, CommandState } from '../../src/state/session/commands_state';
+import type { EventEntry } from '../../src/state/session/events_state';
+import type { GapEntry } from '../../src/state/session/events_state';
 import { describe as describe_thing, sentence } from '../../src/timeline/describe';
 import { clusters, lay_out, type Layout, next_thing, type Placed, rows_of, thing_at } from '../../src/timeline/layout';
 import { end_of, first_since, oldest_of, type Sources, stopped_sources } from '../../src/timeline/sources';
 import { type Mark, opened_by } from '../../src/timeline/things';
 import { TimeView, within, zoomed } from '../../src/timeline/view';
-import type { GapEntry } from '../../src/state/events_state';
-import { time_marks, value_marks } from '../../src/ui/scales';
+import { time_marks, value_marks } from '../../src/ui/drawing/scales';
 import { profile_xml, settled, World } from './world';
 
 function ring<T>(...entries: T[]): Ring<T> {

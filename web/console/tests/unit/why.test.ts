@@ -3,8 +3,8 @@ import { beforeEach, describe, expect, test } from 'vitest';
 
 import { watched } from '../../src/forms/exchange';
 import { why } from '../../src/forms/why';
-import type { CommandEntry } from '../../src/state/commands_state';
 import type { Console } from '../../src/state/console';
+import type { CommandEntry } from '../../src/state/session/commands_state';
 import { profile_xml, settled, World } from './world';
 
 const map =

@@ -1,8 +1,8 @@
 // A fake world for the state: the test moves the clock and scripts the engine.
 import { namespaces, type OpenSocket, parse_xml, type SocketListener, type XmlElement } from 'rois-client';
 
+import type { Environment, Stop } from '../../src/state/base/environment';
 import { Console } from '../../src/state/console';
-import type { Environment, Stop } from '../../src/state/environment';
 
 interface Alarm {
   at: number;

@@ -1,0 +1,69 @@
+// The rooms of src/ and their imports (docs/console.md).
+import { readdirSync, readFileSync } from 'node:fs';
+import { dirname, join, normalize } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+import { describe, expect, test } from 'vitest';
+
+const source = fileURLToPath(new URL('../../src', import.meta.url));
+const files = readdirSync(source, { recursive: true, encoding: 'utf8' });
+const modules = files.filter((file) => /\.tsx?$/.test(file)).map((file) => normalize(file));
+
+// Imports of each module, type-only and lazy ones included.
+const imports = new Map(modules.map((module) => [module, imports_of(module)]));
+
+function imports_of(module: string): string[] {
+  const found = readFileSync(join(source, module), 'utf8').matchAll(/(?:\bfrom|\bimport\()\s*'(\.[^']+)'/g);
+  return [...found].flatMap(([, path]) => {
+    const target = normalize(join(dirname(module), path!));
+    return modules.filter((one) => [`${target}.ts`, `${target}.tsx`, join(target, 'index.ts')].includes(one));
+  });
+}
+
+/** The first room of a module: `map` for `map/painting/pen.ts`, `main.tsx` for itself. */
+function room_of(module: string): string {
+  return module.split('/')[0]!;
+}
+
+// Besides modules of its own room, a module of the room imports only these rooms and modules.
+const panel = ['state', 'i18n', 'ui', 'forms', 'shell/context', 'shell/navigation', 'shell/panel_titles', 'shell/theme', 'shell/texts'];
+const may_use: Record<string, string[]> = {
+  state: [],
+  i18n: [],
+  ui: ['i18n', 'shell/context', 'state/floor', 'state/base/reason_of'],
+  forms: ['state', 'i18n', 'ui', 'shell/context', 'shell/navigation'],
+  shell: ['state', 'i18n', 'ui', 'forms'],
+  'panels.ts': ['shell', ...readdirSync(source).map((room) => `${room}/panel`)],
+  'main.tsx': ['state', 'i18n', 'shell', 'panels'],
+};
+
+describe('modules', () => {
+  test('import only from the rooms below', () => {
+    expect(imports.get('panels.ts')).toContain('map/panel.tsx');
+    const wrong = modules.flatMap((module) => {
+      const room = room_of(module);
+      const allowed = [room, ...(may_use[room] ?? panel)];
+      const is_allowed = (used: string) => allowed.some((one) => used.startsWith(`${one}/`) || used.startsWith(`${one}.`));
+      return imports.get(module)!.filter((used) => !is_allowed(used)).map((used) => `${module} imports ${used}`);
+    });
+    expect(wrong).toEqual([]);
+  });
+
+  test('have no import cycle, not even of types', () => {
+    const done = new Set<string>();
+    const visit = (module: string, path: readonly string[]): string[] => {
+      if (path.includes(module)) return [[...path.slice(path.indexOf(module)), module].join(' -> ')];
+      if (done.has(module)) return [];
+      const cycles = imports.get(module)!.flatMap((used) => visit(used, [...path, module]));
+      done.add(module);
+      return cycles;
+    };
+    expect(modules.flatMap((module) => visit(module, []))).toEqual([]);
+  });
+
+  test('stand in rooms of at most 25 files', () => {
+    const sizes = new Map<string, number>();
+    for (const file of files.filter((one) => /\.(tsx?|css)$/.test(one))) sizes.set(dirname(file), (sizes.get(dirname(file)) ?? 0) + 1);
+    expect([...sizes].filter(([, size]) => size > 25)).toEqual([]);
+  });
+});
