@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "types/text_encoding.hpp"
+
 namespace rois {
 
 namespace {
@@ -67,18 +69,10 @@ std::string lower_case(std::string_view text) {
 
 std::optional<char32_t> take_character(std::string_view& text) {
     if (text.empty()) return {};
-    auto const byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    char32_t const first = byte(0);
-    std::size_t const length = first < 0xC0 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-    char32_t character = length == 1 ? first : first & (0x7FU >> length);
-    for (std::size_t i = 1; i < length; ++i) {
-        if (i >= text.size() || (byte(i) & 0xC0U) != 0x80U) {
-            text.remove_prefix(1);
-            return first;
-        }
-        character = character << 6U | (byte(i) & 0x3FU);
-    }
-    text.remove_prefix(length);
+    char32_t character = 0;
+    auto const length = decode_utf8(text.substr(0, 4), character);
+    if (length == 0) character = static_cast<unsigned char>(text.front());
+    text.remove_prefix(std::max<std::size_t>(length, 1));
     return character;
 }
 

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "types/text_encoding.hpp"
+
 namespace rois::xml {
 
 namespace {
@@ -35,26 +37,6 @@ bool all_plain(char const* bytes) {
     return bad == 0;
 }
 
-// Returns the length in bytes of the first character, or 0 if it is not valid UTF-8 (surrogates and overlong forms are invalid).
-std::size_t length_of(std::string_view rest, char32_t& code) {
-    auto const byte = [&](std::size_t i) { return static_cast<unsigned char>(rest[i]); };
-    auto const first = byte(0);
-    std::size_t const length = first < 0x80 ? 1 : first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
-    if (length == 0 || length > rest.size()) return 0;
-    if (length == 1) {
-        code = first;
-        return 1;
-    }
-    code = first & (0x7Fu >> length);
-    for (std::size_t i = 1; i < length; ++i) {
-        if ((byte(i) & 0xC0) != 0x80) return 0;
-        code = code << 6 | (byte(i) & 0x3Fu);
-    }
-    bool const overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
-    bool const surrogate = code >= 0xD800 && code <= 0xDFFF;
-    return overlong || surrogate || code > 0x10FFFF ? 0 : length;
-}
-
 }  // namespace
 
 bool is_character(char32_t code) {
@@ -74,7 +56,7 @@ std::optional<BadCharacter> first_bad_character(std::string_view text) {
         }
         for (auto const end = i + block; i < end && i < text.size();) {
             char32_t code = 0;
-            auto const length = length_of(text.substr(i, 4), code);
+            auto const length = decode_utf8(text.substr(i, 4), code);
             if (length == 0) return BadCharacter{i, 1, not_utf8};
             if (!is_character(code)) return BadCharacter{i, length, not_a_character};
             i += length;
