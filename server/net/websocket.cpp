@@ -6,7 +6,6 @@
 #include <exception>
 #include <utility>
 
-#include "engine/notifications/prefetch.hpp"
 #include "net/event_stream.hpp"
 
 namespace rois::net {
@@ -215,15 +214,6 @@ void WebSocket::close(Ending ending) {
     if (ending.code != CloseCode::normal)
         spdlog::debug("a WebSocket closes with {}: {}", static_cast<int>(ending.code), ending.reason);
     ending_ = ending;
-}
-
-void WebSocket::approach(Distance distance) const {
-    if (distance == Distance::near) {
-        if (reading_) reading_->approach();
-        return;
-    }
-    prefetch(wire_.get());
-    prefetch(reading_.get());
 }
 
 void WebSocket::taken_over() { close({CloseCode::policy_violation, "the session goes on elsewhere"}); }

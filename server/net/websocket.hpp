@@ -40,7 +40,6 @@ private:
 
     void woken() override { flush(); }
     void taken_over() override;
-    void approach(Distance) const override;
 
     static constexpr std::size_t most_answers = 64 * 1024;  // bytes that wait before it is read again
 
