@@ -9,7 +9,7 @@
 #include "files/files.hpp"
 #include "gateway/gateway.hpp"
 #include "gateway/secrets.hpp"
-#include "net/documents.hpp"
+#include "net/http/documents.hpp"
 #include "net/server.hpp"
 #include "probe.hpp"
 #include "xml/validation/schemas.hpp"

@@ -79,7 +79,8 @@ void Engine::Core::check(ComponentChange const& change) const {
     std::set<std::string_view> const going{change.going.begin(), change.going.end()};
     std::set<std::string_view> refs;
     for (auto const& ref : change.going)
-        if (registry_.find(ref) == nullptr) throw std::runtime_error("unknown component " + quoted(ref) + ": it cannot be removed");
+        if (registry_.find(ref) == nullptr)
+            throw std::runtime_error("unknown component " + quoted(ref) + ": it cannot be removed");
     for (auto const& component : change.coming) {
         auto const& ref = component->description().ref.code;
         bool const stays = registry_.find(ref) != nullptr && !going.contains(ref);

@@ -26,8 +26,6 @@ public:
     virtual ~Outbox() = default;
     // Called when the session's queue has new entries, or was closed. Must not throw.
     virtual void notify(NotificationQueue&) = 0;
-    // Announces a call of `notify`, so that the implementation can prefetch memory.
-    virtual void approach(NotificationQueue const&) const {}
 };
 
 // Why an operation was not performed at all. The network layer answers with a fault.

@@ -1,24 +1,11 @@
 // Event interface (7.4.2, table 5): subscriptions and the delivery of events.
-#include <span>
 #include <utility>
 
 #include "engine/core.hpp"
-#include "engine/notifications/prefetch.hpp"
+#include "types/prefetch.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
-
-namespace {
-
-// Prefetches the queues of the next few subscribers, and their readers: with many sessions, each queue is a cache miss.
-void prefetch_next(std::span<Subscription::Subscriber const> next, Notifier const& notifier) {
-    auto const follows = [&](std::size_t turns) { return turns < next.size(); };
-    if (follows(6)) prefetch<sizeof(NotificationQueue)>(next[6].queue);
-    if (follows(4)) Notifier::prefetch_audience(*next[4].queue);
-    if (follows(2)) notifier.prefetch_readers(*next[2].queue);
-}
-
-}  // namespace
 
 Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instant) {
     auto const& components = registry_.with(MessageKind::event, subscribe.event_type);
@@ -118,6 +105,8 @@ private:
     SharedNotification without_results_;
 };
 
+constexpr std::size_t turns_ahead = 4;  // subscribers between the prefetch of a queue and its use
+
 }  // namespace
 
 void Engine::Core::publish(EventOccurred const& event, Instant now, Attempts& deliveries) {
@@ -146,10 +135,11 @@ void Engine::Core::publish(EventOccurred const& event, Instant now, Attempts& de
                                           .results = nullptr},
                                          results};
         begun = true;
-        for (std::span<Subscription::Subscriber const> subscribers{subscription.subscribers}; !subscribers.empty();
-             subscribers = subscribers.subspan(1)) {
-            prefetch_next(subscribers, notifier_);
-            auto const& subscriber = subscribers.front();
+        auto const& subscribers = subscription.subscribers;
+        for (std::size_t i = 0; i < subscribers.size(); ++i) {
+            // With many sessions, each queue is a cache miss (docs/performance.md).
+            if (i + turns_ahead < subscribers.size()) prefetch(subscribers[i + turns_ahead].queue, sizeof(NotificationQueue));
+            auto const& subscriber = subscribers[i];
             deliveries([&] {
                 if (each && !matches(subscription, *subscriber.session)) return;
                 events_.add_receiver(subscriber.slot);

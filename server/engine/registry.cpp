@@ -255,8 +255,8 @@ std::optional<std::string> RegisteredComponent::why_no_frame(ParameterList const
     for (auto const& parameter : normalized) {
         auto const& crs = parameter.data_type_ref.codebook_ref;
         if (is_position(parameter.name) && !frames_.know(crs))
-            return "parameter " + quoted(parameter.name) + ": the frame " + quoted(crs, 200) + " is not known here; expected one of " +
-                   listed(frames_.names());
+            return "parameter " + quoted(parameter.name) + ": the frame " + quoted(crs, 200) +
+                   " is not known here; expected one of " + listed(frames_.names());
     }
     return {};
 }
@@ -274,7 +274,8 @@ std::optional<std::string> RegisteredComponent::why_no_codebook(std::vector<Para
         if (is_among(known, codebook)) continue;
         return "parameter " + quoted(parameter.name) + ": " + quoted(listed(parameter.values), 100) + " is from the codebook " +
                quoted(codebook, 200) + ", which is unknown here; " +
-               (known.empty() ? "the component has no codebook for it: leave codebook_ref out" : "expected one of " + listed(known));
+               (known.empty() ? "the component has no codebook for it: leave codebook_ref out"
+                              : "expected one of " + listed(known));
     }
     return {};
 }

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "engine/engine.hpp"
-#include "engine/notifications/prefetch.hpp"
 #include "gateway/log.hpp"
 #include "gateway/readers.hpp"
 #include "gateway/session_quota.hpp"
@@ -68,9 +67,6 @@ public:
     void heard_pong();
     // The long poll was answered. If this is not called, the link counts as lost when the object is destroyed.
     void answered() { closing_ = Closing::answered; }
-
-    // Prefetches what `take` needs.
-    void approach() const { prefetch<sizeof(NotificationQueue)>(queue_.get()); }
 
     SessionId const& session() const { return queue_->session(); }
 

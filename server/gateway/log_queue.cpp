@@ -14,7 +14,7 @@ namespace rois {
 
 namespace {
 
-constexpr std::chrono::milliseconds between_looks{100};  // of the thread, while it waits for something
+constexpr std::chrono::milliseconds between_looks{100};  // of the thread at the file and the queue
 constexpr std::size_t atomic_write = 4'096;              // PIPE_BUF: a pipe that is writable takes so much without blocking
 constexpr std::size_t longest_example = 80;
 
@@ -33,7 +33,7 @@ std::uint64_t cause_of(std::string_view line) {
     return hash;
 }
 
-// Until the file takes something, or it is time to give up.
+// Waits until the file accepts bytes, or until it is time to give up.
 bool is_writable(int file, std::atomic<Steady> const& give_up, Steady (*now)()) {
     while (now() < give_up.load()) {
         pollfd asked{file, POLLOUT, 0};
@@ -44,7 +44,7 @@ bool is_writable(int file, std::atomic<Steady> const& give_up, Steady (*now)()) 
     return false;
 }
 
-// Paints the level, which the formatter has found.
+// Writes the level in color. The formatter has found its place.
 void colour(spdlog::memory_buf_t& text, std::size_t begin, spdlog::details::log_msg const& message) {
     if (message.color_range_end <= message.color_range_start) return;
     constexpr std::string_view red = "\033[31m", yellow = "\033[33m", green = "\033[32m", plain = "\033[m";
@@ -80,7 +80,7 @@ void LogQueue::log(spdlog::details::log_msg const& message) {
     try {
         if (may_say(message)) put({message.time, message.level, {message.payload.data(), message.payload.size()}});
     } catch (...) {
-        ++dropped_;  // for want of memory
+        ++dropped_;  // there was no memory
     }
     news_.notify_one();
 }
@@ -112,7 +112,7 @@ bool LogQueue::may_say(spdlog::details::log_msg const& message) {
     return false;
 }
 
-// One line for those that were left out.
+// Adds one line about the lines that were left out.
 void LogQueue::sum_up(Cause& cause) {
     auto const left_out = std::exchange(cause.left_out, 0);
     if (left_out == 0) return;
@@ -167,7 +167,7 @@ void LogQueue::run(std::stop_token const& stop) {
             lock.unlock();
             write(line);
         } catch (...) {
-            ++dropped_;  // for want of memory
+            ++dropped_;  // there was no memory
         }
         if (!lock.owns_lock()) lock.lock();
     }

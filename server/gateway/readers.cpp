@@ -3,24 +3,25 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 
-#include "engine/notifications/prefetch.hpp"
 #include "gateway/wakes.hpp"
 
-// Also found from the session's queue itself, since events go to many sessions at once.
-struct rois::Audience {
+namespace rois {
+
+// The readers of one session: usually one. Attached to its queue.
+struct Readers::Audience {
     struct Joined {
         Link link;
         Reader* reader;
-        Readers::Until until;
+        Until until;
     };
     boost::container::small_vector<Joined, 1> joined;
 };
 
-namespace rois {
-
 namespace {
 
-void take_out(auto& joined, auto those) { joined.erase(std::remove_if(joined.begin(), joined.end(), those), joined.end()); }
+void take_out(auto& joined, auto const& matches) {
+    joined.erase(std::remove_if(joined.begin(), joined.end(), matches), joined.end());
+}
 
 }  // namespace
 
@@ -44,29 +45,37 @@ void Reader::serve() {
     woken();
 }
 
-// With room for one more.
-std::shared_ptr<Audience> const& Readers::audience_with_room(SessionId const& session, std::shared_ptr<Audience> const& known) {
+Readers::Audience* Readers::audience_of(NotificationQueue const& queue) {
+    return static_cast<Audience*>(queue.attachment().get());
+}
+
+// Returns the readers of the session, with room for one more. `known`: those of its queue, if it had readers before.
+std::shared_ptr<Readers::Audience> const& Readers::with_room(SessionId const& session, std::shared_ptr<void> const& known) {
     auto found = audiences_.find(session);
-    if (found == audiences_.end())
-        found = audiences_.emplace(session, known != nullptr ? known : std::make_shared<Audience>()).first;
+    if (found == audiences_.end()) {
+        auto audience = known ? std::static_pointer_cast<Audience>(known) : std::make_shared<Audience>();
+        found = audiences_.emplace(session, std::move(audience)).first;
+    }
     auto& joined = found->second->joined;
     if (joined.size() == joined.capacity()) joined.reserve(2 * joined.size() + 1);
     return found->second;
 }
 
 void Readers::join(NotificationQueue& queue, Link link, Reader& reader, Until until) {
-    auto const& audience = audience_with_room(queue.session(), queue.audience());
+    auto const& audience = with_room(queue.session(), queue.attachment());
+    auto& joined = audience->joined;
+    auto const is_websocket = [](Audience::Joined const& other) { return other.link == Link::websocket; };
     if (link == Link::websocket) {
-        for (auto const& other : audience->joined)
-            if (other.link == Link::websocket) other.reader->take_over();
-        take_out(audience->joined, [](Audience::Joined const& other) { return other.link == Link::websocket; });
+        for (auto const& other : joined)
+            if (is_websocket(other)) other.reader->take_over();
+        take_out(joined, is_websocket);
     }
-    audience->joined.push_back({link, &reader, until});
-    queue.set_audience(audience);
+    joined.push_back({link, &reader, until});
+    queue.attach(audience);
 }
 
 void Readers::join(SessionId const& session, Reader& reader) {
-    audience_with_room(session, nullptr)->joined.push_back({Link::stream, &reader, Until::answered});
+    with_room(session, nullptr)->joined.push_back({Link::stream, &reader, Until::answered});
 }
 
 void Readers::leave(SessionId const& session, Reader const& reader) {
@@ -84,19 +93,16 @@ std::size_t Readers::count(SessionId const& session) const {
 }
 
 std::size_t Readers::streams(NotificationQueue const& queue) {
-    if (!queue.audience()) return 0;
-    return static_cast<std::size_t>(std::ranges::count_if(queue.audience()->joined, [](Audience::Joined const& one) {
-        return one.link == Link::stream && one.until == Until::closed;
-    }));
+    auto const* const audience = audience_of(queue);
+    if (audience == nullptr) return 0;
+    auto const is_stream = [](auto const& one) { return one.link == Link::stream && one.until == Until::closed; };
+    return static_cast<std::size_t>(std::ranges::count_if(audience->joined, is_stream));
 }
 
 void Readers::notify(NotificationQueue& queue) {
-    if (!queue.audience()) return;
-    for (auto const& joined : queue.audience()->joined) joined.reader->wake();
-}
-
-void Readers::approach(NotificationQueue const& queue) const {
-    if (queue.audience() && !queue.audience()->joined.empty()) prefetch(queue.audience()->joined.front().reader);
+    auto const* const audience = audience_of(queue);
+    if (audience == nullptr) return;
+    for (auto const& one : audience->joined) one.reader->wake();
 }
 
 }  // namespace rois

@@ -16,37 +16,31 @@ class Wakes;
 // A connection that waits for the notifications of a session. Always held by a shared_ptr.
 class Reader : public std::enable_shared_from_this<Reader> {
 public:
-    // On the thread of its loop.
+    // Call it on the thread of the loop.
     explicit Reader(Wakes&);
     virtual ~Reader();
     Reader(Reader const&) = delete;
     Reader& operator=(Reader const&) = delete;
 
-    // Both are called on any thread, with the engine locked. They only queue the reader for its own thread.
-    // Something may have arrived, or another reader of the session has left. Does nothing while the reader is being destroyed.
+    // Any thread may call these functions. They queue the reader for its own thread.
+    // There may be notifications, or another reader of the session has left. Does nothing while the reader is being destroyed.
     void wake() noexcept;
     // Another WebSocket has taken over the session.
     void take_over() noexcept;
 
 protected:
-    // The memory that `woken` needs: `far` is what the reader points to, `near` what lies behind that.
-    enum class Distance : std::uint8_t { far, near };
-
     Wakes& wakes() { return wakes_; }
 
 private:
     friend class Wakes;
     void serve();
 
-    // Prefetches that memory.
-    virtual void approach(Distance) const {}
-
-    // On the reader's own thread.
+    // Called on the reader's own thread.
     virtual void woken() = 0;
     virtual void taken_over() {}
 
     Wakes& wakes_;
-    std::atomic<bool> waiting_ = false;  // to be served
+    std::atomic<bool> waiting_ = false;  // in the queue
     std::atomic<bool> taken_over_ = false;
 };
 
@@ -65,12 +59,13 @@ public:
     static std::size_t streams(NotificationQueue const&);
 
     void notify(NotificationQueue&) override;
-    void approach(NotificationQueue const&) const override;
 
 private:
-    std::shared_ptr<Audience> const& audience_with_room(SessionId const&, std::shared_ptr<Audience> const& known);
+    struct Audience;
+    static Audience* audience_of(NotificationQueue const&);
+    std::shared_ptr<Audience> const& with_room(SessionId const&, std::shared_ptr<void> const& known);
 
-    std::unordered_map<SessionId, std::shared_ptr<Audience>, IdHash> audiences_;  // only sessions with a reader
+    std::unordered_map<SessionId, std::shared_ptr<Audience>, IdHash> audiences_;  // of sessions with a reader
 };
 
 }  // namespace rois

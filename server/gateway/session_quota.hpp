@@ -1,4 +1,4 @@
-// How many sessions a connection and a remote address may have open.
+// Limits the open sessions of a connection and of a remote address.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@
 
 namespace rois {
 
-// A connection, as far as it opens sessions.
+// A connection that opens sessions.
 struct Opener {
     Address address{};
     Limits limits = Limits::none;
-    std::size_t sessions = 0;  // that it has opened and that have not ended; the quota's own
+    std::size_t sessions = 0;  // open sessions that it has opened; only the quota uses it
 };
 
 // A session counts for the connection that opened it and for that connection's address until the session ends, whichever

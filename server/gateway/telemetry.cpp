@@ -52,7 +52,7 @@ double cpu_seconds() {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-// Not with std::filesystem, which ends the process when it has no memory.
+// Does not use std::filesystem, which ends the process if there is no memory.
 double open_descriptors() {
     auto* const folder = ::opendir("/proc/self/fd");
     if (folder == nullptr) return 0;
@@ -104,15 +104,14 @@ public:
         counter("rois_notifications_total", "Notifications queued for sessions.", number(s.notifications));
         counter("rois_notifications_lost_total", "Notifications dropped because a session did not read.",
                 number(s.notifications_lost));
-        counter("rois_stray_component_answers_total", "Answers of components that were late, double or of nobody.",
+        counter("rois_stray_component_answers_total", "Answers of components that were late, sent twice, or to no call.",
                 number(s.stray_answers));
         gauge("rois_everything_stopped", "1 while nothing starts because everything was stopped (POST /rois/stop).",
               s.everything_is_stopped ? 1 : 0);
-        gauge("rois_components_not_halted", "Components that were told to halt and have not confirmed that they stand still.",
-              number(s.not_halted));
+        gauge("rois_components_not_halted", "Components that have not confirmed the last call to halt.", number(s.not_halted));
         if (s.memory_budget != 0) {
             gauge("rois_memory_budget_bytes", "Memory that the process may use.", number(s.memory_budget));
-            gauge("rois_memory_used_bytes", "Memory that it uses, with what is reserved for documents that are being read.",
+            gauge("rois_memory_used_bytes", "Memory in use, and memory reserved for documents that are being read.",
                   number(s.memory_used));
         }
         begin("rois_commands_completed_total", "Commands by how they ended.", MetricType::Counter);
@@ -125,7 +124,7 @@ public:
     void sessions(std::vector<SessionStatistics> const& all) {
         auto const now = std::chrono::steady_clock::now();
         auto const age = [&](auto const& s) { return std::chrono::duration<double>(now - s.connected).count(); };
-        each("rois_session_age_seconds", "Since a session connected; sessions are numbered in that order.", all, age);
+        each("rois_session_age_seconds", "Age of a session; sessions are numbered in the order of connecting.", all, age);
         each("rois_session_commands", "Commands of a session that wait or run.", all, &SessionStatistics::commands);
         each("rois_session_subscriptions", "Distinct event types with conditions that a session has subscribed to.", all,
              &SessionStatistics::subscriptions);
@@ -139,7 +138,7 @@ public:
     void limits(std::vector<LimitStatistics> all, Telemetry const& t) {
         for (std::size_t i = 0; i < limit_names.size(); ++i)
             all.push_back({limit_names[i], t.limits_[i].most, t.limits_[i].reached});
-        begin("rois_limit", "How many there may be.", MetricType::Gauge);
+        begin("rois_limit", "The limit.", MetricType::Gauge);
         for (auto const& limit : all) add({{"limit", std::string{limit.of}}}, static_cast<double>(limit.most));
         begin("rois_limit_reached_total", "How often something was refused, dropped, ended or had to wait because of a limit.",
               MetricType::Counter);
@@ -172,7 +171,7 @@ public:
         for (std::size_t i = 0; i < where_names.size(); ++i)
             add({{"where", where_names[i]}}, static_cast<double>(t.survived_[i]));
         auto const age = t.age_of_last_tick(std::chrono::steady_clock::now());
-        gauge("rois_last_tick_age_seconds", "Since the engine has last done what was due.",
+        gauge("rois_last_tick_age_seconds", "Time since the last tick of the engine.",
               std::chrono::duration<double>(age).count());
         if (!t.log_) return;
         counter("rois_log_lines_dropped_total", "Lines of the log that could not be written.",
@@ -200,7 +199,7 @@ private:
         families_.back().metric.push_back(std::move(metric));
     }
 
-    // OK is always there; the other return codes once they have occurred.
+    // Shows OK always, and the other return codes after they have occurred.
     void requests(Telemetry const& t) {
         begin("rois_requests_total", "Operations performed, by return code.", MetricType::Counter);
         for (std::size_t operation = 0; operation < Telemetry::operations; ++operation) {

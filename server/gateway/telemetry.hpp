@@ -1,4 +1,4 @@
-// What the gateway counts about itself, and how /metrics shows it. Counting is lock-free; any thread.
+// Counts events of the gateway for /metrics. Counting is lock-free; any thread.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::string_view operation_name(Operation const&);
 
 class Telemetry {
 public:
-    enum class Kind : std::uint8_t { http, websocket, stream };  // what a connection is used for
+    enum class Kind : std::uint8_t { http, websocket, stream };  // of a connection
 
     // Counts a connection of this kind as long as it lives.
     class Counted {
@@ -46,8 +46,8 @@ public:
     void checked(xml::Validation way) { ++checked_[static_cast<std::size_t>(way)]; }  // a request document
     void faulted(FaultCode code) { ++faults_[static_cast<std::size_t>(code)]; }
     void delivered(std::size_t notifications) { delivered_ += notifications; }
-    void cut() { ++cut_; }  // a connection that was closed because its reader was too slow
-    // Limits of the network layer; how many there may be, and that one was reached.
+    void cut() { ++cut_; }  // a connection that was closed because its peer read too slowly
+    // Limits of the network layer: their values, and how often each was reached.
     enum class Limit : std::uint8_t {
         connections,  // reached: no connection was accepted until another one closed
         connections_per_address,
@@ -68,9 +68,9 @@ public:
         return now - std::min(now, last_tick_.load(std::memory_order_relaxed));
     }
 
-    // Shows what this queue has dropped. Before anybody asks.
+    // Shows the lines that this queue has dropped. Call it before the first `text`.
     void show(std::shared_ptr<LogQueue const> log) { log_ = std::move(log); }
-    // How many lines that log has dropped.
+    // The number of lines that this queue has dropped.
     std::uint64_t dropped_log_lines() const;
 
     // The Prometheus text format.

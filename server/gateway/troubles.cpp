@@ -11,7 +11,7 @@ namespace rois {
 namespace {
 
 constexpr std::chrono::milliseconds one_incident{100};
-constexpr std::chrono::seconds too_short{1};  // for as many incidents as are kept
+constexpr std::chrono::seconds too_short{1};  // from the first to the last of the stored incidents
 
 void log(Telemetry::Where where, std::exception_ptr const& failure) {
     auto const name = name_of(where);
@@ -28,14 +28,14 @@ void log(Telemetry::Where where, std::exception_ptr const& failure) {
 
 void Troubles::report(Where where, std::exception_ptr const& failure, Steady now) noexcept {
     telemetry_.survived(where);
-    Attempts attempts;  // it was counted, whatever fails
+    Attempts attempts;  // counts also if logging fails
     attempts([&] { log(where, failure); });
     if (where != Where::connection && is_too_much(now)) give_up_();
 }
 
 void Troubles::report(Where where) noexcept { report(where, std::current_exception(), std::chrono::steady_clock::now()); }
 
-// Says so once.
+// Returns true at the third incident within a second, but only once.
 bool Troubles::is_too_much(Steady now) {
     std::lock_guard const lock{mutex_};
     bool const first = incidents_.front() == Steady{};

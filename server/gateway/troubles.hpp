@@ -22,7 +22,7 @@ public:
     Troubles(Telemetry& telemetry, std::function<void()> give_up) : telemetry_{telemetry}, give_up_{std::move(give_up)} {}
 
     void report(Where, std::exception_ptr const&, Steady now) noexcept;
-    // The same for the exception that is being handled, now.
+    // Reports the exception that is being handled.
     void report(Where) noexcept;
 
 private:
@@ -31,7 +31,7 @@ private:
     Telemetry& telemetry_;
     std::function<void()> give_up_;
     std::mutex mutex_;                   // guards the next two
-    std::array<Steady, 3> incidents_{};  // the beginnings of the last ones, the latest in front
+    std::array<Steady, 3> incidents_{};  // when the last ones began, the latest first
     bool given_up_ = false;
 };
 

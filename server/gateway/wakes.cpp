@@ -4,8 +4,8 @@
 #include <thread>
 #include <utility>
 
-#include "engine/notifications/prefetch.hpp"
 #include "gateway/readers.hpp"
+#include "types/prefetch.hpp"
 
 namespace rois {
 
@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t most_at_once = 32;        // some 200 us of work
 constexpr std::size_t most_in_a_row = 128;      // some 0.8 ms
+constexpr std::size_t turns_ahead = 2;          // readers between a prefetch and its use
 constexpr std::size_t bytes_of_a_reader = 256;  // that serving it reads first
 
 }  // namespace
@@ -64,7 +65,8 @@ void Wakes::serve() {
     auto const end = std::min(served_ + most_at_once, serving_.size());
     in_a_row_ += end - served_;
     for (; served_ < end; ++served_) {
-        approach();
+        // With many sessions, each reader is a cache miss (docs/performance.md).
+        if (served_ + turns_ahead < serving_.size()) prefetch(serving_[served_ + turns_ahead].get(), bytes_of_a_reader);
         try {
             std::exchange(serving_[served_], {})->serve();
         } catch (...) {
@@ -84,16 +86,6 @@ void Wakes::serve() {
 void Wakes::yield_core() {
     in_a_row_ = 0;
     std::this_thread::yield();
-}
-
-// Prefetches the next few readers: with a thousand readers, each is a cache miss.
-void Wakes::approach() const {
-    auto const later = [&](std::size_t turns) {
-        return served_ + turns < serving_.size() ? serving_[served_ + turns].get() : nullptr;
-    };
-    if (auto const* reader = later(1)) reader->approach(Reader::Distance::near);
-    if (auto const* reader = later(2)) reader->approach(Reader::Distance::far);
-    if (auto const* reader = later(3)) prefetch<bytes_of_a_reader>(reader);
 }
 
 // Returns false if no reader waits. Then the next `add` requests a turn.

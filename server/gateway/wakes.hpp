@@ -35,7 +35,6 @@ public:
 
 private:
     void request_turn() noexcept;
-    void approach() const;
     bool take_more();
     void yield_core();
 

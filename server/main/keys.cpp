@@ -7,7 +7,7 @@
 #include <optional>
 #include <thread>
 
-#include "net/foreign.hpp"
+#include "gateway/host_names.hpp"
 #include "types/address.hpp"
 #include "types/texts.hpp"
 
@@ -195,7 +195,7 @@ std::string show_proxies(Settings const& settings) {
 bool set_hosts(Settings& settings, std::string const& text) {
     std::vector<std::string> hosts;
     for (auto const& word : words_of(text)) {
-        auto host = net::host_name(word);
+        auto host = host_name(word);
         if (!host) return false;
         hosts.push_back(std::move(*host));
     }

@@ -11,6 +11,7 @@
 #include "engine/engine.hpp"
 #include "files/files.hpp"
 #include "gateway/gateway.hpp"
+#include "gateway/host_names.hpp"
 #include "gateway/memory.hpp"
 #include "gateway/open_files.hpp"
 #include "gateway/secrets.hpp"
@@ -22,9 +23,8 @@
 #include "main/speech_log.hpp"
 #include "main/user_components.hpp"
 #include "media/server.hpp"
-#include "net/documents.hpp"
-#include "net/foreign.hpp"
 #include "net/health_check.hpp"
+#include "net/http/documents.hpp"
 #include "net/server.hpp"
 #include "simulation/adapters/robot_components.hpp"
 #include "simulation/adapters/simulated_hall.hpp"
@@ -98,9 +98,9 @@ std::string_view host_of_url(std::string_view url) {
 net::Settings with_all_hosts(Settings const& settings) {
     auto all = settings.net;
     auto const add = [&](std::string_view name) {
-        if (auto host = net::host_name(name)) all.hosts.push_back(std::move(*host));
+        if (auto host = host_name(name)) all.hosts.push_back(std::move(*host));
     };
-    add(net::machine_name().value_or(""));
+    add(machine_name().value_or(""));
     add(settings.net.host);
     add(settings.media.host);
     add(host_of_url(settings.media.url));
@@ -131,9 +131,9 @@ void make_room_for_connections(net::Settings& net, media::Settings const& media)
 // Returns null if no streams are served.
 std::shared_ptr<media::Server> make_media(media::Settings settings, net::Settings const& net) {
     if (settings.host.empty()) return nullptr;
-    settings.is_own_host = [hosts = net.hosts](std::string_view host) { return net::is_own_host(host, hosts); };
+    settings.is_own_host = [hosts = net.hosts](std::string_view host) { return is_own_host(host, hosts); };
     settings.is_allowed_origin = [allowed = net.allowed_origins](std::string_view origin, std::string_view host) {
-        return net::is_allowed_origin(origin, host, allowed);
+        return is_allowed_origin(origin, host, allowed);
     };
     return std::make_shared<media::Server>(std::move(settings), fresh_secret);
 }

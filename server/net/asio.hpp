@@ -1,4 +1,4 @@
-// The types of Boost.Asio that are used here, all with the concrete executor of one I/O thread's io_context.
+// The types of Boost.Asio with the executor of an io_context, instead of the slower any_io_executor.
 #pragma once
 
 #include <boost/asio/awaitable.hpp>
@@ -20,12 +20,12 @@ using Socket = asio::basic_stream_socket<asio::ip::tcp, Executor>;
 using Descriptor = asio::posix::basic_stream_descriptor<Executor>;
 using Timer = asio::basic_waitable_timer<std::chrono::steady_clock, asio::wait_traits<std::chrono::steady_clock>, Executor>;
 
-// A coroutine of one thread. g++ 12 miscompiles a co_await inside the condition of a loop or an if (it drops what follows):
-// give its result a name first.
+// A coroutine of one thread. Do not write co_await in the condition of a loop or an if: g++ 12 drops the code behind it. Give the
+// result a name first.
 template <class T = void>
 using Task = asio::awaitable<T, Executor>;
 
-// Completion token: await it, and find the error in `error`.
+// A completion token for co_await that sets `error` instead of throwing.
 inline auto into(boost::system::error_code& error) { return asio::redirect_error(asio::use_awaitable_t<Executor>{}, error); }
 
 }  // namespace rois::net

@@ -1,4 +1,4 @@
-// Asks a running gateway whether it lives: for containers that have no other tool to do so.
+// Asks a running gateway whether it is ready, for containers without another tool for that.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace rois::net {
 
-// Nothing wrong: an empty text; otherwise why the gateway that listens there is not healthy. Takes two seconds at most.
+// Returns why the gateway at this address is not healthy, or an empty text if it is. Takes at most two seconds.
 std::string check_health(std::string const& host, std::uint16_t port);
 
 }  // namespace rois::net

@@ -8,14 +8,14 @@
 #include <new>
 #include <string>
 
-#include "net/http_answer.hpp"
+#include "net/http/http_answer.hpp"
 #include "net/loop.hpp"
 
 namespace rois::net {
 
 namespace {
 
-// SO_REUSEPORT, switched on: Asio has no public name for it. A type of Asio's concept SettableSocketOption.
+// The option SO_REUSEPORT, set. Asio has no public name for it; this is its concept SettableSocketOption.
 struct ReusePort {
     static int level(asio::ip::tcp const&) { return SOL_SOCKET; }
     static int name(asio::ip::tcp const&) { return SO_REUSEPORT; }
@@ -26,16 +26,16 @@ struct ReusePort {
 };
 
 constexpr auto between_tries = std::chrono::milliseconds{50};
-constexpr unsigned most_without_memory = 64;  // connections taken between two pauses, while the system has no memory
+constexpr unsigned most_without_memory = 64;  // connections between two pauses while the system has no memory
 
-// Nothing if the peer has gone already.
+// Returns nothing if the peer has already closed the connection.
 std::optional<Address> remote_address(Socket const& socket) {
     boost::system::error_code error;
     auto const endpoint = socket.remote_endpoint(error);
     return error ? std::nullopt : read_address(endpoint.address().to_string());
 }
 
-// Says why, as far as the peer takes it at once: a connection that is refused gets no time.
+// Sends the reason, without waiting for the peer.
 void refuse(Socket& socket, Shared const& shared) {
     shared.telemetry.reached(Telemetry::Limit::connections_per_address);
     shared.telemetry.faulted(FaultCode::too_many);
@@ -46,39 +46,32 @@ void refuse(Socket& socket, Shared const& shared) {
                           " connections open already: close one; the key max_connections_per_address sets the limit",
                       {},
                       {}}),
-           {.body = true, .close = true});
-    ::send(socket.native_handle(), text.data(), text.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
-    ::shutdown(socket.native_handle(), SHUT_WR);
-    std::array<char, 4096> ignored{};
-    ::recv(socket.native_handle(), ignored.data(), ignored.size(), MSG_DONTWAIT);  // what is unread would reset the connection
+           {Framing::Body::sent, true});
+    boost::system::error_code ignored;
+    socket.non_blocking(true, ignored);
+    socket.write_some(asio::buffer(text), ignored);
+    socket.shutdown(Socket::shutdown_send, ignored);
+    std::array<char, 4096> request{};  // unread bytes would reset the connection before the peer reads the answer
+    socket.read_some(asio::buffer(request), ignored);
 }
 
 }  // namespace
 
 Listener::Listener(Loop& loop, Admission& admission)
-    : loop_{loop}, admission_{admission}, acceptor_{loop.executor()}, pause_{loop.executor()} {}
+    : loop_{loop}, admission_{admission}, acceptor_{loop.executor()}, timer_{loop.executor()} {}
 
-void Listener::open(Endpoint const& endpoint) {
+void Listener::bind(Endpoint const& endpoint, Port port) {
     acceptor_.open(endpoint.protocol());
     acceptor_.set_option(asio::socket_base::reuse_address{true});
-}
-
-void Listener::bind_alone(Endpoint const& endpoint) {
-    open(endpoint);
+    if (port == Port::shared) share_port();
     acceptor_.bind(endpoint);
 }
 
-void Listener::share() { acceptor_.set_option(ReusePort{}); }
-
-void Listener::bind_too(Endpoint const& endpoint) {
-    open(endpoint);
-    share();
-    acceptor_.bind(endpoint);
-}
+void Listener::share_port() { acceptor_.set_option(ReusePort{}); }
 
 void Listener::listen() { acceptor_.listen(); }
 
-// While the system has no memory, the listener pauses often enough that the loop can cut connections that wait.
+// Pauses often while the system has no memory, so that the loop can cut waiting connections.
 Task<> Listener::accept() {
     auto const& memory = loop_.shared().gateway.memory();
     for (unsigned taken = 1; acceptor_.is_open(); ++taken) {
@@ -90,13 +83,11 @@ Task<> Listener::accept() {
         }
         bool const crowded = taken % most_without_memory == 0 && memory.exhausted();
         if (accepted && !crowded) continue;
-        boost::system::error_code error;
-        pause_.expires_after(between_tries);
-        co_await pause_.async_wait(into(error));
+        co_await pause();
     }
 }
 
-// False when the system gives no connection.
+// Returns false if the system cannot accept a connection now.
 Task<bool> Listener::accept_one() {
     boost::system::error_code error;
     auto socket = co_await acceptor_.async_accept(into(error));
@@ -110,7 +101,7 @@ Task<bool> Listener::accept_one() {
     co_return true;
 }
 
-// A connection that cannot begin, for example because memory is missing, is closed.
+// Closes a connection that cannot be started, for example because there is no memory.
 void Listener::serve(Socket socket, Admission::Place place) {
     try {
         loop_.serve(std::move(socket), std::move(place));
@@ -119,8 +110,8 @@ void Listener::serve(Socket socket, Admission::Place place) {
     }
 }
 
-// A connection that finds all places taken waits, and those behind it in the kernel. None when the listener is closed meanwhile.
-// It is refused at once if its address has as many as it may.
+// Waits until there is a place; meanwhile the kernel keeps further connections waiting. Returns nothing if the listener is
+// closed, or if the address has reached its limit: then the connection is refused.
 Task<std::optional<Admission::Place>> Listener::place(Socket& socket) {
     auto const address = remote_address(socket);
     if (!address) co_return std::nullopt;
@@ -136,17 +127,21 @@ Task<std::optional<Admission::Place>> Listener::place(Socket& socket) {
             loop_.shared().telemetry.reached(Telemetry::Limit::connections);
             spdlog::warn("{} connections are open; more must wait", loop_.shared().settings.max_connections);
         }
-        boost::system::error_code error;
-        pause_.expires_after(between_tries);
-        co_await pause_.async_wait(into(error));
+        co_await pause();
     }
     co_return std::nullopt;
+}
+
+Task<> Listener::pause() {
+    boost::system::error_code error;
+    timer_.expires_after(between_tries);
+    co_await timer_.async_wait(into(error));
 }
 
 void Listener::close() {
     asio::post(loop_.executor(), [this] {
         acceptor_.close();
-        pause_.cancel();
+        timer_.cancel();
     });
 }
 

@@ -2,54 +2,32 @@
 
 #include <boost/asio/post.hpp>
 #include <exception>
-#include <new>
-#include <thread>
+#include <memory>
 #include <utility>
 
+#include "net/signal.hpp"
+
 namespace rois::net {
-
-namespace {
-
-// Whoever waits would wait for ever.
-void post_surely(Executor const& executor, auto const& what) {
-    while (true) {
-        try {
-            return asio::post(executor, what);
-        } catch (std::bad_alloc const&) {
-            std::this_thread::sleep_for(std::chrono::milliseconds{1});
-        }
-    }
-}
-
-}  // namespace
 
 LongDocuments::LongDocuments(std::shared_ptr<xml::Schemas const> schemas, xml::DocumentLimits const& limits,
                              xml::Validation validation)
     : reader_{std::move(schemas), limits, validation} {}
 
 Task<Answer> LongDocuments::answer(Gateway& gateway, SessionId const& session, std::string_view text, Via via,
-                                   std::shared_ptr<Opener> const& opener) {
+                                   std::shared_ptr<Opener> const& opener, Wakes& wakes) {
+    Executor const executor = co_await asio::this_coro::executor;
+    auto const done = std::make_shared<Signal>(executor, wakes);
     Answer answer;
     std::exception_ptr failed;
-    auto const read = [&] {
+    asio::post(thread_, [&] {
         try {
             answer = gateway.answer(reader_, session, text, via, opener);
         } catch (...) {
             failed = std::current_exception();
         }
-    };
-    using Token = asio::use_awaitable_t<Executor>;
-    Token token;
-    co_await asio::async_initiate<Token, void()>(
-        [&](auto handler) {
-            auto const back = asio::get_associated_executor(handler);
-            auto const waiting = std::make_shared<decltype(handler)>(std::move(handler));
-            asio::post(thread_, [&read, back, waiting] {
-                read();
-                post_surely(back, [waiting] { std::move (*waiting)(); });
-            });
-        },
-        token);
+        done->wake();  // never fails; the coroutine may be gone when it returns
+    });
+    co_await done->wait_until(Steady::max());
     if (failed) std::rethrow_exception(failed);
     co_return answer;
 }

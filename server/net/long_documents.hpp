@@ -1,5 +1,5 @@
-// Long documents are read on a thread of their own, one after another: what takes milliseconds for one client does not keep the
-// short requests of others waiting, `stop` among them; and only one of them is in memory as a tree.
+// Reads long documents on a separate thread, one at a time. So short requests of other clients, such as `stop`, do not wait for
+// them, and only one long document is in memory as a tree.
 #pragma once
 
 #include <boost/asio/thread_pool.hpp>
@@ -17,11 +17,11 @@ class LongDocuments {
 public:
     LongDocuments(std::shared_ptr<xml::Schemas const>, xml::DocumentLimits const&, xml::Validation);
 
-    // From about half a millisecond of work.
+    // Reading a long document takes half a millisecond or more.
     static bool is_long(std::size_t bytes) { return bytes > std::size_t{32} * 1024; }
 
-    // Answers the request on that thread, and goes on on the caller's. What the caller passes must live until then.
-    Task<Answer> answer(Gateway&, SessionId const&, std::string_view text, Via, std::shared_ptr<Opener> const&);
+    // Answers the request on that thread, and resumes the caller on its own. All arguments must live until then.
+    Task<Answer> answer(Gateway&, SessionId const&, std::string_view text, Via, std::shared_ptr<Opener> const&, Wakes&);
 
 private:
     xml::RequestReader reader_;

@@ -9,17 +9,17 @@
 #include <utility>
 #include <vector>
 
-#include "net/connection.hpp"
+#include "net/http/connection.hpp"
 
 namespace rois::net {
 
 namespace {
 
 constexpr auto between_sweeps = std::chrono::milliseconds{50};
-constexpr auto between_tries = std::chrono::milliseconds{10};  // to begin what must go on for ever
+constexpr auto between_tries = std::chrono::milliseconds{10};
 
-// In how many sweeps all connections are looked at: in each, while the deadlines are short; in five, when they are as usual. So
-// none is missed by more than an eighth of itself, or by 50 ms.
+// Returns the number of sweeps that check all connections: 1 if a deadline is short, 5 by default. So a deadline is missed by at
+// most an eighth of its length, or by 50 ms.
 std::size_t sweeps_for_all(Settings const& settings) {
     auto const shortest =
         std::min({settings.request_timeout, settings.idle_timeout, settings.write_timeout, settings.ping_interval});
@@ -36,11 +36,9 @@ Loop::Loop(Shared& shared)
     always(Troubles::Where::sweep, [this] { return sweep(); });
 }
 
-Loop::~Loop() = default;
-
 void Loop::always(Troubles::Where where, std::function<Task<>()> make) { duties_.push_back({where, std::move(make)}); }
 
-// Stops the loop when it ends, however that happens: then `run` looks after it.
+// Stops the loop when the duty ends or fails: then `run` starts it again.
 Task<> Loop::perform(Duty& duty) {
     struct End {
         Loop& loop;
@@ -104,8 +102,8 @@ void Loop::shut_down(std::chrono::milliseconds within) {
     });
 }
 
-// Holds every connection to its deadlines: one timer for all of them, and a part of them at a time, so that a request does not
-// wait until ten thousand have been looked at.
+// Checks the deadlines of the connections, with one timer for all. Each sweep checks a part of them, so that a request does not
+// wait for ten thousand checks.
 Task<> Loop::sweep() {
     Timer timer{executor()};
     while (!over_) {
@@ -142,7 +140,7 @@ void Loop::add(Connection& connection) {
     connections_.push_back(&connection);
 }
 
-// The last takes its place.
+// Moves the last connection to the free index.
 void Loop::remove(Connection const& connection) {
     auto* const last = connections_.back();
     connections_[connection.seat_] = last;

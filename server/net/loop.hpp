@@ -1,4 +1,4 @@
-// One I/O thread: its io_context, its request reader, and the connections that live on it.
+// One I/O thread: its io_context, its request reader and its connections.
 #pragma once
 
 #include <deque>
@@ -6,13 +6,13 @@
 #include <memory>
 #include <vector>
 
+#include "gateway/admission.hpp"
 #include "gateway/gateway.hpp"
 #include "gateway/telemetry.hpp"
 #include "gateway/troubles.hpp"
 #include "gateway/wakes.hpp"
-#include "net/admission.hpp"
 #include "net/asio.hpp"
-#include "net/documents.hpp"
+#include "net/http/documents.hpp"
 #include "net/long_documents.hpp"
 #include "net/settings.hpp"
 
@@ -20,7 +20,7 @@ namespace rois::net {
 
 class Connection;
 
-// What all loops share; outlives them.
+// Shared by all loops; must outlive them.
 struct Shared {
     Settings settings;
     Gateway& gateway;
@@ -34,21 +34,18 @@ struct Shared {
 class Loop {
 public:
     explicit Loop(Shared&);
-    ~Loop();
-    Loop(Loop const&) = delete;
-    Loop& operator=(Loop const&) = delete;
 
-    // A coroutine that is to go on until it returns: when an exception ends it, that is reported, and it is made again. Before
-    // `run`.
+    // Adds a coroutine that runs until it returns. After an exception, which is reported, `make` is called again. Call this
+    // before `run`.
     void always(Troubles::Where, std::function<Task<>()>);
 
-    // Until the last connection has gone after shut_down. Survives every exception.
+    // Runs until `shut_down` was called and the last connection has ended. Survives every exception.
     void run();
 
-    // From any thread.
+    // Any thread. Cuts the remaining connections after `within`.
     void shut_down(std::chrono::milliseconds within);
 
-    // On the loop's own thread.
+    // The loop's own thread calls the functions below.
     void serve(Socket, Admission::Place);
     bool draining() const { return last_moment_ != Steady::max(); }
     Shared& shared() const { return shared_; }
@@ -62,7 +59,7 @@ private:
     struct Duty {
         Troubles::Where where;
         std::function<Task<>()> make;
-        bool goes_on = false;  // or has returned
+        bool goes_on = false;  // or it has returned
     };
 
     Task<> perform(Duty&);
@@ -77,10 +74,10 @@ private:
     xml::RequestReader reader_;
     std::vector<Connection*> connections_;
     std::size_t sweeps_for_all_;
-    std::size_t swept_ = 0;  // where the next sweep goes on
+    std::size_t swept_ = 0;  // index of the next connection to check
     std::deque<Duty> duties_;
     bool over_ = false;
-    Steady last_moment_ = Steady::max();  // set by shut_down: at that time whoever is still there is cut
+    Steady last_moment_ = Steady::max();  // set by shut_down: the remaining connections are cut then
     asio::io_context io_{1};
     Wakes wakes_;
 };

@@ -3,18 +3,16 @@
 #include "net/asio.hpp"
 
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <boost/asio/signal_set.hpp>
 #include <csignal>
-#include <cstdlib>
+#include <deque>
 #include <stdexcept>
-#include <string_view>
 #include <thread>
-#include <tuple>
 #include <vector>
 
 #include "gateway/clock.hpp"
+#include "gateway/shutdown.hpp"
 #include "net/listener.hpp"
 #include "net/loop.hpp"
 
@@ -38,13 +36,13 @@ public:
         : troubles_{telemetry, [this] { give_up_(); }},
           shared_{std::move(settings), gateway, telemetry, documents, std::move(schemas), troubles_},
           admission_{shared_.settings.max_connections, shared_.settings.max_connections_per_address},
-          loops_{make_loops()},
-          listeners_{make_listeners()},
-          signals_{loops_.front()->executor()},
-          hang_ups_{loops_.front()->executor()} {
+          first_{add_loop()},
+          signals_{first_.executor()},
+          hang_ups_{first_.executor()} {
+        while (loops_.size() < shared_.settings.threads) add_loop();
         telemetry.set(Telemetry::Limit::connections, shared_.settings.max_connections);
         telemetry.set(Telemetry::Limit::connections_per_address, shared_.settings.max_connections_per_address);
-        gateway.begin();  // before anybody can ask
+        gateway.begin();  // before the first request
         listen();
         signals_.add(SIGTERM);
         signals_.add(SIGINT);
@@ -60,59 +58,39 @@ public:
     void on_too_many_troubles(std::function<void()> what) { give_up_ = std::move(what); }
 
     bool run() {
-        auto& first = *loops_.front();
-        for (auto const& listener : listeners_)
-            listener->loop().always(Troubles::Where::accept, [one = listener.get()] { return one->accept(); });
-        first.always(Troubles::Where::loop, [this] { return wait_for_signal(); });
-        if (on_hang_up_) first.always(Troubles::Where::loop, [this] { return wait_for_hang_ups(); });
+        for (auto& listener : listeners_)
+            listener.loop().always(Troubles::Where::accept, [&listener] { return listener.accept(); });
+        first_.always(Troubles::Where::loop, [this] { return wait_for_signal(); });
+        if (on_hang_up_) first_.always(Troubles::Where::loop, [this] { return wait_for_hang_ups(); });
         Clock const clock{shared_.settings.tick, [this] { shared_.gateway.tick(); }, troubles_};
         std::vector<std::jthread> threads;
-        for (std::size_t i = 1; i < loops_.size(); ++i) threads.emplace_back([loop = loops_[i].get()] { loop->run(); });
-        loops_.front()->run();
+        for (std::size_t i = 1; i < loops_.size(); ++i) threads.emplace_back([this, i] { loops_[i].run(); });
+        first_.run();
         threads.clear();
-        return await_halts();
+        return await_halts(shared_.gateway, last_moment_, shared_.settings.tick);
     }
 
 private:
-    std::vector<std::unique_ptr<Loop>> make_loops() {
-        std::vector<std::unique_ptr<Loop>> loops;
-        loops.reserve(shared_.settings.threads);
-        for (std::size_t i = 0; i < shared_.settings.threads; ++i) loops.push_back(std::make_unique<Loop>(shared_));
-        return loops;
-    }
-
-    std::vector<std::unique_ptr<Listener>> make_listeners() {
-        std::vector<std::unique_ptr<Listener>> listeners;
-        listeners.reserve(loops_.size());
-        for (auto const& loop : loops_) listeners.push_back(std::make_unique<Listener>(*loop, admission_));
-        return listeners;
+    Loop& add_loop() {
+        auto& loop = loops_.emplace_back(shared_);
+        listeners_.emplace_back(loop, admission_);
+        return loop;
     }
 
     void listen() {
         auto const& settings = shared_.settings;
-        auto& first = *listeners_.front();
+        auto& first = listeners_.front();
         try {
             asio::ip::basic_resolver<asio::ip::tcp, Executor> resolver{first.executor()};
             auto const found = resolver.resolve(settings.host, std::to_string(settings.port), asio::ip::resolver_base::passive);
-            first.bind_alone(found.begin()->endpoint());
-            if (listeners_.size() > 1) first.share();
-            for (std::size_t i = 1; i < listeners_.size(); ++i) listeners_[i]->bind_too(first.endpoint());
-            for (auto const& listener : listeners_) listener->listen();
+            first.bind(found.begin()->endpoint(), Listener::Port::alone);
+            if (listeners_.size() > 1) first.share_port();
+            for (std::size_t i = 1; i < listeners_.size(); ++i) listeners_[i].bind(first.endpoint(), Listener::Port::shared);
+            for (auto& listener : listeners_) listener.listen();
             port_ = first.endpoint().port();
         } catch (boost::system::system_error const& error) {
             throw std::runtime_error{"cannot listen on " + text_of(settings.host, settings.port) + ": " + error.code().message()};
         }
-    }
-
-    // When nobody is connected any more: the engine goes on with telling components to halt until they confirm it. Returns
-    // whether all have confirmed in time.
-    bool await_halts() {
-        while (!shared_.gateway.not_halted().empty() && std::chrono::steady_clock::now() < last_moment_)
-            std::this_thread::sleep_for(shared_.settings.tick);
-        auto const not_halted = shared_.gateway.not_halted();
-        for (auto const& ref : not_halted)
-            spdlog::critical("{} did not confirm that it stands still: make sure that the robot does", ref);
-        return not_halted.empty();
     }
 
     Task<> wait_for_hang_ups() {
@@ -122,46 +100,34 @@ private:
         }
     }
 
-    // Begun again after an exception, it goes on with what the first signal asks for.
+    // When it is started again after an exception, it continues to handle the first signal.
     Task<> wait_for_signal() {
         if (!signalled_) {
             auto const signal = co_await signals_.async_wait(asio::use_awaitable_t<Executor>{});
             signalled_ = true;
             spdlog::info("shutting down after {}", signal == SIGTERM ? "SIGTERM" : "SIGINT");
         }
-        for (auto const& listener : listeners_) listener->close();
+        for (auto& listener : listeners_) listener.close();
         last_moment_ = std::chrono::steady_clock::now() + shared_.settings.shutdown_timeout;
         shared_.gateway.shut_down();
-        for (auto const& loop : loops_) loop->shut_down(shared_.settings.shutdown_timeout);
+        for (auto& loop : loops_) loop.shut_down(shared_.settings.shutdown_timeout);
         co_await signals_.async_wait(asio::use_awaitable_t<Executor>{});
-        for (auto const& loop : loops_) loop->shut_down({});
+        for (auto& loop : loops_) loop.shut_down({});
     }
 
-    // The system may know better what to do than a program that does not work: what supervises it starts it again.
-    void halt_and_exit() {
-        constexpr int internal_software_error = 70;  // EX_SOFTWARE
-        constexpr std::string_view why = "too many exceptions in a second: all components were halted, and the gateway ends";
-        shared_.gateway.halt_at_last();
-        auto const dropped = shared_.telemetry.dropped_log_lines();
-        spdlog::critical(why);
-        spdlog::default_logger_raw()->flush();
-        bool const no_memory = shared_.telemetry.dropped_log_lines() != dropped;  // for a line of the log
-        if (no_memory) std::ignore = ::write(STDERR_FILENO, why.data(), why.size());
-        std::_Exit(internal_software_error);
-    }
-
-    std::function<void()> give_up_ = [this] { halt_and_exit(); };
+    std::function<void()> give_up_ = [this] { halt_and_exit(shared_.gateway, shared_.telemetry); };
     Troubles troubles_;
     Shared shared_;
     Admission admission_;
-    std::vector<std::unique_ptr<Loop>> loops_;
-    std::vector<std::unique_ptr<Listener>> listeners_;
+    std::deque<Loop> loops_;
+    std::deque<Listener> listeners_;  // one for each loop
+    Loop& first_;
     Signals signals_;
     Signals hang_ups_;
     std::function<void()> on_hang_up_;
     bool signalled_ = false;
     std::uint16_t port_ = 0;
-    Steady last_moment_;  // once it shuts down
+    Steady last_moment_;  // for clients and components, once it shuts down
 };
 
 Server::Server(Settings settings, Gateway& gateway, Telemetry& telemetry, Documents const& documents,

@@ -1,4 +1,4 @@
-// The gateway on the network: one port, one thread for each of its loops.
+// Serves the gateway on one port, with one thread for each event loop.
 #pragma once
 
 #include <functional>
@@ -7,14 +7,15 @@
 
 #include "gateway/gateway.hpp"
 #include "gateway/telemetry.hpp"
-#include "net/documents.hpp"
+#include "net/http/documents.hpp"
 #include "net/settings.hpp"
 
 namespace rois::net {
 
 class Server {
 public:
-    // Begins to listen. Throws std::runtime_error with one clear line when that cannot be. All that is given outlives the server.
+    // Starts to listen. Throws std::runtime_error with a message for the user if the port is not free. All arguments must outlive
+    // the server.
     Server(Settings, Gateway&, Telemetry&, Documents const&, std::shared_ptr<xml::Schemas const>);
     ~Server();
     Server(Server const&) = delete;
@@ -23,16 +24,16 @@ public:
     // "http://127.0.0.1:8080"
     std::string url() const;
 
-    // To be done after each SIGHUP, on one of the I/O threads; it throws nothing. Without it SIGHUP does what it usually does.
-    // Before `run`.
+    // Sets the function to call after each SIGHUP, on an I/O thread. It must not throw. If none is set, SIGHUP ends the process.
+    // Call this before `run`.
     void on_hang_up(std::function<void()>);
 
-    // What to do when too many exceptions escaped in a short time (docs/safety.md), instead of halting every component and ending
-    // the process with 70. Called on any thread. Before `run`.
+    // Sets the function to call after too many exceptions (docs/safety.md), on any thread. By default, all components halt and
+    // the process ends with 70. Call this before `run`.
     void on_too_many_troubles(std::function<void()>);
 
-    // Serves until SIGTERM or SIGINT: then clients are told, and cut when they do not go within the shutdown timeout. A second
-    // signal cuts them at once. Returns whether all components have confirmed that they stand still.
+    // Serves until SIGTERM or SIGINT. Then notifies the clients, and cuts the connections that are still open after the shutdown
+    // timeout, or at a second signal. Returns whether all components have confirmed that they stand still.
     bool run();
 
 private:

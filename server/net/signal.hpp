@@ -1,5 +1,7 @@
-// What a coroutine waits on until a session's notifications, or something of its own thread, call for it.
+// Resumes a coroutine when its session has notifications, or when its own thread calls `raise`.
 #pragma once
+
+#include <utility>
 
 #include "gateway/readers.hpp"
 #include "gateway/wakes.hpp"
@@ -8,16 +10,24 @@
 
 namespace rois::net {
 
-// Always held by a shared_ptr. One coroutine waits at a time; a call that comes while none waits is kept for the next.
+// Always held by a shared_ptr. One coroutine may wait at a time. If none waits, the next one returns at once.
 class Signal : public Reader {
 public:
     Signal(Executor const& executor, Wakes& wakes) : Reader{wakes}, timer_{executor} {}
 
-    // Belongs, as all that follows, to the thread of the loop.
-    void raise();
+    // The loop's thread calls these functions.
+    void raise() {
+        raised_ = true;
+        timer_.cancel();
+    }
 
     enum class Woken : std::uint8_t { raised, time_passed };
-    Task<Woken> wait_until(Steady);
+    Task<Woken> wait_until(Steady until) {
+        boost::system::error_code error;
+        timer_.expires_at(until);
+        if (!raised_) co_await timer_.async_wait(into(error));
+        co_return std::exchange(raised_, false) ? Woken::raised : Woken::time_passed;
+    }
 
 private:
     void woken() override { raise(); }

@@ -13,9 +13,9 @@ namespace rois::net {
 namespace {
 
 constexpr std::size_t smallest_read = 1024;
-constexpr std::size_t largest_kept = 4 * 1024;  // bytes of memory, while no input waits
+constexpr std::size_t largest_kept = 4 * 1024;  // bytes of memory of an empty input buffer
 constexpr std::size_t largest_read = 64 * 1024;
-constexpr std::size_t most_promised = 16 * 1024;  // memory for bytes that a peer says it will send
+constexpr std::size_t most_promised = 16 * 1024;  // bytes of memory for announced input
 
 }  // namespace
 
@@ -29,7 +29,7 @@ Wire::Wire(Socket socket, std::chrono::milliseconds write_timeout, Telemetry& te
 std::string Wire::peer() const {
     boost::system::error_code error;
     auto const endpoint = socket_.remote_endpoint(error);
-    if (error) return "a client that has gone";
+    if (error) return "a closed connection";
     auto const address = endpoint.address().to_string();
     return (endpoint.address().is_v6() ? "[" + address + "]" : address) + ":" + std::to_string(endpoint.port());
 }
@@ -41,7 +41,7 @@ void Wire::use(std::size_t bytes) {
     used_ = 0;
 }
 
-// Many connections wait for their next request: each waits with a small buffer.
+// Uses a small buffer while no input waits: there may be many idle connections.
 Task<Wire::Outcome> Wire::receive(Steady until, std::size_t expected) {
     input_.erase(0, std::exchange(used_, 0));
     auto const before = input_.size();
@@ -73,30 +73,32 @@ Task<Wire::Outcome> Wire::send(std::string_view text) {
     co_return error ? Outcome::closed : Outcome::done;
 }
 
-Wire::Watch Wire::watch(std::function<void()> gone, std::function<bool(Steady now)> is_proof) {
-    watching_ = std::make_shared<Watching>(Watching{std::move(gone), std::move(is_proof)});
+Wire::Watch Wire::watch(std::function<void()> closed, std::function<bool(Steady now)> is_proof) {
+    watching_ = std::make_shared<Watching>(Watching{std::move(closed), std::move(is_proof)});
     socket_.async_wait(Socket::wait_read, [this, watched = std::weak_ptr{watching_}](boost::system::error_code error) {
-        if (!error && watched.lock()) look_whether_gone();
+        if (!error && watched.lock()) check_for_close();
     });
     return Watch{*this};
 }
 
-// Only the watch waits for the socket, so this ends nothing else.
+// No other operation waits for the socket, so this cancels only the watch.
 Wire::Watch::~Watch() {
     wire_.watching_.reset();
     boost::system::error_code ignored;
     wire_.socket_.cancel(ignored);
 }
 
-void Wire::look_whether_gone() {
+void Wire::check_for_close() {
     char byte = 0;
     boost::system::error_code error;
     socket_.receive(asio::buffer(&byte, 1), asio::socket_base::message_peek, error);
-    if (error) watching_->gone();
+    if (!error) return;
+    watching_->gone = true;
+    watching_->closed();
 }
 
-// The first probe is sent after a second of silence, then one every second. The connection breaks when the second probe is due
-// and the first has no answer. Sent data must be acknowledged in that time, too.
+// The system sends a probe after each second of silence. The connection breaks when the second probe is due and the first one has
+// no answer, or if sent data is not acknowledged in that time.
 void Wire::probe(bool on) {
     if (!socket_.is_open() || on == probed_) return;
     probed_ = on;
@@ -126,7 +128,7 @@ Task<> Wire::linger(Steady until) {
 void Wire::sweep(Steady now) {
     probe(watching_ && watching_->is_proof(now));
     if (now >= output_due_) {
-        spdlog::warn("a connection was cut: its reader took nothing for {} s",
+        spdlog::warn("a connection was cut: its peer read nothing for {} s",
                      std::chrono::duration<double>(write_timeout_).count());
         telemetry_.cut();
         cut();

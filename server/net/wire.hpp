@@ -1,4 +1,4 @@
-// A connection's socket, with the bytes that were received and not used yet. Belongs to one thread.
+// The socket of a connection, with its unread input. Belongs to one thread.
 #pragma once
 
 #include <functional>
@@ -24,48 +24,63 @@ public:
     // The peer's address and port, for the log.
     std::string peer() const;
 
-    // The bytes that were received and not used yet. Valid until the next receive.
+    // The received bytes that are not used yet. Valid until the next receive. `use` removes bytes at their front.
     std::span<char> received() { return {input_.data() + used_, input_.size() - used_}; }
     std::string_view text() { return {input_.data() + used_, input_.size() - used_}; }
     void use(std::size_t bytes);
 
     enum class Outcome : std::uint8_t { done, closed, late };
 
-    // Waits until there is something to read, and reads it once. `expected` is the number of bytes that the peer will send, if it
-    // is known. Late after `until`, to the precision of sweep().
+    // Waits for input, and reads once. `expected`: the number of bytes that the peer will send, if it is known. Returns `late`
+    // after `until`, when `sweep` is called.
     Task<Outcome> receive(Steady until, std::size_t expected = 0);
-    // Ends a receive that waits: it is late now.
+    // The next `sweep` ends a waiting receive: it returns `late`.
     void stop_waiting() { input_due_ = Steady::min(); }
 
-    // Writes as much as the socket takes without waiting, and returns how many bytes that was. An error shows in the next send.
+    // Writes without waiting. Returns the number of written bytes. After an error, the next send fails.
     std::size_t send_now(std::string_view);
     // Writes everything. The connection is cut if that takes longer than the write timeout.
     Task<Outcome> send(std::string_view);
 
-    // While nothing is received: calls `gone` when the peer closes the connection. If the peer sends something, watching ends.
-    // While `is_proof` returns true, the system probes the peer: without an answer for two seconds it has gone (decision 33).
-    class Watch;
-    Watch watch(std::function<void()> gone, std::function<bool(Steady now)> is_proof);
+    // While nothing else receives: calls `closed` when the peer closes the connection. Watching ends if the peer sends something.
+    // While `is_proof` returns true, the system probes the peer: without an answer for two seconds the connection counts as
+    // closed (decision 33).
+    class Watch {
+    public:
+        explicit Watch(Wire& wire) : wire_{wire} {}
+        ~Watch();
+        Watch(Watch const&) = delete;
+        Watch& operator=(Watch const&) = delete;
+        // Returns whether the peer has closed the connection.
+        bool gone() const { return wire_.watching_->gone; }
 
-    // Whether the peer has not taken everything that was given to send().
+    private:
+        Wire& wire_;
+    };
+    Watch watch(std::function<void()> closed, std::function<bool(Steady now)> is_proof);
+
+    // Returns whether `send` waits for the peer to read.
     bool waits_for_reader() const { return output_due_ != Steady::max(); }
 
-    // Tells the peer that nothing more will be sent.
+    // Closes the sending direction.
     void finish();
-    // Finishes, and discards what the peer still sends, so that it can read our last answer before the connection ends.
+    // Closes the sending direction, and discards input until `until` or until the peer closes. So the peer can read the last
+    // answer.
     Task<> linger(Steady until);
 
-    // Cuts the connection if a write is overdue, and ends an overdue receive. To be called every now and then.
+    // Cuts the connection if a write is overdue, and ends an overdue receive. Call it regularly.
     void sweep(Steady now);
+    // Closes the socket.
     void cut();
 
 private:
     struct Watching {
-        std::function<void()> gone;
+        std::function<void()> closed;
         std::function<bool(Steady now)> is_proof;
+        bool gone = false;
     };
 
-    void look_whether_gone();
+    void check_for_close();
     void probe(bool on);
 
     Socket socket_;
@@ -76,20 +91,8 @@ private:
     Steady input_due_ = Steady::max();
     Steady output_due_ = Steady::max();
     bool input_late_ = false;
-    bool probed_ = false;                 // the system probes the peer now
-    std::shared_ptr<Watching> watching_;  // null: nobody watches
-};
-
-// Watches as long as it lives.
-class Wire::Watch {
-public:
-    explicit Watch(Wire& wire) : wire_{wire} {}
-    ~Watch();
-    Watch(Watch const&) = delete;
-    Watch& operator=(Watch const&) = delete;
-
-private:
-    Wire& wire_;
+    bool probed_ = false;                 // the system probes the peer
+    std::shared_ptr<Watching> watching_;  // null: there is no watch
 };
 
 }  // namespace rois::net

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "types/utf8.hpp"
+#include "types/text_encoding.hpp"
 
 namespace rois {
 

@@ -74,11 +74,12 @@ TEST_F(Conditions, NestFreely) {
 }
 
 TEST_F(Conditions, WithAnUnknownReferenceAreRefusedWithTheKnownOnes) {
-    EXPECT_EQ(reason(equal("colour", "red")),
-              "the condition refers to 'colour', which is not known here; expected one of component_ref, component_type, name, engine, "
-              "status, bound, location, Identifier, RobotId, Property/language, Property/routing_policy, Property/speech_text, "
-              "Property/SSML_text, Property/synthesizable_languages, Property/target_position, Property/time_limit, "
-              "Property/volume");
+    EXPECT_EQ(
+        reason(equal("colour", "red")),
+        "the condition refers to 'colour', which is not known here; expected one of component_ref, component_type, name, engine, "
+        "status, bound, location, Identifier, RobotId, Property/language, Property/routing_policy, Property/speech_text, "
+        "Property/SSML_text, Property/synthesizable_languages, Property/target_position, Property/time_limit, "
+        "Property/volume");
     EXPECT_THAT(reason(equal_reversed("red", "colour")), HasSubstr("'colour'"));
     EXPECT_THAT(reason(either({equal("name", "speech"), both({equal("name", "x"), equal("colour", "red")})})),
                 HasSubstr("'colour'"));

@@ -125,8 +125,9 @@ TEST_F(TwoFrames, TargetsAreReadBackAsTheApplicationWroteThem) {
 TEST_F(TwoFrames, TargetsMustBeInAKnownFrame) {
     auto const started = desk.execute(start("navigation", target("1, 2", "street")));
     EXPECT_EQ(started.return_code, ReturnCode::bad_parameter);
-    EXPECT_EQ(started.reason,
-              "command_unit_list[1]: parameter 'target_position': the frame 'street' is not known here; expected one of hall, map");
+    EXPECT_EQ(
+        started.reason,
+        "command_unit_list[1]: parameter 'target_position': the frame 'street' is not known here; expected one of hall, map");
     auto const set = desk.set_parameter("robot2.navigation", target("1, 2", "street"));
     EXPECT_EQ(set.return_code, ReturnCode::bad_parameter);
     EXPECT_THAT(set.reason, HasSubstr("expected one of hall, map"));

@@ -110,7 +110,8 @@ TEST_F(Lamp, RefusesTheWrongCount) {
 }
 
 TEST_F(Lamp, RefusesUnknownAndDuplicateParameters) {
-    EXPECT_THAT(set(value("colour", "string", {"red"})), HasSubstr("unknown parameter 'colour'; expected one of count, ratio, lit"));
+    EXPECT_THAT(set(value("colour", "string", {"red"})),
+                HasSubstr("unknown parameter 'colour'; expected one of count, ratio, lit"));
     auto const twice = desk.set_parameter("lamp", {integer("count", 1), integer("Count", 2)});
     EXPECT_EQ(twice.return_code, ReturnCode::bad_parameter);
     EXPECT_EQ(twice.reason, "parameter 'Count' is given twice");

@@ -65,10 +65,7 @@ std::vector<Layer> const layers{
      Time::passed_in},
     {"client-cpp/include/rois/psm/", {"RoIS_"}, {}, Time::passed_in},
     {"client-cpp/include/", {"rois/", "types/"}, {}, Time::passed_in},
-    {"client-cpp/source/",
-     {"", "rois/", "types/", "xml/codec/"},
-     {boost, openssl},
-     Time::read},
+    {"client-cpp/source/", {"", "rois/", "types/", "xml/codec/"}, {boost, openssl}, Time::read},
     {"client-cpp/command/",
      {"command/", "rois/", "types/", "xml/codec/codec.hpp", "xml/codec/decoding.hpp", "xml/profiles/document.hpp",
       "xml/codec/encoding.hpp", "xml/codec/names.hpp", "xml/validation/schemas.hpp", "files/"},
@@ -165,10 +162,48 @@ void judge_own(Tree const& tree, std::string const& file, Layer const& layer, In
                                      .append(through));
 }
 
+using Definitions = std::map<std::string, std::vector<Layer const*>>;  // name of a class -> the layers that define one
+
+// Public headers of client-cpp declare the classes of its source.
+bool may_hide_classes(Layer const& layer) { return layer.folder.starts_with("client-cpp/"); }
+
+Definitions definitions(Tree const& tree) {
+    static std::regex const definition(R"re(\b(?:class|struct)\s+(?:\w+::)*(\w+)(?:\s+final)?\s*(?::[^;{]*)?\{)re");
+    Definitions found;
+    for (auto const& [file, text] : tree) {
+        auto const* const layer = layer_of(file);
+        if (!is_cpp(file) || layer == nullptr) continue;
+        auto const code = code_alone(text);
+        for (std::sregex_iterator match{code.begin(), code.end(), definition}, end; match != end; ++match)
+            found[(*match)[1]].push_back(layer);
+    }
+    return found;
+}
+
+// A forward declaration must not name a class of a layer that this layer may not use.
+void judge_declarations(Definitions const& definitions, std::string const& file, std::string const& text, Layer const& layer,
+                        Complaints& complaints) {
+    static std::regex const declaration(R"re(\s*(?:class|struct)\s+(\w+)\s*;.*)re");
+    for_each_line(code_alone(text), [&](std::string const& line, std::size_t number) {
+        std::smatch match;
+        if (line.find(';') == line.npos || !std::regex_match(line, match, declaration)) return;
+        auto const found = definitions.find(match[1]);
+        if (found == definitions.end()) return;
+        auto const may_name = [&](Layer const* other) {
+            auto const name = other->folder.substr(other->folder.find('/') + 1);  // "engine/"
+            return other == &layer || std::ranges::any_of(layer.uses, [&](auto const& used) { return used.starts_with(name); });
+        };
+        if (std::ranges::none_of(found->second, may_name))
+            complaints.push_back(at(file, number) + layer.folder + " may not declare " + match.str(1) + ", which " +
+                                 found->second.front()->folder + " defines");
+    });
+}
+
 }  // namespace
 
 Complaints against_layers(Tree const& tree) {
     Complaints complaints;
+    auto const defined = definitions(tree);
     for (auto const& [file, text] : tree) {
         if (!is_cpp(file) || std::ranges::none_of(layered_folders, [&](auto const& folder) { return file.starts_with(folder); }))
             continue;
@@ -177,6 +212,7 @@ Complaints against_layers(Tree const& tree) {
             complaints.push_back(at(file, 1) + "this folder is in no layer: tests/house/layers.cpp lists them");
             continue;
         }
+        if (!may_hide_classes(*layer)) judge_declarations(defined, file, text, *layer, complaints);
         for (auto const& include : includes(text)) {
             if (include.from == Include::of_the_project) {
                 judge_own(tree, file, *layer, include, complaints);

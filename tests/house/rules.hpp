@@ -16,7 +16,7 @@ using Complaints = std::vector<std::string>;
 Tree read_tree(std::filesystem::path const& root);
 
 // Every #include under server/, components/ and client-cpp/ follows the arrows of ARCHITECTURE.md. Only one layer may see a
-// third-party library, also through the headers of other layers.
+// third-party library, also through the headers of other layers. No forward declaration names a class of an upper layer.
 Complaints against_layers(Tree const&);
 
 // The layers below the network layer do not read a clock, sleep or use random devices: time and chance are passed in.

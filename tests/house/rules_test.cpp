@@ -79,6 +79,24 @@ TEST(Layers, PosesMayShineThrough) {
     EXPECT_THAT(against_layers(tree), IsEmpty());
 }
 
+TEST(Layers, ADeclarationOfAClassThatAnUpperLayerDefinesIsFound) {
+    Tree const tree{
+        {"server/engine/queue.hpp", "#include <memory>\n// struct Reader;\nstruct Audience;\nclass Queue;\nclass Unknown;\n"},
+        {"server/engine/queue.cpp", "class Queue {};\n"},
+        {"server/gateway/readers.cpp", "struct rois::Audience {\n};\nclass Reader final : public Base {\n};\n"},
+        {"server/gateway/gateway.hpp", "class Queue;\nclass Reader;\n"},
+        {"server/net/web.hpp", "class Reader;\n"}};
+    EXPECT_THAT(against_layers(tree), ElementsAre("server/engine/queue.hpp:3: server/engine/ may not declare Audience, which "
+                                                  "server/gateway/ defines"));
+}
+
+TEST(Layers, ADeclarationMayNameAClassOfItsOwnLayerThatAnotherLayerHasToo) {
+    Tree const tree{{"server/engine/queue.hpp", "class Place;\n"},
+                    {"server/engine/queue.cpp", "class Place {};\n"},
+                    {"server/net/admission.hpp", "class Place {};\n"}};
+    EXPECT_THAT(against_layers(tree), IsEmpty());
+}
+
 TEST(Layers, EveryFolderIsInOne) {
     Tree const tree{{"server/gossip/rumour.cpp", ""}, {"client-cpp/client.hpp", ""}, {"tests/engine/engine_test.cpp", ""}};
     EXPECT_THAT(against_layers(tree),

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "gateway/addresses.hpp"
+#include "gateway/admission.hpp"
 #include "gateway/session_quota.hpp"
-#include "net/admission.hpp"
 #include "server/websocket_client.hpp"
 
 namespace rois::test {
@@ -270,7 +270,6 @@ TEST(Limits, AreByAddress) {
 }
 
 TEST(Admission, CountsEachAddressForAsLongAsItsConnectionsLive) {
-    using net::Admission;
     auto const here = read_address("192.0.2.1").value(), there = read_address("192.0.2.2").value();
     Admission admission{4, 2};
     std::list<Admission::Place> places;

@@ -7,7 +7,10 @@
 #include <sstream>
 
 #include "gateway/secrets.hpp"
-#include "net/documents.hpp"
+#include "net/http/documents.hpp"
+#include "net/http/http_answer.hpp"
+#include "net/http/http_head.hpp"
+#include "net/http/routes.hpp"
 #include "server/http_client.hpp"
 
 namespace rois::test {
@@ -119,10 +122,10 @@ TEST(FloorMap, OfAnEngineWithoutOneIsNotFound) {
     Gateway gateway{engine, readers, telemetry};
     net::Documents const documents{gateway, telemetry, schemas, {}};
     auto const answer = documents.answer(net::route_of("/rois/map"), {});
-    EXPECT_EQ(answer.status, 404);
+    EXPECT_EQ(answer.message.result_int(), 404U);
     ASSERT_TRUE(answer.fault);
     EXPECT_EQ(answer.fault->code, FaultCode::not_found);
-    EXPECT_THAT(answer.body, HasSubstr("this engine has no floor map"));
+    EXPECT_THAT(answer.message.body(), HasSubstr("this engine has no floor map"));
 }
 
 TEST(Page, LinksToAllOfItAndShowsTheRealAddress) {

@@ -1,5 +1,5 @@
 // Web pages of other sites, which a browser near the gateway shows: what keeps them out (wire.md: 421, 403).
-#include "net/foreign.hpp"
+#include "gateway/host_names.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -155,13 +155,13 @@ TEST(Origin, OfTheKeyAllowedOriginsMayDoAll) {
     EXPECT_EQ(client.say(post("console.example", "Origin: https://console.example\r\n")).status, 421) << "a page, not a host";
 }
 
-TEST(MachineName, IsThatOfGethostname) { EXPECT_EQ(net::machine_name(), net::host_name(machine())); }
+TEST(MachineName, IsThatOfGethostname) { EXPECT_EQ(machine_name(), host_name(machine())); }
 
 TEST(HostName, IsInLowerCaseWithoutADotAtItsEnd) {
-    EXPECT_EQ(net::host_name("Robots.Example."), "robots.example");
-    EXPECT_EQ(net::host_name("my_gateway-2"), "my_gateway-2");
+    EXPECT_EQ(host_name("Robots.Example."), "robots.example");
+    EXPECT_EQ(host_name("my_gateway-2"), "my_gateway-2");
     for (auto const* wrong : {"", ".", "a..b", ".a", "a..", "a:80", "http://a", "*.example", "a b", "[::1]", "\xC3\xA9"})
-        EXPECT_EQ(net::host_name(wrong), std::nullopt) << wrong;
+        EXPECT_EQ(host_name(wrong), std::nullopt) << wrong;
 }
 
 }  // namespace

@@ -383,8 +383,7 @@ TEST(ProfilesOfUsersSay, InTheLogWhatComesOfThem) {
     GatewayProcess gateway{{"--profiles", folder.name()}};
     gateway.signal(SIGTERM);
     auto const log = gateway.wait().error;
-    for (auto const* line :
-         {"a.xml: urn:test::Idle has no adapter, so no component is made", "d.xml: adds the component lamp\n"})
+    for (auto const* line : {"a.xml: urn:test::Idle has no adapter, so no component is made", "d.xml: adds the component lamp\n"})
         EXPECT_THAT(log, HasSubstr(line));
 }
 

@@ -55,7 +55,8 @@ asio::awaitable<void> write_all(std::shared_ptr<Socket> socket, std::shared_ptr<
             co_await socket->async_write(asio::buffer(out), into(failure));
         } else if (writing->session && !writing->is_current()) {
             co_await socket->async_close(
-                websocket::close_reason{websocket::close_code::policy_error, "another WebSocket has taken over the session"}, into(failure));
+                websocket::close_reason{websocket::close_code::policy_error, "another WebSocket has taken over the session"},
+                into(failure));
             co_return;
         } else if (writing->session && !writing->session->ended()) {
             asio::steady_timer timer{host.io(), asio::steady_timer::time_point::max()};

@@ -1,6 +1,5 @@
 // Speech recognition with W3C SRGS (Annex C.1): reports speech near the robot that matches a grammar, with alternatives.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "simulation/speech/languages.hpp"
 #include "simulation/speech/srgs_grammar.hpp"
 #include "simulation/world/wire_units.hpp"
+#include "types/text_encoding.hpp"
 #include "types/texts.hpp"
 
 namespace rois::simulation {
@@ -50,13 +50,6 @@ std::string lattice_text(std::vector<SrgsGrammar::Hypothesis> const& hypotheses,
     return lines;
 }
 
-std::optional<unsigned> hex_digits(std::string_view two) {
-    unsigned byte = 0;
-    auto const [end, problem] = std::from_chars(two.data(), two.data() + two.size(), byte, 16);
-    if (two.size() != 2 || problem != std::errc{} || end != two.data() + two.size()) return {};
-    return byte;
-}
-
 // Returns the document of the parameter: its text, or the content of a data URI (RFC 2397). Nothing for other URIs.
 std::optional<std::string> document_of(std::string_view grammar) {
     grammar = trimmed(grammar);
@@ -64,18 +57,7 @@ std::optional<std::string> document_of(std::string_view grammar) {
     auto const comma = grammar.find(',');
     if (!equal_ignoring_case(grammar.substr(0, 5), "data:") || comma == grammar.npos) return {};
     if (grammar.substr(0, comma).ends_with(";base64")) return {};
-    std::string document;
-    for (std::size_t i = comma + 1; i < grammar.size(); ++i) {
-        if (grammar[i] != '%') {
-            document += grammar[i];
-            continue;
-        }
-        auto const byte = hex_digits(grammar.substr(i + 1, 2));
-        if (!byte) return {};
-        document += static_cast<char>(*byte);
-        i += 2;
-    }
-    return document;
+    return percent_decoded(grammar.substr(comma + 1));
 }
 
 Parameter typed(std::string name, std::string type, std::string value) {

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "types/text_encoding.hpp"
 #include "types/texts.hpp"
-#include "types/utf8.hpp"
 
 namespace rois::simulation {
 namespace {

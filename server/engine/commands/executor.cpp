@@ -202,10 +202,8 @@ void Executor::run_stop(SharedCommand const& command, Instant now) {
 void Executor::run_suspend(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
     if (!component.works())
-        return end(
-            command, CompletedStatus::error,
-            component.suspended == Suspended::all ? "the component is suspended already" : "nothing is running",
-            now);
+        return end(command, CompletedStatus::error,
+                   component.suspended == Suspended::all ? "the component is suspended already" : "nothing is running", now);
     auto const called = component.call([&](Component& c) { c.suspend(now); });
     if (called == Called::ok) component.suspended = Suspended::all;
     end(command, called, now);
@@ -213,8 +211,7 @@ void Executor::run_suspend(SharedCommand const& command, Instant now) {
 
 void Executor::run_resume(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
-    if (component.suspended == Suspended::nothing)
-        return end(command, CompletedStatus::error, "nothing is suspended", now);
+    if (component.suspended == Suspended::nothing) return end(command, CompletedStatus::error, "nothing is suspended", now);
     auto const called = component.call([&](Component& c) { c.resume(now); });
     if (called == Called::ok)
         component.suspended = Suspended::nothing;

@@ -51,7 +51,8 @@ std::optional<std::string> problem_of(ParameterList const& list, std::vector<Par
     for (std::size_t i = 0; i < list.size(); ++i) {
         auto const& parameter = list[i];
         auto const place = place_of(profiles, parameter.name, i);
-        if (place == profiles.size()) return "unknown parameter " + quoted(parameter.name) + "; expected one of " + names_of(profiles);
+        if (place == profiles.size())
+            return "unknown parameter " + quoted(parameter.name) + "; expected one of " + names_of(profiles);
         if (seen[place]) return "parameter " + quoted(parameter.name) + " is given twice";
         seen[place] = true;
         if (auto problem = why_not(profiles[place], type_at(place), parameter)) return problem;

@@ -154,7 +154,8 @@ std::optional<SpatialOperand> FilterCompiler::spatial_operand(Expression const& 
     if (auto read = point(text, places.frames.own())) return std::move(*read);
     if (point(with_commas(text), {}))
         return refuse("the condition has the position " + quoted(text) + ", which has no commas; write 'x, y' or 'x, y, th'");
-    return refuse("the condition has the place " + quoted(text) + ", which is not known here; expected one of " + names_of(places));
+    return refuse("the condition has the place " + quoted(text) + ", which is not known here; expected one of " +
+                  names_of(places));
 }
 
 std::optional<Distance> FilterCompiler::distance(Function const& function) {

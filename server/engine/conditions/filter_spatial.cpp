@@ -104,7 +104,8 @@ PredicatePtr FilterCompiler::operator()(SpatialComparison const& comparison) {
 PredicatePtr FilterCompiler::operator()(DistanceComparison const& comparison) {
     auto const unit = millimetres_in(comparison.uom);
     if (!unit) {
-        refuse("the condition has the unit " + quoted(comparison.uom) + ", which is not known here; expected one of mm, cm, m, km");
+        refuse("the condition has the unit " + quoted(comparison.uom) +
+               ", which is not known here; expected one of mm, cm, m, km");
         return nullptr;
     }
     if (!(comparison.distance >= 0)) {

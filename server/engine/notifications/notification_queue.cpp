@@ -25,8 +25,8 @@ NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotifi
     std::lock_guard const lock{mutex_};
     if (waiting_ >= max_waiting_ && !make_room()) overflowed_ = true;
     if (overflowed_ && std::holds_alternative<ReceiveEvent>(notification->body)) return Pushed::overflow;
-    if (recent_count_ == recent_.size()) settle_recent();
-    recent_[recent_count_++] = {++last_sequence_, std::move(notification)};
+    entries_.push_back({last_sequence_ + 1, std::move(notification)});
+    ++last_sequence_;
     ++waiting_;
     return overflowed_ ? Pushed::overflow : Pushed::ok;
 }
@@ -34,7 +34,6 @@ NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotifi
 // Replaces the oldest waiting event by a `Lost`, merged with a `Lost` right before it. Returns false if there is no waiting
 // event.
 bool NotificationQueue::make_room() {
-    settle_recent();
     auto const first_waiting = entries_.begin() + static_cast<std::ptrdiff_t>(sent_);
     auto const event = std::find_if(first_waiting, entries_.end(), [](Numbered const& entry) {
         return std::holds_alternative<ReceiveEvent>(entry.notification->body);
@@ -56,7 +55,6 @@ bool NotificationQueue::make_room() {
 void NotificationQueue::keep_last(std::size_t events) {
     std::lock_guard const lock{mutex_};
     auto const is_event = [](Numbered const& entry) { return std::holds_alternative<ReceiveEvent>(entry.notification->body); };
-    settle_recent();
     std::vector<Numbered> kept;
     kept.reserve(entries_.size() - sent_);
     std::size_t dropped = 0;
@@ -91,8 +89,6 @@ std::vector<Numbered> NotificationQueue::read(std::uint64_t after, std::size_t m
 
 NotificationQueue::Next NotificationQueue::read(std::uint64_t after, std::size_t most, std::vector<Numbered>& into) {
     std::lock_guard const lock{mutex_};
-    if (is_recent(after) && max_sent_ >= recent_.size()) return read_recent(after, most, into);
-    settle_recent();
     auto const until = visible_until();
     auto entry = first_after(after);
     auto const begin = into.size();
@@ -109,29 +105,10 @@ NotificationQueue::Next NotificationQueue::read(std::uint64_t after, std::size_t
     return after_locked(into.back().sequence);
 }
 
-// The common case: the reader continues where it stopped, and all entries after that are recent.
-NotificationQueue::Next NotificationQueue::read_recent(std::uint64_t after, std::size_t most, std::vector<Numbered>& into) {
-    auto const until = visible_until();
-    auto last = after;
-    for (; most > 0 && last < until; --most) into.push_back(recent_[++last - recent_.front().sequence]);
-    if (last > after) mark_sent(last);
-    return after_locked(last);
-}
-
-// Moves all recent entries or none: only the growth of entries_ can throw.
-void NotificationQueue::settle_recent() {
-    if (entries_.capacity() < entries_.size() + recent_count_)
-        entries_.reserve(std::max(2 * entries_.size(), entries_.size() + recent_count_));
-    for (std::size_t i = 0; i < recent_count_; ++i) entries_.push_back(std::move(recent_[i]));
-    recent_count_ = 0;
-    forget();
-}
-
 // Most readers continue where the last read stopped: at the first waiting entry.
 std::vector<Numbered>::const_iterator NotificationQueue::first_after(std::uint64_t sequence) const {
-    auto const sent = std::min(sent_, entries_.size());
-    bool const knows_sent = sent == 0 || entries_[sent - 1].sequence <= sequence;
-    auto const begin = entries_.begin() + static_cast<std::ptrdiff_t>(knows_sent ? sent : forgotten_);
+    bool const knows_sent = sent_ == 0 || entries_[sent_ - 1].sequence <= sequence;
+    auto const begin = entries_.begin() + static_cast<std::ptrdiff_t>(knows_sent ? sent_ : forgotten_);
     return std::upper_bound(begin, entries_.end(), sequence,
                             [](std::uint64_t s, Numbered const& entry) { return s < entry.sequence; });
 }
@@ -141,17 +118,9 @@ NotificationQueue::Next NotificationQueue::next(std::uint64_t after) const {
     return after_locked(after);
 }
 
-// The sequence of the first entry after this one; 0 if there is none.
-std::uint64_t NotificationQueue::sequence_after(std::uint64_t sequence) const {
-    if (is_recent(sequence)) return sequence < last_sequence_ ? sequence + 1 : 0;
-    auto const entry = first_after(sequence);
-    if (entry != entries_.end()) return entry->sequence;
-    return recent_count_ > 0 ? recent_.front().sequence : 0;
-}
-
 NotificationQueue::Next NotificationQueue::after_locked(std::uint64_t sequence) const {
-    auto const follows = sequence_after(sequence);
-    if (follows != 0 && follows <= visible_until()) return Next::more;
+    auto const entry = first_after(sequence);
+    if (entry != entries_.end() && entry->sequence <= visible_until()) return Next::more;
     if (!shows_closed()) return Next::wait;
     return overflowed_ ? Next::overflowed : Next::ended;
 }
@@ -182,16 +151,11 @@ bool NotificationQueue::closed() const {
     return shows_closed();
 }
 
-Numbered const& NotificationQueue::at(std::size_t place) const {
-    return place < entries_.size() ? entries_[place] : recent_[place - entries_.size()];
-}
-
 void NotificationQueue::mark_sent(std::uint64_t until) {
-    for (; sent_ < entries_.size() + recent_count_ && at(sent_).sequence <= until; ++sent_)
-        if (as_lost(at(sent_)) == nullptr) --waiting_;
+    for (; sent_ < entries_.size() && entries_[sent_].sequence <= until; ++sent_)
+        if (as_lost(entries_[sent_]) == nullptr) --waiting_;
 }
 
-// All entries must be in entries_.
 void NotificationQueue::forget() {
     for (; sent_ - forgotten_ > max_sent_; ++forgotten_) entries_[forgotten_].notification.reset();
     if (forgotten_ * 2 <= entries_.size()) return;

@@ -1,7 +1,6 @@
 // The notifications of one session: numbered, bounded, and readable again for a while (decisions 22, 23).
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -39,9 +38,6 @@ struct Numbered {
     std::uint64_t sequence = 0;
     std::shared_ptr<OutgoingNotification const> notification;
 };
-
-// The readers of a session's notifications; defined by the network layer.
-struct Audience;
 
 // Holds a session's notifications: those that are waiting (never read), and those that were sent (read once), for reading again.
 // Any number of readers, each with its own position. Reading marks notifications as sent.
@@ -102,37 +98,27 @@ public:
     void want_signs_of_life(Steady until) { signs_of_life_until_.store(until, std::memory_order_relaxed); }
     bool wants_signs_of_life(Steady now) const { return now < signs_of_life_until_.load(std::memory_order_relaxed); }
 
-    // For the outbox, which finds the readers here without a search. Needs the engine's lock.
-    std::shared_ptr<Audience> const& audience() const { return audience_; }
-    void set_audience(std::shared_ptr<Audience> audience) { audience_ = std::move(audience); }
+    // A slot for the outbox, which finds the session's readers here without a search. Needs the engine's lock.
+    std::shared_ptr<void> const& attachment() const { return attachment_; }
+    void attach(std::shared_ptr<void> attachment) { attachment_ = std::move(attachment); }
 
 private:
     std::uint64_t visible_until() const { return holds_.empty() ? last_sequence_ : holds_.front(); }
     bool make_room();
     bool shows_closed() const { return closed_ && holds_.empty(); }
-    bool is_recent(std::uint64_t after) const { return recent_count_ > 0 && after + 1 >= recent_.front().sequence; }
-    Next read_recent(std::uint64_t after, std::size_t most, std::vector<Numbered>& into);
-    void settle_recent();
     std::vector<Numbered>::const_iterator first_after(std::uint64_t sequence) const;
-    std::uint64_t sequence_after(std::uint64_t sequence) const;
     Next after_locked(std::uint64_t sequence) const;
-    Numbered const& at(std::size_t place) const;
     void mark_sent(std::uint64_t until);
     void forget();
 
-    // The members are in the order of use: with many sessions, each queue is a cache miss.
-    std::shared_ptr<Audience> audience_;
+    std::shared_ptr<void> attachment_;
     // Guards the members below. last_sequence_, lost_ and overflowed_ change only under the engine's lock as well, so its holder
     // may read them without this mutex.
     mutable std::mutex mutex_;
-    // Ordered by sequence: forgotten entries, then sent ones, then waiting ones. A `Lost` counts for several. The newest entries
-    // are in recent_, which has no `Lost` and no gaps; when it is full, they move to entries_. So a session with few
-    // notifications allocates no memory.
+    // Ordered by sequence: forgotten entries, then sent ones, then waiting ones. A `Lost` counts for several.
     std::vector<Numbered> entries_;
-    std::size_t forgotten_ = 0;  // forgotten entries that are still in entries_
-    std::size_t sent_ = 0;       // entries that were forgotten or sent, in both stores
-    std::size_t recent_count_ = 0;
-    std::array<Numbered, 8> recent_;
+    std::size_t forgotten_ = 0;        // forgotten entries that are still in entries_
+    std::size_t sent_ = 0;             // entries that were forgotten or sent
     std::size_t waiting_ = 0;          // waiting entries, without `Lost`
     std::uint64_t last_sequence_ = 0;  // of the newest entry
     std::uint64_t lost_ = 0;

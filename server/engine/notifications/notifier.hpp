@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "engine/engine.hpp"
-#include "engine/notifications/prefetch.hpp"
 #include "engine/session.hpp"
 
 namespace rois {
@@ -35,10 +34,6 @@ public:
         lost_ += queue.lost() - lost;
         outbox_.notify(queue);
     }
-
-    // Prefetches the memory that `notify` needs, in two steps: what the queue points to, then the readers behind that.
-    static void prefetch_audience(NotificationQueue const& queue) { prefetch(queue.audience().get()); }
-    void prefetch_readers(NotificationQueue const& queue) const { outbox_.approach(queue); }
 
     // Drops the session's sent notifications, and the oldest waiting events until `events` are left.
     void keep_last(Session& session, std::size_t events) {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "types/utf8.hpp"
+#include "types/text_encoding.hpp"
 
 namespace rois::xml {
 

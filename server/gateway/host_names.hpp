@@ -1,0 +1,30 @@
+// Names of hosts and origins of web pages, to reject the requests of other sites' pages. A browser on this machine or in its
+// network may show such a page. The page can send requests under a name of its own site that points to this machine (DNS
+// rebinding), or across sites with scripts, forms, frames and WebSockets. Any thread.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rois {
+
+// Returns this machine's name from gethostname, in lower case. Returns nothing if it is not a valid host name.
+std::optional<std::string> machine_name();
+
+// Returns the name in the form that `is_own_host` compares: in lower case, without a dot at its end. Returns nothing if it is not
+// a valid host name.
+std::optional<std::string> host_name(std::string_view);
+
+// Returns whether a request may be for this host, with or without a port: localhost, an IP address, or one of `names`, which are
+// results of `host_name`. No other site has these names.
+bool is_own_host(std::string_view authority, std::vector<std::string> const& names);
+
+// Returns the authority, for use in texts. Returns "localhost" if it is empty or has unusual characters.
+std::string_view harmless_host(std::string_view authority);
+
+// Returns whether pages of this origin may send requests to `authority`: pages of that host, and the origins in `allowed`.
+bool is_allowed_origin(std::string_view origin, std::string_view authority, std::vector<std::string> const& allowed);
+
+}  // namespace rois

@@ -1,0 +1,317 @@
+#include "net/http/connection.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <boost/asio/post.hpp>
+#include <utility>
+
+#include "net/http/event_stream.hpp"
+#include "net/websocket/upgrade.hpp"
+#include "types/identifier_length.hpp"
+
+namespace rois::net {
+
+namespace {
+
+constexpr unsigned most_in_a_row = 4;              // pipelined requests before other connections have their turn
+constexpr std::size_t most_to_gather = 64 * 1024;  // bytes of answers to pipelined requests
+constexpr std::size_t most_to_keep = 16 * 1024;    // bytes of memory that an empty buffer of answers may keep
+constexpr auto longest_linger = std::chrono::seconds{2};
+constexpr auto longest_wait_without_memory = std::chrono::milliseconds{100};  // for a request while the system has no memory
+
+Steady now() { return std::chrono::steady_clock::now(); }
+
+Fault too_slow() { return {FaultCode::too_slow, "the request did not arrive in time", {}, {}}; }
+
+}  // namespace
+
+Connection::Connection(Loop& loop, Socket socket, Admission::Place place)
+    : loop_{loop},
+      place_{std::move(place)},
+      opener_{std::make_shared<Opener>(place_.address(), place_.limits(), 0U)},
+      wire_{std::move(socket), loop.shared().settings.write_timeout, loop.shared().telemetry},
+      counted_{std::in_place, loop.shared().telemetry, Telemetry::Kind::http} {
+    loop.add(*this);
+    loop.shared().telemetry.accepted();
+}
+
+Connection::~Connection() { loop_.remove(*this); }
+
+Task<> Connection::run() {
+    auto then = Then::end;
+    if (!loop_.draining()) then = co_await serve();
+    if (then == Then::websocket) co_await serve_websocket();
+    if (then == Then::linger) {
+        co_await flush();
+        co_await wire_.linger(now() + longest_linger);
+    }
+    wire_.cut();
+}
+
+void Connection::sweep(Steady at) {
+    wire_.sweep(at);
+    auto const websocket = websocket_.lock();
+    if (websocket) websocket->sweep(at);
+    auto const& memory = loop_.shared().gateway.memory();
+    if (!memory.tight()) return;
+    bool const arriving = websocket || request_due_ != Steady::max();
+    auto const unfinished = arriving ? wire_.received().size() + (websocket ? websocket->gathered() : 0) : 0;
+    bool const unread = memory.full() && wire_.waits_for_reader();
+    bool const only_waits = memory.exhausted() && waits_since(at - longest_wait_without_memory);
+    if (unread || only_waits || unfinished > memory.longest_document()) cut_for_memory();
+}
+
+// Returns whether the connection has been waiting for a request, or for the rest of one, since that time.
+bool Connection::waits_since(Steady then) const {
+    auto const& settings = loop_.shared().settings;
+    bool const idle = idle_due_ != Steady::max() && idle_due_ - settings.idle_timeout <= then;
+    return idle || (request_due_ != Steady::max() && request_due_ - settings.request_timeout <= then);
+}
+
+void Connection::shut_down() {
+    if (auto const websocket = websocket_.lock()) websocket->shut_down();
+    if (idle_) wire_.stop_waiting();
+}
+
+Task<Connection::Then> Connection::serve() {
+    auto then = Then::next;
+    unsigned in_a_row = 0;
+    while (then == Then::next) {
+        then = take_request();
+        if (then == Then::receive) {
+            in_a_row = 0;
+            then = co_await receive();
+            continue;
+        }
+        request_due_ = idle_due_ = Steady::max();
+        bool const whole = std::exchange(has_head_, false);
+        bool const is_request = head_.message.method() == http::verb::post && route_.endpoint == Endpoint::rois;
+        if (whole && !is_request) then = co_await serve_other();
+        if (whole && is_request) {
+            auto answer = co_await operate();
+            wire_.use(head_.content_length);
+            if (answer.turn == Answer::Turn::disconnected) {
+                co_await flush();
+                co_await others_heard(loop_.shared().gateway, session_, loop_.executor(), loop_.wakes());
+            }
+            then = reply(std::move(answer));
+        }
+        if (out_.size() > most_to_gather || holds_.size() >= loop_.shared().settings.max_requests_in_flight) co_await flush();
+        ++in_a_row;
+        if (in_a_row % most_in_a_row == 0) co_await asio::post(loop_.executor(), asio::use_awaitable_t<Executor>{});
+    }
+    co_return then;
+}
+
+// Reads from the received bytes. Returns `next` if a request is complete or was refused, and `receive` if bytes are missing.
+Connection::Then Connection::take_request() {
+    if (!has_head_) {
+        auto const then = take_head();
+        if (then != Then::next) return then;
+        auto const judged = judge_head();
+        if (!has_head_) return judged;
+        if (wire_.received().size() < head_.content_length && !head_.is_http_1_0() && head_.lists("Expect", "100-continue"))
+            out_.append("HTTP/1.1 100 Continue\r\n\r\n");
+    }
+    if (wire_.received().size() >= head_.content_length) return Then::next;
+    auto& memory = loop_.shared().gateway.memory();
+    if (head_.content_length <= memory.longest_document()) return Then::receive;
+    auto const refused = refuse(no_memory_for_document(memory));
+    has_head_ = false;
+    return refused;
+}
+
+Connection::Then Connection::take_head() {
+    auto const& settings = loop_.shared().settings;
+    while (wire_.text().starts_with("\r\n")) {  // RFC 9112, 2.2
+        wire_.use(2);
+        searched_ = 0;
+    }
+    auto const size = find_head(wire_.text(), searched_);
+    if (size == 0 && wire_.received().size() <= settings.max_header) return Then::receive;
+    if (size == 0 || size > settings.max_header) return refuse(overlong_head(wire_.text(), settings));
+    searched_ = 0;
+    if (auto const fault = read_head(wire_.text().substr(0, size), settings, head_)) return refuse(*fault);
+    wire_.use(size);
+    constexpr auto enough = longest_identifier + 1;  // an id that is longer is unknown, also when it is cut
+    session_.text.assign(head_.field("RoIS-Session").value_or("").substr(0, enough));
+    return Then::next;
+}
+
+// Answers a request that its head alone makes invalid. Otherwise sets `has_head_`.
+Connection::Then Connection::judge_head() {
+    route_ = route_of(head_.path);
+    auto const refused = refusal(head_, route_, loop_.shared().settings);
+    has_head_ = !refused;
+    if (!refused) return Then::next;
+    if (head_.content_length > wire_.received().size()) return reply(*refused, Framed::last);
+    wire_.use(head_.content_length);
+    return reply(*refused);
+}
+
+// Sends the waiting answers, then waits for input. Returns `next` if there is some.
+Task<Connection::Then> Connection::receive() {
+    auto const& settings = loop_.shared().settings;
+    if (!flush_at_once()) co_await flush();
+    idle_ = !has_head_ && wire_.received().empty();
+    if (idle_ && loop_.draining()) co_return Then::end;
+    if (idle_) request_due_ = Steady::max();
+    if (idle_) head_ = {};
+    if (!idle_ && request_due_ == Steady::max()) request_due_ = now() + settings.request_timeout;
+    auto const expected = has_head_ ? head_.content_length - wire_.received().size() : 0;
+    if (idle_ && idle_due_ == Steady::max()) idle_due_ = now() + settings.idle_timeout;
+    auto const until = idle_ ? idle_due_ : request_due_;
+    auto const before = wire_.received().size();
+    auto const outcome = co_await wire_.receive(until, expected);
+    if (has_head_) loop_.shared().gateway.memory().took(wire_.received().size() - before);
+    bool const silent = std::exchange(idle_, false);
+    if (outcome == Wire::Outcome::closed || (outcome == Wire::Outcome::late && silent)) co_return Then::end;
+    if (outcome == Wire::Outcome::late) co_return refuse(too_slow());
+    co_return Then::next;
+}
+
+// Performs the operation of the current request.
+Task<Answer> Connection::operate() {
+    auto& shared = loop_.shared();
+    auto const body = wire_.text().substr(0, head_.content_length);
+    if (!LongDocuments::is_long(body.size())) co_return shared.gateway.answer(loop_.reader(), session_, body, Via::http, opener_);
+    co_await flush();  // answers to earlier requests do not wait for this one
+    co_return co_await shared.long_documents.answer(shared.gateway, session_, body, Via::http, opener_, loop_.wakes());
+}
+
+Connection::Then Connection::reply(Answer&& answer) {
+    HttpAnswer http{std::move(answer.document)};
+    if (answer.fault) {
+        http.message.result(static_cast<unsigned>(http_status_of(answer.fault->code)));
+        if (answer.fault->code == FaultCode::too_many) http.set(http::field::retry_after, "1");
+        log(*answer.fault, request_line());
+    }
+    if (answer.turn == Answer::Turn::connected) http.set("RoIS-Session", answer.session.text);
+    if (answer.session_number != 0) {
+        http.set("RoIS-Session-Number", std::to_string(answer.session_number));
+        log_joined(answer.session_number, "opened over HTTP", wire_.peer());
+    }
+    holds_.push_back(std::move(answer.hold));
+    return reply(http);
+}
+
+// Serves a request that is not an operation.
+Task<Connection::Then> Connection::serve_other() {
+    auto& shared = loop_.shared();
+    wire_.use(head_.content_length);
+    if (route_.endpoint == Endpoint::rois) co_return serve_upgrade();
+    // Decision 34. Stops first: the log and the answer need memory.
+    if (route_.endpoint == Endpoint::stop) {
+        auto const state = shared.gateway.stop_everything();
+        spdlog::warn("everything is stopped, as asked by {}", wire_.peer());
+        co_return reply(HttpAnswer{xml::encode(state)});
+    }
+    if (route_.endpoint == Endpoint::clear) {
+        auto const state = shared.gateway.clear();
+        spdlog::warn("commands may start again, as asked by {}", wire_.peer());
+        co_return reply(HttpAnswer{xml::encode(state)});
+    }
+    if (route_.endpoint == Endpoint::notifications) co_return co_await serve_notifications();
+    co_return reply(shared.documents.answer(route_, head_));
+}
+
+Connection::Then Connection::serve_upgrade() {
+    auto const& shared = loop_.shared();
+    if (shared.gateway.shutting_down()) return reply(answer_of(shutting_down()));
+    auto const answer = upgrade(head_);
+    if (answer.message.result() != http::status::switching_protocols) return reply(answer);
+    append(out_, answer, {});
+    return Then::websocket;
+}
+
+// Frees the memory of the request first: there may be many thousand idle WebSockets.
+Task<> Connection::serve_websocket() {
+    co_await flush();
+    head_ = {};
+    std::string{}.swap(out_);
+    counted_.emplace(loop_.shared().telemetry, Telemetry::Kind::websocket);
+    auto const websocket = std::make_shared<WebSocket>(std::shared_ptr<Wire>{shared_from_this(), &wire_}, loop_, opener_);
+    websocket_ = websocket;
+    if (loop_.draining()) websocket->shut_down();
+    co_await websocket->run();
+}
+
+Task<Connection::Then> Connection::serve_notifications() {
+    auto const& shared = loop_.shared();
+    auto const read = read_wanted(head_);
+    if (auto const* fault = std::get_if<Fault>(&read)) co_return reply(answer_of(*fault));
+    if (shared.gateway.shutting_down()) co_return reply(answer_of(shutting_down()));
+    auto wanted = std::get<NotificationsWanted>(read);
+    co_await flush();
+    if (wanted.as == NotificationsWanted::As::stream && head_.message.method() == http::verb::get) {
+        counted_.emplace(shared.telemetry, Telemetry::Kind::stream);
+        auto const refused = co_await stream(wire_, loop_, session_, wanted);
+        if (!refused) co_return Then::linger;
+        counted_.emplace(shared.telemetry, Telemetry::Kind::http);
+        co_return reply(*refused);
+    }
+    auto const answer = co_await poll(wire_, loop_, session_, wanted);
+    co_return reply(answer);
+}
+
+Connection::Then Connection::reply(HttpAnswer const& answer, Framed framed) {
+    if (answer.fault) {
+        loop_.shared().telemetry.faulted(answer.fault->code);
+        log(*answer.fault, request_line());
+    }
+    bool const close = framed == Framed::last || !head_.keep_alive() || loop_.draining();
+    auto const body = head_.message.method() == http::verb::head ? Framing::Body::omitted : Framing::Body::sent;
+    append(out_, answer, {body, close});
+    return close ? Then::linger : Then::next;
+}
+
+// Answers a request whose end is unknown, and ends the connection. If no head was accepted, its bytes are still in the input, and
+// `head_` is not valid.
+Connection::Then Connection::refuse(Fault const& fault) {
+    loop_.shared().telemetry.faulted(fault.code);
+    log(fault, has_head_ ? request_line() : wire_.text().substr(0, wire_.text().find_first_of("\r\n")));
+    bool const asks_for_head = has_head_ ? head_.message.method() == http::verb::head : wire_.text().starts_with("HEAD ");
+    auto answer = answer_of(fault);
+    if (fault.code == FaultCode::too_many) answer.set(http::field::retry_after, "1");
+    append(out_, answer, {asks_for_head ? Framing::Body::omitted : Framing::Body::sent, true});
+    return Then::linger;
+}
+
+void Connection::log(Fault const& fault, std::string_view request) {
+    if (is_logged(fault.code)) log_fault(fault, request, wire_.peer());
+}
+
+// Returns the method and the path of the current request, without its query.
+std::string Connection::request_line() const { return std::string{head_.method()}.append(" ").append(head_.path); }
+
+bool Connection::flush_at_once() {
+    out_.erase(0, wire_.send_now(out_));
+    if (!out_.empty()) return false;
+    forget_out();
+    return true;
+}
+
+// Waits until the peer has taken all answers. Cuts the connection instead while memory_budget is used up.
+Task<> Connection::flush() {
+    if (flush_at_once()) co_return;
+    auto& memory = loop_.shared().gateway.memory();
+    memory.took(out_.size());
+    if (memory.full()) cut_for_memory();
+    co_await wire_.send(out_);
+    out_.clear();
+    forget_out();
+}
+
+void Connection::forget_out() {
+    if (out_.capacity() > most_to_keep) std::string{}.swap(out_);
+    holds_.clear();
+}
+
+void Connection::cut_for_memory() {
+    spdlog::warn("the connection of {} was cut: {}", wire_.peer(),
+                 loop_.shared().gateway.memory().refuse("there is no memory for a connection that waits"));
+    loop_.shared().telemetry.cut();
+    wire_.cut();
+}
+
+}  // namespace rois::net

@@ -1,0 +1,83 @@
+// One HTTP connection: receives requests and answers them in order. It may become a WebSocket or an event stream.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/gateway.hpp"
+#include "net/http/http_answer.hpp"
+#include "net/http/http_head.hpp"
+#include "net/http/routes.hpp"
+#include "net/loop.hpp"
+#include "net/websocket/websocket.hpp"
+#include "net/wire.hpp"
+
+namespace rois::net {
+
+// Always held by a shared_ptr. Belongs to the thread of its loop, except for the constructor. The loop must outlive it.
+class Connection : public std::enable_shared_from_this<Connection> {
+public:
+    Connection(Loop&, Socket, Admission::Place);
+    ~Connection();
+
+    // Runs until the connection ends.
+    Task<> run();
+
+    void sweep(Steady now);
+    void shut_down();
+    void cut() { wire_.cut(); }
+
+private:
+    friend class Loop;
+
+    // The next step of the connection. `receive`: the request is incomplete. `linger`: close after the last answer.
+    enum class Then : std::uint8_t { next, receive, websocket, linger, end };
+
+    Task<Then> serve();
+    Then take_request();
+    Task<Answer> operate();
+    Then take_head();
+    Then judge_head();
+    Task<Then> receive();
+    Then reply(Answer&&);
+    Task<Then> serve_other();
+    Then serve_upgrade();
+    Task<> serve_websocket();
+    Task<Then> serve_notifications();
+
+    // These functions queue the answer, and `flush` sends it. `last`: the connection ends behind it.
+    enum class Framed : std::uint8_t { as_asked, last };
+    Then reply(HttpAnswer const&, Framed = Framed::as_asked);
+    Then refuse(Fault const&);
+    void log(Fault const&, std::string_view request);
+    std::string request_line() const;
+    // Returns false if the socket takes only a part at once. Then `flush` sends the rest.
+    bool flush_at_once();
+    void forget_out();
+    bool waits_since(Steady) const;
+    void cut_for_memory();
+    Task<> flush();
+
+    Loop& loop_;
+    std::size_t seat_ = 0;  // index among the loop's connections; only the loop uses it
+    Admission::Place place_;
+    std::shared_ptr<Opener> opener_;
+    Wire wire_;
+    std::optional<Telemetry::Counted> counted_;
+    // The current request:
+    std::size_t searched_ = 0;  // number of received bytes in which no head ends
+    bool has_head_ = false;     // `head_`, `route_` and `session_` are those of the current request
+    RequestHead head_;
+    Route route_;
+    SessionId session_;  // that the request names; empty if it names none
+    Steady request_due_ = Steady::max();
+    Steady idle_due_ = Steady::max();  // when the next request must have begun; empty lines do not begin one
+    bool idle_ = false;                // no byte of the next request has arrived
+    std::string out_;                  // answers for the next write
+    std::vector<Hold> holds_;          // keep notifications behind these answers
+    std::weak_ptr<WebSocket> websocket_;
+};
+
+}  // namespace rois::net

@@ -1,0 +1,134 @@
+#include "net/http/documents.hpp"
+
+#include <algorithm>
+
+#include "gateway/pages.hpp"
+#include "gateway/secrets.hpp"
+#include "net/http/http_answer.hpp"
+#include "net/http/http_head.hpp"
+#include "net/http/routes.hpp"
+
+namespace rois::net {
+
+namespace {
+
+constexpr std::chrono::milliseconds longest_tick{500};  // since the last tick of a healthy engine
+
+// A document that clients may cache if they ask each time whether it has changed.
+HttpAnswer versioned(std::string_view content_type, std::string body, RequestHead const& head) {
+    auto const etag = '"' + digest(body) + '"';
+    HttpAnswer answer{std::move(body), content_type};
+    answer.set(http::field::cache_control, "no-cache");
+    answer.set(http::field::etag, etag);
+    return head.knows(etag) ? not_modified(std::move(answer)) : answer;
+}
+
+HttpAnswer versioned_xml(std::string body, RequestHead const& head) {
+    return versioned("application/xml; charset=utf-8", std::move(body), head);
+}
+
+HttpAnswer plain(http::status status, std::string body) {
+    HttpAnswer answer{std::move(body), "text/plain; charset=utf-8"};
+    answer.message.result(status);
+    return answer;
+}
+
+HttpAnswer not_found(std::string reason) { return answer_of({FaultCode::not_found, std::move(reason), {}, {}}); }
+
+}  // namespace
+
+Documents::Documents(Gateway const& gateway, Telemetry const& telemetry, xml::Schemas const& schemas, Site site)
+    : gateway_{gateway},
+      telemetry_{telemetry},
+      schemas_{schemas.files()},
+      site_{std::move(site)},
+      style_policy_{"default-src 'none'; style-src 'sha256-" + sha256_base64(style_of(site_.page)) +
+                    "'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"} {}
+
+HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const {
+    switch (route.endpoint) {
+        case Endpoint::page:
+            return site_.console.empty() ? page(head) : site_.console.answer("index.html", head);
+        case Endpoint::plain_page:
+            return page(head);
+        case Endpoint::asset:
+            return site_.console.answer("assets/" + route.name, head);
+        case Endpoint::engine_profile:
+            return engine_profile(head);
+        case Endpoint::component_profile:
+            return component_profile(route.name, head);
+        case Endpoint::schema_list:
+            return versioned("text/html; charset=utf-8", schema_list_page(schemas_), head);
+        case Endpoint::schema:
+            return schema(route.name, head);
+        case Endpoint::floor_map:
+            return floor_map(head);
+        case Endpoint::healthz:
+            return health();
+        case Endpoint::readyz:
+            return readiness();
+        case Endpoint::metrics:
+            return metrics();
+        case Endpoint::rois:
+        case Endpoint::stop:
+        case Endpoint::clear:
+        case Endpoint::notifications:
+        case Endpoint::unknown:
+            break;
+    }
+    return not_found("there is nothing here");
+}
+
+HttpAnswer Documents::page(RequestHead const& head) const {
+    auto html = plain_page(site_.page, head.host(), gateway_.components(), schemas_);
+    auto answer = versioned("text/html; charset=utf-8", std::move(html), head);
+    answer.set("Content-Security-Policy", style_policy_);
+    answer.set("X-Content-Type-Options", "nosniff");
+    answer.set("Referrer-Policy", "no-referrer");
+    return answer;
+}
+
+HttpAnswer Documents::engine_profile(RequestHead const& head) const {
+    auto const profile = gateway_.profile();
+    return versioned_xml(xml::encode(*profile, "engine." + profile->object.name), head);
+}
+
+HttpAnswer Documents::component_profile(std::string const& ref, RequestHead const& head) const {
+    auto const components = gateway_.components();
+    auto const found = std::ranges::find(components, ref, &ComponentEntry::ref);
+    if (found == components.end()) return not_found("there is no such component; /rois/profile lists them");
+    return versioned_xml(xml::encode(*found->profile, "profile." + ref), head);
+}
+
+HttpAnswer Documents::schema(std::string const& file, RequestHead const& head) const {
+    auto const found = schemas_.find(file);
+    if (found == schemas_.end()) return not_found("there is no such schema; /rois/schemas lists them");
+    return versioned_xml(std::string{found->second}, head);
+}
+
+HttpAnswer Documents::floor_map(RequestHead const& head) const {
+    if (site_.floor_map.empty()) return not_found("this engine has no floor map");
+    return versioned_xml(site_.floor_map, head);
+}
+
+// Does not use the engine, which may be locked.
+HttpAnswer Documents::health() const {
+    bool const ticks = telemetry_.age_of_last_tick(std::chrono::steady_clock::now()) <= longest_tick;
+    return ticks ? plain(http::status::ok, "alive\n")
+                 : plain(http::status::service_unavailable, "the engine's clock stands still\n");
+}
+
+HttpAnswer Documents::readiness() const {
+    if (gateway_.shutting_down()) return answer_of(shutting_down());
+    if (auto answer = health(); answer.message.result() != http::status::ok) return answer;
+    std::string trouble;
+    if (gateway_.everything_is_stopped()) trouble = "stopped: nothing starts until POST /rois/clear\n";
+    for (auto const& ref : gateway_.not_ready()) trouble += ref + " has not confirmed that it stands still\n";
+    return trouble.empty() ? plain(http::status::ok, "ready\n") : plain(http::status::service_unavailable, trouble);
+}
+
+HttpAnswer Documents::metrics() const {
+    return HttpAnswer{telemetry_.text(gateway_.statistics()), "text/plain; version=0.0.4; charset=utf-8"};
+}
+
+}  // namespace rois::net

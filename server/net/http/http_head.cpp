@@ -1,0 +1,171 @@
+#include "net/http/http_head.hpp"
+
+#include <algorithm>
+#include <boost/asio/buffer.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/none.hpp>
+#include <iterator>
+#include <ranges>
+#include <utility>
+
+#include "types/texts.hpp"
+
+namespace rois::net {
+
+namespace {
+
+// Calls `matches` with each member of a comma-separated list. Returns true at the first member for which `matches` returns true.
+bool any_member(std::string_view list, auto const& matches) {
+    while (!list.empty()) {
+        auto const comma = std::min(list.find(','), list.size());
+        if (matches(trimmed(list.substr(0, comma)))) return true;
+        list.remove_prefix(std::min(comma + 1, list.size()));
+    }
+    return false;
+}
+
+// Returns whether the parameters of a list member give it a weight of 0: the client does not accept it (RFC 9110, 12.4.2).
+bool is_refused(std::string_view parameters) {
+    auto const weight = lower_case(parameters).find("q=");
+    if (weight == std::string::npos) return false;
+    auto const value = trimmed(parameters.substr(weight + 2));
+    return value.starts_with('0') && value.find_first_not_of("0.") == std::string_view::npos;
+}
+
+Fault broken(std::string reason) { return {FaultCode::not_well_formed, "broken HTTP: " + std::move(reason), {}, {}}; }
+
+Fault overlong_target(Settings const& settings) {
+    return {
+        FaultCode::uri_too_long, "the request target is longer than " + std::to_string(settings.max_target) + " bytes", {}, {}};
+}
+
+Fault no_transfer_encoding() {
+    return {FaultCode::length_required, "send the body with a Content-Length; Transfer-Encoding is not taken", {}, {}};
+}
+
+// Splits the target: "http://host:80/path?query" or "/path?query". Returns false if it has neither form (RFC 9112, 3.2).
+bool split_target(RequestHead& head) {
+    std::string_view target = head.message.target();
+    bool const absolute =
+        equal_ignoring_case(target.substr(0, 7), "http://") || equal_ignoring_case(target.substr(0, 8), "https://");
+    head.target_authority = {};
+    if (absolute) {
+        target.remove_prefix(target.find("//") + 2);
+        head.target_authority = target.substr(0, target.find_first_of("/?"));
+        target.remove_prefix(head.target_authority.size());
+    }
+    auto const question = std::min(target.find('?'), target.size());
+    head.path = target.substr(0, question);
+    head.query = target.substr(std::min(question + 1, target.size()));
+    if (absolute && head.path.empty()) head.path = "/";
+    if (absolute) return !head.target_authority.empty();
+    return head.path.starts_with('/') || head.path == "*" || head.message.method() == http::verb::connect;
+}
+
+// Checks the Host field, and the authority of a target: a host with an optional port.
+bool may_be_authority(std::string_view text) { return text.find_first_of(" \t,/\\@\"<>?#") == std::string_view::npos; }
+
+// Returns a fault for what Beast accepts and this gateway rejects (RFC 9112, 3.2, 5.2, 6.3).
+std::optional<Fault> find_fault(std::string_view text, RequestHead const& head, Settings const& settings) {
+    auto const& message = head.message;
+    if (static_cast<std::size_t>(std::distance(message.begin(), message.end())) > settings.max_fields)
+        return Fault{FaultCode::header_too_large, "more than " + std::to_string(settings.max_fields) + " header fields", {}, {}};
+    for (auto end = text.find('\n'); end < text.size() - 1; end = text.find('\n', end + 1))
+        if (text[end + 1] == ' ' || text[end + 1] == '\t') return broken("a folded header line");
+    auto const hosts = message.count(http::field::host);
+    if (hosts > 1 || (hosts == 0 && !head.is_http_1_0())) return broken("exactly one Host header is needed");
+    if (!may_be_authority(message[http::field::host])) return broken("Host is not a name or an address with an optional port");
+    if (!may_be_authority(head.target_authority))
+        return broken("the target's host is not a name or an address with an optional port");
+    if (message.count(http::field::transfer_encoding) > 0) return no_transfer_encoding();
+    auto const [length, others] = message.equal_range(http::field::content_length);
+    if (length == others) return {};
+    bool const one = std::next(length) == others && length->value().find(',') == std::string_view::npos;
+    return one ? std::nullopt : std::optional{broken("two lengths in Content-Length")};
+}
+
+}  // namespace
+
+std::optional<std::string_view> RequestHead::field(std::string_view name) const {
+    auto const [first, last] = message.equal_range(name);
+    if (first == last || std::next(first) != last) return {};
+    return first->value();
+}
+
+bool RequestHead::lists(std::string_view name, std::string_view member, Case letters) const {
+    auto const is_meant = [&](std::string_view each) {
+        return letters == Case::kept ? each == member : equal_ignoring_case(each, member);
+    };
+    auto const [first, last] = message.equal_range(name);
+    return std::any_of(first, last, [&](auto const& field) { return any_member(field.value(), is_meant); });
+}
+
+std::optional<std::string_view> RequestHead::parameter(std::string_view name) const {
+    for (auto rest = query; !rest.empty();) {
+        auto const pair = rest.substr(0, rest.find('&'));
+        auto const equals = std::min(pair.find('='), pair.size());
+        if (pair.substr(0, equals) == name) return pair.substr(std::min(equals + 1, pair.size()));
+        rest.remove_prefix(std::min(pair.size() + 1, rest.size()));
+    }
+    return {};
+}
+
+bool RequestHead::knows(std::string_view etag) const {
+    return lists("If-None-Match", "*") || lists("If-None-Match", etag) || lists("If-None-Match", "W/" + std::string{etag});
+}
+
+// A weight for gzip itself takes precedence over a weight for all encodings ("*").
+bool RequestHead::takes_gzip() const {
+    bool named = false;
+    bool taken = false;
+    auto const [first, last] = message.equal_range(http::field::accept_encoding);
+    for (auto const& field : std::ranges::subrange(first, last)) {
+        any_member(field.value(), [&](std::string_view each) {
+            auto const semicolon = std::min(each.find(';'), each.size());
+            auto const encoding = trimmed(each.substr(0, semicolon));
+            bool const is_gzip = equal_ignoring_case(encoding, "gzip");
+            if (!named && (is_gzip || encoding == "*")) taken = !is_refused(each.substr(semicolon));
+            named = named || is_gzip;
+            return false;
+        });
+    }
+    return taken;
+}
+
+std::string_view RequestHead::authority() const {
+    return target_authority.empty() ? std::string_view{message[http::field::host]} : target_authority;
+}
+
+std::size_t find_head(std::string_view text, std::size_t& searched) {
+    while (true) {
+        auto const end = text.find('\n', searched);
+        if (end == std::string_view::npos) return searched = text.size(), 0;
+        if (end == 0 || text[end - 1] != '\r') return end + 1;  // a line feed alone
+        if (end >= 3 && text[end - 2] == '\n') return end + 1;  // an empty line
+        searched = end + 1;
+    }
+}
+
+std::optional<Fault> read_head(std::string_view text, Settings const& settings, RequestHead& head) {
+    http::request_parser<http::empty_body> parser;
+    parser.header_limit(static_cast<std::uint32_t>(text.size()) + 1);
+    parser.body_limit(boost::none);  // the routes check the length
+    boost::system::error_code error;
+    parser.put(boost::asio::buffer(text), error);
+    if (error == http::error::bad_transfer_encoding) return no_transfer_encoding();
+    if (error && error != http::error::need_more) return broken(error.message());
+    if (!parser.is_header_done()) return broken("a line that does not end with CR LF");
+    head.content_length = parser.content_length().value_or(0);
+    head.message = std::move(parser.get().base());
+    if (head.message.target().size() > settings.max_target) return overlong_target(settings);
+    if (!split_target(head)) return broken("the target is neither a path nor an http URL with a host");
+    return find_fault(text, head, settings);
+}
+
+Fault overlong_head(std::string_view text, Settings const& settings) {
+    if (text.find('\n') == std::string_view::npos) return overlong_target(settings);
+    return {FaultCode::header_too_large, "the header is longer than " + std::to_string(settings.max_header) + " bytes", {}, {}};
+}
+
+}  // namespace rois::net

@@ -1,0 +1,120 @@
+#include "net/http/routes.hpp"
+
+#include <array>
+
+#include "gateway/host_names.hpp"
+#include "types/text_encoding.hpp"
+#include "types/texts.hpp"
+#include "xml/codec/media_type.hpp"
+
+namespace rois::net {
+
+namespace {
+
+struct Named {
+    std::string_view path;
+    Endpoint endpoint;
+};
+constexpr std::array<Named, 12> fixed{{{"/", Endpoint::page},
+                                       {"/plain", Endpoint::plain_page},
+                                       {"/rois", Endpoint::rois},
+                                       {"/rois/notifications", Endpoint::notifications},
+                                       {"/rois/profile", Endpoint::engine_profile},
+                                       {"/rois/schemas", Endpoint::schema_list},
+                                       {"/rois/map", Endpoint::floor_map},
+                                       {"/rois/stop", Endpoint::stop},
+                                       {"/rois/clear", Endpoint::clear},
+                                       {"/healthz", Endpoint::healthz},
+                                       {"/readyz", Endpoint::readyz},
+                                       {"/metrics", Endpoint::metrics}}};
+constexpr std::array<Named, 3> folders{
+    {{"/rois/profile/", Endpoint::component_profile}, {"/rois/schemas/", Endpoint::schema}, {"/assets/", Endpoint::asset}}};
+
+std::string_view methods_of(Endpoint endpoint) {
+    switch (endpoint) {
+        case Endpoint::stop:
+        case Endpoint::clear:
+            return "POST";
+        case Endpoint::rois:
+            return "GET, HEAD, POST";
+        default:
+            return "GET, HEAD";
+    }
+}
+
+bool is_known_method(std::string_view method) { return method == "GET" || method == "HEAD" || method == "POST"; }
+
+bool takes(Route const& route, std::string_view method) {
+    return is_known_method(method) && methods_of(route.endpoint).find(method) != std::string_view::npos;
+}
+
+HttpAnswer misdirected(std::string_view authority) {
+    auto answer = answer_of({FaultCode::not_allowed,
+                             "this gateway is not known as " + quoted(authority) +
+                                 ": expected localhost, an IP address or the name of its machine; the key hosts adds other names",
+                             {},
+                             {}});
+    answer.message.result(http::status::misdirected_request);
+    return answer;
+}
+
+HttpAnswer foreign_origin(std::string_view origin) {
+    return answer_of({FaultCode::not_allowed,
+                      "pages of the origin " + quoted(origin) +
+                          " are not allowed here: expected a page of this gateway; the key allowed_origins adds other origins",
+                      {},
+                      {}});
+}
+
+// Returns 421 if a Host or the target's authority is not the gateway's own, and 403 if the Origin is not allowed. A request
+// without Host is HTTP/1.0, which browsers do not send.
+std::optional<HttpAnswer> refusal_of_other_sites(RequestHead const& head, Settings const& settings) {
+    if (auto const host = head.field("Host"); host && !is_own_host(*host, settings.hosts)) return misdirected(*host);
+    if (!head.target_authority.empty() && !is_own_host(head.target_authority, settings.hosts))
+        return misdirected(head.target_authority);
+    if (head.count("Origin") == 0) return {};
+    auto const origin = head.field("Origin").value_or("");  // empty, which is never allowed, if there are two
+    if (!is_allowed_origin(origin, head.authority(), settings.allowed_origins)) return foreign_origin(origin);
+    return {};
+}
+
+HttpAnswer method_not_allowed(Route const& route) {
+    auto const allowed = methods_of(route.endpoint);
+    auto answer = answer_of({FaultCode::method_not_allowed, "the methods taken here are " + std::string{allowed}, {}, {}});
+    answer.set(http::field::allow, allowed);
+    return answer;
+}
+
+}  // namespace
+
+Route route_of(std::string_view path) {
+    for (auto const& [fixed_path, endpoint] : fixed) {
+        if (path == fixed_path) return {endpoint, {}};
+    }
+    for (auto const& [folder, endpoint] : folders) {
+        if (!path.starts_with(folder)) continue;
+        if (auto name = percent_decoded(path.substr(folder.size()))) return {endpoint, std::move(*name)};
+    }
+    return {};
+}
+
+std::optional<HttpAnswer> refusal(RequestHead const& head, Route const& route, Settings const& settings) {
+    if (auto refused = refusal_of_other_sites(head, settings)) return refused;
+    if (route.endpoint == Endpoint::unknown && is_known_method(head.method()))
+        return answer_of({FaultCode::not_found, "there is nothing at " + quoted(head.path), {}, {}});
+    if (!takes(route, head.method())) return method_not_allowed(route);
+    if (head.content_length > settings.document.bytes) {
+        return answer_of(
+            {FaultCode::too_large, "the body may have " + std::to_string(settings.document.bytes) + " bytes", {}, {}});
+    }
+    if (head.message.method() != http::verb::post || route.endpoint != Endpoint::rois) return {};
+    if (!xml::is_xml_media_type(head.field("Content-Type").value_or(""))) {
+        return answer_of({FaultCode::unsupported_media_type,
+                          "send one request document with the header Content-Type: application/xml (charset utf-8)",
+                          {},
+                          {}});
+    }
+    return {};
+}
+
+}  // namespace rois::net

@@ -1,0 +1,43 @@
+// The endpoints, and the checks of a request before its body is read (wire.md).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "net/http/http_answer.hpp"
+#include "net/http/http_head.hpp"
+
+namespace rois::net {
+
+enum class Endpoint : std::uint8_t {
+    page,
+    plain_page,
+    asset,
+    rois,
+    notifications,
+    engine_profile,
+    component_profile,
+    schema_list,
+    schema,
+    floor_map,
+    stop,
+    clear,
+    healthz,
+    readyz,
+    metrics,
+    unknown
+};
+
+struct Route {
+    Endpoint endpoint = Endpoint::unknown;
+    std::string name;  // decoded; of a component or a file
+};
+
+Route route_of(std::string_view path);
+
+// Returns the answer to a request that its head alone makes invalid: 421, 403 for an origin, 404, 405, 413 or 415, checked in
+// this order. Returns nothing if the request is to be received.
+std::optional<HttpAnswer> refusal(RequestHead const&, Route const&, Settings const&);
+
+}  // namespace rois::net
