@@ -15,10 +15,14 @@
 #include <variant>
 #include <vector>
 
+#include "engine/commands/motion_lease.hpp"
 #include "engine/conditions/filter.hpp"
 #include "engine/engine.hpp"
 #include "files/files.hpp"
+#include "gateway/memory.hpp"
+#include "net/http/routes.hpp"
 #include "probe.hpp"
+#include "types/identifier_length.hpp"
 #include "xml/codec/codec.hpp"
 #include "xml/codec/decoding.hpp"
 #include "xml/tables/acceptor.hpp"
@@ -186,6 +190,32 @@ void fire(benchmark::State& state, std::string const& subscribe, std::string con
     state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * subscribers.size()));
 }
 
+// --- The protections (docs/safety.md) ---
+
+// All checks of a query over HTTP that protect the robot and the gateway: Host, Origin and the rest of its head, the memory
+// budget, the motion lease, the lengths of identifiers.
+void protect(benchmark::State& state, std::string const& document) {
+    net::Settings const settings;
+    auto const text =
+        "POST /rois HTTP/1.1\r\nHost: 127.0.0.1:8080\r\nRoIS-Session: df-04lB8n-u74iFBlfFjzY0QmzyrnfnR\r\n"
+        "Content-Type: application/xml\r\nContent-Length: " +
+        std::to_string(document.size()) + "\r\n\r\n";
+    net::RequestHead head;
+    if (net::read_head(text, settings, head)) throw std::runtime_error("the head was rejected");
+    auto const route = net::route_of(head.path);
+    auto const operation = request_of(document).operation;
+    MemoryBudget memory{settings.memory_budget, resident_bytes};
+    MotionLease lease{{.linked = std::chrono::seconds{2}, .http = std::chrono::seconds{10}}, {}};
+    Steady now{};
+    for (auto _ : state) {
+        if (net::refusal(head, route, settings)) state.SkipWithError("refused");
+        if (document.size() > memory.longest_document() || memory.full()) state.SkipWithError("no memory");
+        memory.took(document.size());
+        lease.request_received(now += std::chrono::microseconds{10});
+        if (lease.end() <= now || why_too_long(operation)) state.SkipWithError("refused");
+    }
+}
+
 // --- Conditions ---
 
 // The condition of a subscription, and an event that matches it.
@@ -267,6 +297,7 @@ void register_all(Documents const& documents) {
     engine("engine_query", handle<Query>, of("reading-by-ref"));
     engine("engine_set_parameter", handle<SetParameter>, of("set_parameter"));
     engine("engine_execute", handle<Execute>, of("execute"));
+    benchmark::RegisterBenchmark("protections", [query = of("query-0.6kB")](benchmark::State& s) { protect(s, query); });
     auto const subscription = of("subscribe");
     auto const firing = of("fire-1");
     benchmark::RegisterBenchmark("engine_event", [=](benchmark::State& s) { fire(s, subscription, firing); })->Arg(1)->Arg(1'000);

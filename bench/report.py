@@ -106,6 +106,13 @@ def validation_goal(rounds):
     return at_most("2 validation of 20 kB: time, compared with xerces-c", worst, 0.25, "times")
 
 
+def protections(middle):
+    """The part of a query's CPU time in percent. None if not measured."""
+    if "protections" not in middle or requests.HTTP not in middle:
+        return None
+    return 100 * middle["protections"]["cpu_us"] / middle[requests.HTTP]["cpu_us"]
+
+
 def goals(rounds):
     """The goals of ./dev bench. `rounds`: row -> measurements, of all parts."""
     middle = medians(rounds)
@@ -141,6 +148,7 @@ def goals(rounds):
         at_most("8 console: complete map after", value_of(console.VIEW, "stands_ms"), 1_000, "ms"),
         at_least("8 console: pictures a second, 20 people at 20 Hz", value_of(console.PEOPLE, "pictures_per_second"), 59, "/s"),
         at_most("8 console: the page's process at rest", value_of(console.REST, "page_percent"), 5, "% of a core"),
+        at_most("9 all protections: CPU, compared with that of a query", protections(middle), 3, "%"),
         at_most("9 p99 of every way to stop, under every flood", max(stops) if stops else None, 50, "ms"),
     ]
 

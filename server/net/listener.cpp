@@ -26,7 +26,9 @@ struct ReusePort {
 };
 
 constexpr auto between_tries = std::chrono::milliseconds{50};
-constexpr unsigned most_without_memory = 64;  // connections between two pauses while the system has no memory
+constexpr auto until_cut = std::chrono::milliseconds{1};  // an idle connection gives up its place
+constexpr unsigned most_at_once = 64;                     // connections, before the open ones have a turn
+constexpr unsigned most_without_memory = 64;              // connections between two pauses while the system has no memory
 
 // Returns nothing if the peer has already closed the connection.
 std::optional<Address> remote_address(Socket const& socket) {
@@ -69,7 +71,10 @@ void Listener::bind(Endpoint const& endpoint, Port port) {
 
 void Listener::share_port() { acceptor_.set_option(ReusePort{}); }
 
-void Listener::listen() { acceptor_.listen(); }
+void Listener::listen() {
+    acceptor_.listen();
+    acceptor_.non_blocking(true);
+}
 
 // Pauses often while the system has no memory, so that the loop can cut waiting connections.
 Task<> Listener::accept() {
@@ -77,28 +82,31 @@ Task<> Listener::accept() {
     for (unsigned taken = 1; acceptor_.is_open(); ++taken) {
         bool accepted = false;
         try {
-            accepted = co_await accept_one();
+            accepted = co_await accept_waiting();
         } catch (std::bad_alloc const&) {
             spdlog::warn("cannot accept a connection: the system gives the gateway no more memory");
         }
         bool const crowded = taken % most_without_memory == 0 && memory.exhausted();
         if (accepted && !crowded) continue;
-        co_await pause();
+        co_await pause(between_tries);
     }
 }
 
-// Returns false if the system cannot accept a connection now.
-Task<bool> Listener::accept_one() {
+// Waits for a connection, and accepts those that wait behind it: under a flood, a client that wants to stop the robot does not
+// wait until each connection before it has been served. Returns false if the system cannot accept a connection now.
+Task<bool> Listener::accept_waiting() {
     boost::system::error_code error;
     auto socket = co_await acceptor_.async_accept(into(error));
-    if (error == asio::error::operation_aborted) co_return true;
-    if (error) {
-        spdlog::warn("cannot accept a connection: {}", error.message());
-        co_return false;
+    for (unsigned accepted = 1; !error; ++accepted) {
+        auto place = co_await this->place(socket);
+        if (place) serve(std::move(socket), std::move(*place));
+        bool const exhausted = loop_.shared().gateway.memory().exhausted();
+        if (exhausted || accepted == most_at_once || !acceptor_.is_open()) co_return true;
+        socket = acceptor_.accept(error);
     }
-    auto place = co_await this->place(socket);
-    if (place) serve(std::move(socket), std::move(*place));
-    co_return true;
+    if (error == asio::error::operation_aborted || error == asio::error::would_block) co_return true;
+    spdlog::warn("cannot accept a connection: {}", error.message());
+    co_return false;
 }
 
 // Closes a connection that cannot be started, for example because there is no memory.
@@ -110,8 +118,9 @@ void Listener::serve(Socket socket, Admission::Place place) {
     }
 }
 
-// Waits until there is a place; meanwhile the kernel keeps further connections waiting. Returns nothing if the listener is
-// closed, or if the address has reached its limit: then the connection is refused.
+// If all places are taken, cuts the connection that has been idle for longest. If none is idle, waits until there is a place;
+// meanwhile the kernel keeps further connections waiting. Returns nothing if the listener is closed, or if the address has
+// reached its limit: then the connection is refused.
 Task<std::optional<Admission::Place>> Listener::place(Socket& socket) {
     auto const address = remote_address(socket);
     if (!address) co_return std::nullopt;
@@ -125,16 +134,17 @@ Task<std::optional<Admission::Place>> Listener::place(Socket& socket) {
         }
         if (admission_.is_news()) {
             loop_.shared().telemetry.reached(Telemetry::Limit::connections);
-            spdlog::warn("{} connections are open; more must wait", loop_.shared().settings.max_connections);
+            spdlog::warn("{} connections are open: each new one waits, or replaces one that is idle",
+                         loop_.shared().settings.max_connections);
         }
-        co_await pause();
+        co_await pause(loop_.cut_longest_idle() ? until_cut : between_tries);
     }
     co_return std::nullopt;
 }
 
-Task<> Listener::pause() {
+Task<> Listener::pause(std::chrono::milliseconds time) {
     boost::system::error_code error;
-    timer_.expires_after(between_tries);
+    timer_.expires_after(time);
     co_await timer_.async_wait(into(error));
 }
 

@@ -35,10 +35,10 @@ public:
     void close();
 
 private:
-    Task<bool> accept_one();
+    Task<bool> accept_waiting();
     Task<std::optional<Admission::Place>> place(Socket&);
     void serve(Socket, Admission::Place);
-    Task<> pause();
+    Task<> pause(std::chrono::milliseconds);
 
     Loop& loop_;
     Admission& admission_;

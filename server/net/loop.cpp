@@ -135,6 +135,13 @@ void Loop::sweep_some(Steady now) {
     }
 }
 
+bool Loop::cut_longest_idle() {
+    auto const idlest = std::ranges::min_element(connections_, {}, &Connection::idle_due);
+    if (idlest == connections_.end() || (*idlest)->idle_due() == Steady::max()) return false;
+    (*idlest)->cut();
+    return true;
+}
+
 void Loop::add(Connection& connection) {
     connection.seat_ = connections_.size();
     connections_.push_back(&connection);

@@ -47,6 +47,8 @@ public:
 
     // The loop's own thread calls the functions below.
     void serve(Socket, Admission::Place);
+    // Cuts the connection that has been idle for longest. Returns false if none is idle.
+    bool cut_longest_idle();
     bool draining() const { return last_moment_ != Steady::max(); }
     Shared& shared() const { return shared_; }
     xml::RequestReader& reader() { return reader_; }

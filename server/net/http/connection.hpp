@@ -28,6 +28,8 @@ public:
     void sweep(Steady now);
     void shut_down();
     void cut() { wire_.cut(); }
+    // When this connection ends if no request begins; `max` if it is not idle.
+    Steady idle_due() const { return idle_ ? idle_due_ : Steady::max(); }
 
 private:
     friend class Loop;

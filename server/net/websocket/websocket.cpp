@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 #include <boost/asio/co_spawn.hpp>
 #include <exception>
 #include <utility>
@@ -232,7 +234,7 @@ void WebSocket::sweep(Steady at) {
     if (late) close({CloseCode::policy_violation, "the message did not arrive in time"});
     if (without_session) close({CloseCode::policy_violation, "no session was opened or resumed in time"});
     bool const proof_due = at >= proof_due_ && reading_ && reading_->wants_signs_of_life(at);
-    if (proof_due) proof_due_ = at + proof_interval;
+    if (proof_due) proof_due_ = std::max(proof_due_ + proof_interval, at + proof_interval / 2);
     if (silent || proof_due) ping_due_ = true;
     if (late || ping_due_ || without_session) flush();
 }
