@@ -108,8 +108,7 @@ public:
                 number(s.stray_answers));
         gauge("rois_everything_stopped", "1 while nothing starts because everything was stopped (POST /rois/stop).",
               s.everything_is_stopped ? 1 : 0);
-        gauge("rois_components_not_halted", "Components that have not confirmed the last call to halt.",
-              number(s.not_halted));
+        gauge("rois_components_not_halted", "Components that have not confirmed the last call to halt.", number(s.not_halted));
         if (s.memory_budget != 0) {
             gauge("rois_memory_budget_bytes", "Memory that the process may use.", number(s.memory_budget));
             gauge("rois_memory_used_bytes", "Memory in use, and memory reserved for documents that are being read.",

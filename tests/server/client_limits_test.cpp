@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "gateway/addresses.hpp"
-#include "gateway/session_quota.hpp"
 #include "gateway/admission.hpp"
+#include "gateway/session_quota.hpp"
 #include "server/websocket_client.hpp"
 
 namespace rois::test {
