@@ -105,8 +105,6 @@ private:
     SharedNotification without_results_;
 };
 
-constexpr std::size_t turns_ahead = 4;  // subscribers between the prefetch of a queue and its use
-
 }  // namespace
 
 void Engine::Core::publish(EventOccurred const& event, Instant now, Attempts& deliveries) {
@@ -137,8 +135,12 @@ void Engine::Core::publish(EventOccurred const& event, Instant now, Attempts& de
         begun = true;
         auto const& subscribers = subscription.subscribers;
         for (std::size_t i = 0; i < subscribers.size(); ++i) {
-            // With many sessions, each queue is a cache miss (docs/performance.md).
-            if (i + turns_ahead < subscribers.size()) prefetch(subscribers[i + turns_ahead].queue, sizeof(NotificationQueue));
+            // With many sessions, each queue and its readers are cache misses (docs/performance.md).
+            auto const queue_at = [&](std::size_t place) {
+                return place < subscribers.size() ? subscribers[place].queue : nullptr;
+            };
+            if (auto const* queue = queue_at(i + 4)) prefetch(queue, sizeof(NotificationQueue));
+            if (auto const* queue = queue_at(i + 2)) prefetch(queue->attachment().get(), 1);
             auto const& subscriber = subscribers[i];
             deliveries([&] {
                 if (each && !matches(subscription, *subscriber.session)) return;

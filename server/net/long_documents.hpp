@@ -4,7 +4,6 @@
 
 #include <boost/asio/thread_pool.hpp>
 #include <cstddef>
-#include <functional>
 #include <memory>
 
 #include "gateway/gateway.hpp"

@@ -38,7 +38,7 @@ struct Settings {
     std::chrono::milliseconds request_timeout = std::chrono::seconds{30};  // for a request to arrive completely
     std::chrono::milliseconds connect_timeout = std::chrono::seconds{10};  // for a WebSocket to open a session
     std::chrono::milliseconds idle_timeout = std::chrono::seconds{75};     // of an HTTP connection between two requests
-    std::chrono::milliseconds write_timeout = std::chrono::seconds{30};    // for a peer to read what was sent
+    std::chrono::milliseconds write_timeout = std::chrono::seconds{30};    // for a peer to read the sent data
     std::chrono::milliseconds ping_interval = std::chrono::seconds{20};    // of WebSockets and event streams
     std::chrono::milliseconds shutdown_timeout = std::chrono::seconds{5};  // for clients to read their last notifications
     std::chrono::milliseconds tick = std::chrono::milliseconds{10};        // of the engine

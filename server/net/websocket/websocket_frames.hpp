@@ -51,7 +51,7 @@ private:
     std::uint64_t answered_;  // the last ping that the peer has answered
 };
 
-// What a client has sent.
+// A frame or a message from a client.
 struct Received {
     enum class Kind : std::uint8_t {
         nothing,   // the frame is incomplete
