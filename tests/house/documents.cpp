@@ -16,7 +16,8 @@ constexpr auto dependencies = "docs/dependencies.md";
 
 bool is_document(std::string_view file) {
     if (file == "ARCHITECTURE.md" || file == "CONTRIBUTING.md" || file == "SECURITY.md") return true;
-    if (file == "README.md" || (file.starts_with("web/") && file.ends_with("/README.md"))) return true;
+    if (file == "README.md" || ((file.starts_with("web/") || file.starts_with("tests/")) && file.ends_with("/README.md")))
+        return true;
     return file.starts_with("docs/") && file.ends_with(".md") && file.find('/', 5) == file.npos;
 }
 
