@@ -1,4 +1,4 @@
-// What the thread sanitizer is told in every test program. Only that build has this file.
+// Options of the thread sanitizer, for every test program. Only that build has this file.
 
 // libstdc++ itself is built without the sanitizer, which so does not see how an exception_ptr counts who holds it: an error that
 // a client's thread threw and another thread caught looks as if it were freed while it is read. Whoever reads it holds it.

@@ -7,12 +7,13 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
+
+#include "kit/websocket_frames.hpp"
 
 namespace rois::bench {
 
@@ -50,23 +51,6 @@ std::string head_of(std::string_view method, std::string_view path, std::string_
     return head;
 }
 
-std::string frame(unsigned char opcode, std::string_view payload) {
-    constexpr std::array<unsigned char, 4> mask{0x3d, 0xa9, 0x51, 0xe6};
-    std::string bytes{static_cast<char>(0x80 | opcode)};
-    if (payload.size() < 126) {
-        bytes += static_cast<char>(0x80 | payload.size());
-    } else if (payload.size() < 65'536) {
-        bytes += static_cast<char>(0x80 | 126);
-        bytes += static_cast<char>(payload.size() >> 8);
-        bytes += static_cast<char>(payload.size() & 0xff);
-    } else {
-        throw std::runtime_error("a frame of more than 64 KB is not supported");
-    }
-    bytes.append(reinterpret_cast<char const*>(mask.data()), mask.size());
-    for (std::size_t i = 0; i < payload.size(); ++i) bytes += static_cast<char>(payload[i] ^ mask[i % 4]);
-    return bytes;
-}
-
 }  // namespace
 
 std::string http_post(std::string_view path, std::string_view session, std::string_view body) {
@@ -84,7 +68,7 @@ std::string http_get(std::string_view path, std::string_view session, std::strin
     return bytes;
 }
 
-std::string text_frame(std::string_view payload) { return frame(1, payload); }
+std::string text_frame(std::string_view payload) { return kit::whole_frame(kit::Kind::text, payload, kit::Masked::yes); }
 
 Socket::Socket(std::uint16_t port, Via via, std::string_view path) : via_{via} {
     descriptor_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -190,24 +174,13 @@ std::optional<Socket::Message> Socket::next_http() {
 std::optional<Socket::Message> Socket::next_frame() {
     while (true) {
         auto const text = rest();
-        if (text.size() < 2) return {};
-        auto const byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-        std::size_t size = byte(1) & 0x7f;
-        std::size_t start = 2;
-        if (size >= 126) {
-            std::size_t const digits = size == 126 ? 2 : 8;
-            if (text.size() < start + digits) return {};
-            size = 0;
-            for (std::size_t i = 0; i < digits; ++i) size = size << 8 | byte(start + i);
-            start += digits;
-        }
-        if (text.size() < start + size) return {};
-        auto const payload = text.substr(start, size);
-        auto const opcode = byte(0) & 0x0f;
-        used_ += start + size;
-        if (opcode == 1) return Message{{}, payload};
-        if (opcode == 8) throw std::runtime_error("the server closed a WebSocket");
-        if (opcode == 9) send(frame(10, payload));
+        auto const head = kit::frame_head(text);
+        if (!head || text.size() < head->size + head->payload_size) return {};
+        auto const payload = text.substr(head->size, head->payload_size);
+        used_ += head->size + payload.size();
+        if (head->kind() == kit::Kind::text) return Message{{}, payload};
+        if (head->kind() == kit::Kind::close) throw std::runtime_error("the server closed a WebSocket");
+        if (head->kind() == kit::Kind::ping) send(kit::whole_frame(kit::Kind::pong, payload, kit::Masked::yes));
     }
 }
 

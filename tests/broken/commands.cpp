@@ -101,7 +101,7 @@ Breaking pretends_to_suspend(std::string const& component) {
 
 Breaking pretends_to_stop(std::string const& component) {
     struct State {
-        bool stops = false;  // the request that is to be answered
+        bool stops = false;  // the request to answer
         std::string start;
         std::set<std::string> pretended, over;
     };
@@ -147,7 +147,7 @@ Breaking completes_at_once(std::string const& component) {
             }};
 }
 
-// It waits for something to follow after that time: an answer.
+// Delays until the next answer after that time.
 Breaking completes_late(std::string const& component) {
     constexpr std::chrono::seconds late{5};
     struct State {

@@ -1,4 +1,4 @@
-// Ways to break what the commands of one component do. A component is named by the end of its ref: "navigation" is that of every
+// Ways to break the commands of one component. The end of a ref names the component: "navigation" is that of every
 // robot.
 #pragma once
 
@@ -14,17 +14,17 @@ using Values = std::vector<std::string>;
 
 // Each command of the component in a request of execute.
 Breaking edits_commands(std::string const& component, Edit const&);
-// The argument of this name; nothing when the command has none.
+// Returns the argument with this name, if the command has it.
 pugi::xml_node argument_of(pugi::xml_node command, std::string const& name);
 Breaking edits_arguments(std::string const& component, std::string const& name, std::function<Values(Values)> const&);
 Breaking drops_argument(std::string const& component, std::string const& name);
-// Done instead of `type`.
+// Performs another operation instead of `type`.
 Breaking replaces_command(std::string const& component, std::string const& type, std::string const& instead);
 // suspend and resume complete with OK and do nothing.
 Breaking pretends_to_suspend(std::string const& component);
-// stop completes with OK, and the start before it with ABORT; what runs goes on.
+// stop completes with OK, and the start before it with ABORT; the action continues.
 Breaking pretends_to_stop(std::string const& component);
-// start completes with OK as soon as it is accepted.
+// start completes with OK once the gateway has accepted it.
 Breaking completes_at_once(std::string const& component);
 // start completes some seconds after its end.
 Breaking completes_late(std::string const& component);

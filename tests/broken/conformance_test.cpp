@@ -1,5 +1,5 @@
-// The proof of the proof: rois-conformance finds nothing wrong with our gateway, however it is set up (rules_test.cpp: and every
-// rule that is broken on purpose).
+// rois-conformance finds no broken rule in our gateway, with any settings. (rules_test.cpp: it finds every
+// rule that is broken on purpose.)
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -19,16 +19,16 @@
 #include "broken/judging.hpp"
 #include "broken/proxy.hpp"
 #include "broken/variants.hpp"
-#include "server/profile_folder.hpp"
+#include "kit/profile_folder.hpp"
 
 namespace rois::broken {
 namespace {
 
-using test::GatewayProcess;
+using kit::GatewayProcess;
 
 std::string const common = "<rois:SubComponentProfile>urn:x-rois:def:component:OMG::RoISCommon</rois:SubComponentProfile>";
 
-TEST(Conformance, OfOurGatewayIsWhole) {
+TEST(Conformance, FindsNoBrokenRuleInOurGateway) {
     EmptyHall gateway;
     auto const file = testing::TempDir() + "rois-conformance-" + std::to_string(getpid()) + ".xml";
     auto const judged = judge(url(gateway.port()) + " --report " + file);
@@ -41,25 +41,25 @@ TEST(Conformance, OfOurGatewayIsWhole) {
     std::filesystem::remove(file);
 }
 
-TEST(Conformance, OfOurGatewayIsWholeWhenItValidatesInFull) {
+TEST(Conformance, FindsNoBrokenRuleWithFullValidation) {
     EmptyHall gateway{{"--validation", "full"}};
     auto const judged = judge(url(gateway.port()));
     EXPECT_EQ(judged.exit_code, 0) << judged.text;
 }
 
-// Each robot is asked where it is itself: a robot that is sent to the place of the other one needs longer than this patience.
-TEST(Conformance, OfOurGatewayIsWholeWhenItHasTwoRobots) {
+// Each robot must be asked for its own position: a drive to the position of the other robot exceeds this patience.
+TEST(Conformance, FindsNoBrokenRuleWithTwoRobots) {
     EmptyHall gateway{{"--floor-plan", ROIS_SOURCE_DIR "/components/simulation/data/two-robots.xml", "--sim-speed", "2"}};
     auto const judged = judge(url(gateway.port()) + " --patience 3 --room 0");
     EXPECT_EQ(judged.exit_code, 0) << judged.text;
     EXPECT_THAT(judged.text, testing::HasSubstr("  holds          events_of_an_action_come_before_its_end over HTTP "));
 }
 
-TEST(Conformance, OfOurGatewayIsWholeWithComponentsOfItsUser) {
-    test::ProfileFolder const folder;
+TEST(Conformance, FindsNoBrokenRuleWithComponentsOfAUser) {
+    kit::ProfileFolder const folder;
     auto const put = [&](std::string const& name, std::string const& adapter, std::string const& inside) {
         auto const asked_for = R"(<gml:metaDataProperty xlink:href="urn:x-rois:def:adapter:simulation::)" + adapter + R"("/>)";
-        folder.put(name + ".xml", test::profile_document("urn:x:" + name, inside, asked_for));
+        folder.put(name + ".xml", kit::profile_document("urn:x:" + name, inside, asked_for));
     };
     put("lists", "stand_in",
         common + R"(<rois:ParameterProfile rois:name="v" rois:default_value="1 2">)"
@@ -83,18 +83,18 @@ std::string message(std::string const& kind, std::string const& name, std::strin
 
 std::string with_default(std::string const& value) { return "rois:default_value=\"" + value + "\""; }
 
-// A user's component with this name, which may be anything.
+// A user's component with any name.
 struct Strange {
     std::string urn, name, inside;
     std::string adapter = "stand_in";
 };
 
 Judged judge_with(std::vector<Strange> const& components) {
-    test::ProfileFolder const folder;
+    kit::ProfileFolder const folder;
     int files = 0;
     for (auto const& [urn, name, inside, adapter] : components)
         folder.put(std::to_string(++files) + ".xml",
-                   test::profile_document(
+                   kit::profile_document(
                        urn, (name.empty() ? "" : "<gml:name>" + name + "</gml:name>") + common + inside,
                        R"(<gml:metaDataProperty xlink:href="urn:x-rois:def:adapter:simulation::)" + adapter + R"("/>)"));
     EmptyHall gateway{{"--profiles", folder.name()}};
@@ -103,7 +103,7 @@ Judged judge_with(std::vector<Strange> const& components) {
     return judged;
 }
 
-TEST(Conformance, OfOurGatewayIsWholeWhateverItsComponentsAreCalled) {
+TEST(Conformance, FindsNoBrokenRuleWithAnyComponentNames) {
     auto const judged =
         judge_with({{"urn:x:a&amp;b", "amp", ""},
                     {"urn:x:quoted", "a&quot;b'c&lt;d", ""},
@@ -117,7 +117,7 @@ TEST(Conformance, OfOurGatewayIsWholeWhateverItsComponentsAreCalled) {
     EXPECT_EQ(judged.exit_code, 0) << judged.text;
 }
 
-TEST(Conformance, OfOurGatewayIsWholeWhateverItsComponentsTell) {
+TEST(Conformance, FindsNoBrokenRuleWithAnyEvents) {
     auto const judged = judge_with(
         {{"urn:x:forms", "",
           typed("ParameterProfile", "i", "int", with_default("&#10; 000000000060 ")) +
@@ -142,20 +142,20 @@ TEST(Conformance, OfOurGatewayIsWholeWhateverItsComponentsTell) {
     EXPECT_EQ(judged.exit_code, 0) << judged.text;
 }
 
-TEST(Conformance, OfAGatewayWithOtherIdsIsWhole) {
+TEST(Conformance, FindsNoBrokenRuleInAGatewayWithOtherIds) {
     EmptyHall gateway;
     Proxy const proxy{gateway.port(), has_other_ids};
     auto const judged = judge(url(proxy.port()) + " --over websocket");
     EXPECT_EQ(judged.exit_code, 0) << judged.text;
 }
 
-TEST(Conformance, OfAGatewayInUseFindsNothingElse) {
+TEST(Conformance, FindsNoBrokenRuleWhileAnotherApplicationUsesTheGateway) {
     EmptyHall gateway;
     auto const again = [&] { return judge(url(gateway.port()) + " --over websocket"); };
     EXPECT_EQ(again().exit_code, 0);
     auto const second = again(), third = again();
     EXPECT_EQ(second.exit_code, 0) << second.text;
-    // At this speed, whether an effect can be seen is a matter of luck.
+    // At this speed, an effect is observable only by chance.
     auto const without_effects = [](std::string const& text) { return text.substr(0, text.find("\nEffects: ")); };
     EXPECT_EQ(without_effects(second.text), without_effects(third.text))
         << "it leaves nothing behind but the parameters that it has set";
@@ -170,7 +170,7 @@ TEST(Conformance, NeedsAGateway) {
     EXPECT_EQ(judge("--help").exit_code, 0);
 }
 
-TEST(Conformance, SaysBeforeItPlaysWhatIsWrongWithItsOptions) {
+TEST(Conformance, ChecksItsOptionsBeforeItStarts) {
     EmptyHall gateway;
     auto const nothing = judge(url(gateway.port()) + " --only nothing_like_this");
     EXPECT_EQ(nothing.exit_code, 2);
@@ -180,8 +180,8 @@ TEST(Conformance, SaysBeforeItPlaysWhatIsWrongWithItsOptions) {
     EXPECT_EQ(nowhere.text, "rois-conformance: the report cannot be written to /nowhere/report.xml\n");
 }
 
-// A proxy that breaks nothing is found whole: what is found below is the broken rule's doing.
-TEST(Conformance, OfAProxyThatBreaksNothingIsWhole) {
+// With a proxy that breaks no rule, all checks pass: findings below come from the broken rule.
+TEST(Conformance, FindsNoBrokenRuleBehindAProxyThatBreaksNone) {
     EmptyHall gateway;
     Proxy const proxy{gateway.port(), [] { return Breaking{}; }};
     auto const judged = judge(url(proxy.port()));
@@ -213,7 +213,7 @@ Breaking writes_other_prefixes() {
             }};
 }
 
-// Bodies in chunks, header fields in lower case without a blank (RFC 9112, 5 and 7.1).
+// Bodies in chunks, header fields in lower case without a space (RFC 9112, 5 and 7.1).
 Breaking writes_other_http() {
     return {.http_reply = [](Message const&, Message& reply) {
         constexpr std::size_t longest_chunk = 100;
@@ -236,21 +236,21 @@ Breaking writes_other_http() {
     }};
 }
 
-TEST(Conformance, OfAGatewayThatWritesOtherPrefixesIsWhole) {
+TEST(Conformance, FindsNoBrokenRuleInAGatewayWithOtherPrefixes) {
     EmptyHall gateway;
     Proxy const proxy{gateway.port(), writes_other_prefixes};
     auto const judged = judge(url(proxy.port()));
     EXPECT_EQ(judged.exit_code, 0) << judged.text;
 }
 
-TEST(Conformance, OfAGatewayThatWritesOtherHttpIsWhole) {
+TEST(Conformance, FindsNoBrokenRuleInAGatewayWithOtherHttp) {
     EmptyHall gateway;
     Proxy const proxy{gateway.port(), writes_other_http};
     auto const judged = judge(url(proxy.port()) + " --over http");
     EXPECT_EQ(judged.exit_code, 0) << judged.text;
 }
 
-TEST(Conformance, OfAGatewayThatSpeaksRubbishIsReportedInXml) {
+TEST(Conformance, ReportsInvalidAnswersInXml) {
     EmptyHall gateway;
     Proxy const proxy{gateway.port(), []() -> Breaking {
                           return {.http_reply = [](Message const&, Message& reply) {
@@ -270,7 +270,7 @@ TEST(Conformance, OfAGatewayThatSpeaksRubbishIsReportedInXml) {
     std::filesystem::remove(file);
 }
 
-TEST(Conformance, OfAGatewayThatOpensNoSessionIsReportedInXml) {
+TEST(Conformance, ReportsAGatewayThatOpensNoSessionInXml) {
     EmptyHall gateway;
     Proxy const proxy{gateway.port(), []() -> Breaking {
                           return {.http_reply = [](Message const&, Message& reply) {
@@ -288,8 +288,8 @@ TEST(Conformance, OfAGatewayThatOpensNoSessionIsReportedInXml) {
     std::filesystem::remove(file);
 }
 
-// Whatever is free again, another application takes it at once.
-TEST(Conformance, OfAGatewayInUseBlamesNobody) {
+// Another application binds each component as soon as it is free.
+TEST(Conformance, BlamesNoGatewayForComponentsThatAreInUse) {
     EmptyHall gateway;
     auto const is_taken = std::make_shared<std::atomic<bool>>(false);
     Proxy const proxy{gateway.port(), [=]() -> Breaking {

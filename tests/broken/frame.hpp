@@ -1,28 +1,27 @@
-// WebSocket frames as the proxy passes them on, and the sequence in the documents that they carry.
+// Frames that the proxy passes on, and the sequence number in their documents.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 
-#include "broken/socket.hpp"
+#include "kit/socket.hpp"
+#include "kit/websocket_frames.hpp"
 
 namespace rois::broken {
 
 struct Frame {
-    std::string bytes;    // all of it, as it came
+    kit::FrameHead head;
+    std::string bytes;    // the whole frame, as received
     std::string payload;  // not masked
-    bool is_masked = false;
 
-    bool is_text() const { return static_cast<unsigned char>(bytes[0]) == 0x81; }
+    bool is_text() const { return head.is_whole() && head.kind() == kit::Kind::text; }
+    bool is_masked() const { return head.masked == kit::Masked::yes; }
 };
 
-enum class Masked { no, yes };
+// Returns nothing if the peer has closed the connection.
+std::optional<Frame> read_frame(kit::Socket& from);
 
-std::optional<Frame> read_frame(Socket& from);
-std::string frame_of(std::string const& text, Masked);  // a whole text frame
-
-long sequence_of(std::string const& document);  // 0 for what is no notification
+long sequence_of(std::string const& document);  // 0 if it is not a notification
 std::string with_sequence(std::string const& notification, long sequence);
 
 }  // namespace rois::broken

@@ -1,10 +1,6 @@
 #include "broken/judging.hpp"
 
-#include <sys/wait.h>
-
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 namespace rois::broken {
 
@@ -31,15 +27,8 @@ std::set<std::string> marked_in(std::string const& report, std::string const& wo
 }  // namespace
 
 Judged judge(std::string const& arguments) {
-    auto const command = ROIS_BINARY_DIR "/bin/rois-conformance " + arguments + " 2>&1";
-    auto* const program = popen(command.c_str(), "r");
-    Judged judged;
-    if (program == nullptr) return judged;
-    std::array<char, 4096> buffer;
-    while (auto const size = fread(buffer.data(), 1, buffer.size(), program)) judged.text.append(buffer.data(), size);
-    auto const status = pclose(program);
-    judged.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return judged;
+    auto const ended = kit::run_shell(ROIS_BINARY_DIR "/bin/rois-conformance " + arguments + " 2>&1");
+    return {ended.exit_code, ended.out};
 }
 
 std::set<std::string> broken_in(std::string const& report) { return marked_in(report, "BROKEN         "); }

@@ -1,4 +1,4 @@
-// rois-conformance as a program, and the gateway that it judges.
+// Runs rois-conformance against a gateway.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "server/gateway_process.hpp"
+#include "kit/gateway_process.hpp"
 
 namespace rois::broken {
 
@@ -18,12 +18,12 @@ struct Judged {
 // Runs rois-conformance with these arguments.
 Judged judge(std::string const& arguments);
 
-// The names of the checks that found a broken rule, or that held.
+// Return the names of the checks that found a broken rule, and of those that passed.
 std::set<std::string> broken_in(std::string const& report);
 std::set<std::string> held_in(std::string const& report);
 
-// Our gateway with nobody in its hall, twenty times as fast as the clock unless the settings say otherwise.
-struct EmptyHall : test::GatewayProcess {
+// Our gateway with an empty hall, where time passes 20 times as fast unless the settings say otherwise.
+struct EmptyHall : kit::GatewayProcess {
     explicit EmptyHall(std::vector<std::string> const& settings = {});
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view length_field = "Content-Length: ";
 
-std::optional<Message> read_message(Socket& from) {
+std::optional<Message> read_message(kit::Socket& from) {
     auto const head = from.take_until("\r\n\r\n");
     if (!head) return {};
     Message message;
@@ -36,7 +36,7 @@ std::optional<Message> read_message(Socket& from) {
     return message;
 }
 
-void write_message(Socket& to, Message const& message) {
+void write_message(kit::Socket& to, Message const& message) {
     auto text = message.first_line;
     for (auto const& line : message.headers)
         text += message.has_length && line.starts_with(length_field)
@@ -56,7 +56,7 @@ bool has_header(Message const& message, std::string_view text) {
 // Both directions of a WebSocket, each in its own thread.
 class Conversation final : public Link {
 public:
-    Conversation(Socket& application, Socket& gateway, Breaking& breaking)
+    Conversation(kit::Socket& application, kit::Socket& gateway, Breaking& breaking)
         : application_{application}, gateway_{gateway}, breaking_{breaking} {}
 
     void run() {
@@ -75,15 +75,15 @@ private:
     };
 
     void ask(Request request) {
-        auto const text = frame_of(request.document, Masked::yes);
+        auto const text = whole_frame(kit::Kind::text, request.document, kit::Masked::yes);
         std::lock_guard const lock{asked_mutex_};
         asked_.push_back(std::move(request));
         gateway_.send(text);
     }
 
-    void say(std::string const& document) { application_.send(frame_of(document, Masked::no)); }
+    void say(std::string const& document) { application_.send(whole_frame(kit::Kind::text, document, kit::Masked::no)); }
 
-    // What the proxy says of itself: its notifications come between those of the gateway.
+    // Sends documents of the proxy; its notifications are numbered in between those of the gateway.
     void say_more(Documents const& documents) {
         for (auto const& document : documents) {
             if (sequence_of(document) == 0) {
@@ -97,7 +97,7 @@ private:
 
     void take_requests() {
         while (auto const frame = read_frame(application_)) {
-            if (!frame->is_text() || !frame->is_masked) {  // what is not a client's is the gateway's to refuse
+            if (!frame->is_text() || !frame->is_masked()) {  // frames that no client may send: the gateway refuses them
                 gateway_.send(frame->bytes);
                 continue;
             }
@@ -149,21 +149,21 @@ private:
         say_more(breaking_.answer ? breaking_.answer(request.document, document, *this) : Documents{document});
     }
 
-    Socket& application_;
-    Socket& gateway_;
+    kit::Socket& application_;
+    kit::Socket& gateway_;
     std::mutex breaking_mutex_;
     Breaking& breaking_;
-    long shift_ = 0;          // of the sequence, since notifications were added or left out
-    long last_sequence_ = 0;  // said to the application
+    long shift_ = 0;          // offset of the sequence after added and dropped notifications
+    long last_sequence_ = 0;  // sent to the application
     std::mutex asked_mutex_;
     std::deque<Request> asked_;
 };
 
-// HTTP, until it becomes a WebSocket or an event stream.
+// Serves HTTP until the connection becomes a WebSocket or an event stream.
 class Connection final : public Link {
 public:
     Connection(int application, std::uint16_t gateway, Breaking breaking)
-        : application_{application}, port_{gateway}, gateway_{connect_to(gateway)}, breaking_{std::move(breaking)} {}
+        : application_{application}, port_{gateway}, gateway_{kit::connect_to(gateway)}, breaking_{std::move(breaking)} {}
 
     void run() {
         while (auto request = read_message(application_)) {
@@ -186,7 +186,7 @@ public:
     }
 
     void ask_aside(std::string const& request) override {
-        Socket aside{connect_to(port_)};
+        kit::Socket aside{kit::connect_to(port_)};
         write_message(aside, {"POST /rois HTTP/1.1\r\n",
                               {"Host: localhost\r\n", "Content-Type: text/xml\r\n", session_, std::string{length_field} + "\r\n"},
                               request});
@@ -199,7 +199,7 @@ private:
         return found == message.headers.end() ? "" : *found;
     }
 
-    // Whether it is still HTTP.
+    // Returns whether the connection is still HTTP.
     bool pass_on(Message const& request, std::string const& asked) {
         auto reply = read_message(gateway_);
         if (!reply) return false;
@@ -232,9 +232,9 @@ private:
         return false;
     }
 
-    Socket application_;
+    kit::Socket application_;
     std::uint16_t port_;
-    Socket gateway_;
+    kit::Socket gateway_;
     Breaking breaking_;
     std::string session_;  // its header line
 };

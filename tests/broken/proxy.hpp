@@ -1,4 +1,4 @@
-// Stands in front of a gateway and breaks one of its rules: whoever asks here, asks a gateway that is broken in one way.
+// A proxy before a gateway that breaks one of its rules. Its clients see a gateway that is wrong in one way.
 #pragma once
 
 #include <atomic>
@@ -9,18 +9,18 @@
 #include <thread>
 #include <vector>
 
-#include "broken/socket.hpp"
+#include "kit/socket.hpp"
 
 namespace rois::broken {
 
 // Documents, in order.
 using Documents = std::vector<std::string>;
 
-// What an application and the gateway say to each other over one connection.
+// The messages between an application and the gateway over one connection.
 class Link {
 public:
     virtual ~Link() = default;
-    // Asks the gateway something of which the application hears nothing.
+    // Sends the gateway a request; the application does not receive the answer.
     virtual void ask_aside(std::string const& request) = 0;
 };
 
@@ -29,20 +29,21 @@ struct Message {
     std::string first_line;
     std::vector<std::string> headers;
     std::string body;
-    bool has_length = true;  // one Content-Length, which is a number; else it goes on as it is
+    bool has_length = true;  // exactly one Content-Length with a number; otherwise the message is not changed
 };
 
-// What the proxy does otherwise, for one connection. Without these, it changes nothing.
+// The changes that the proxy makes on one connection. An empty function changes nothing.
 struct Breaking {
-    // What is answered without asking the gateway; nothing to ask.
+    // Returns an answer that does not come from the gateway, or nothing to forward the request.
     std::function<Documents(std::string const& request)> instead{};
-    // What is asked of the gateway.
+    // Returns the request for the gateway.
     std::function<std::string(std::string request)> request{};
-    // What is said instead of this answer. Notifications among them, over a WebSocket, are counted in.
+    // Returns the documents to send instead of this answer. Over a WebSocket, notifications among them get the next sequence
+    // numbers.
     std::function<Documents(std::string const& request, std::string answer, Link&)> answer{};
-    // What is said instead of this notification, over a WebSocket; those that are more or fewer than one are counted anew.
+    // Returns the documents to send instead of this notification, over a WebSocket. Later notifications are renumbered.
     std::function<Documents(std::string notification)> notification{};
-    // Over HTTP alone: whole messages.
+    // Change whole messages, over HTTP only.
     std::function<void(Message& request)> http_request{};
     std::function<void(Message const& request, Message& reply)> http_reply{};
 };
@@ -62,7 +63,7 @@ private:
 
     std::uint16_t gateway_;
     std::function<Breaking()> breaking_;
-    Listener listener_;
+    kit::Listener listener_;
     std::atomic<bool> ending_ = false;
     std::list<std::thread> connections_;
     std::thread accepting_;

@@ -12,11 +12,11 @@ namespace rois::broken {
 
 enum class Over { websocket, http };
 
-// Where rules can be seen.
+// Worlds in which a broken rule is observable.
 enum class World {
-    empty_hall,    // twenty times as fast as the clock
+    empty_hall,    // 20 times as fast as real time
     calm_hall,     // three times as fast: a motion takes a while
-    slow_hall,     // as fast as the clock
+    slow_hall,     // in real time
     visitor,       // who stands
     strollers,     // visitors who walk
     two_robots,    // in one hall
@@ -25,14 +25,14 @@ enum class World {
 };
 
 struct BrokenRule {
-    std::string name;      // what the gateway does wrong
+    std::string name;      // the wrong behaviour
     std::string found_by;  // the name of a check of rois-conformance
     std::function<Breaking()> breaking;
     Over over = Over::websocket;
     World world = World::empty_hall;
 };
 
-// What the gateway and rois-conformance are told for it.
+// The settings of the gateway and of rois-conformance for it.
 struct Settings {
     std::vector<std::string> gateway;
     std::string judge;
@@ -44,8 +44,8 @@ std::vector<BrokenRule> rules_of_commands();
 std::vector<BrokenRule> rules_of_information();  // queries, events, profiles
 std::vector<BrokenRule> rules_of_conditions();
 std::vector<BrokenRule> rules_of_http();
-std::vector<BrokenRule> rules_of_gaps();    // what is left out, or empty
-std::vector<BrokenRule> rules_of_motion();  // from here on: what components do in the world
+std::vector<BrokenRule> rules_of_gaps();    // missing or empty parts
+std::vector<BrokenRule> rules_of_motion();  // from here on: effects of components in the world
 std::vector<BrokenRule> rules_of_actions();
 std::vector<BrokenRule> rules_of_people();
 std::vector<BrokenRule> rules_of_systems();

@@ -18,14 +18,14 @@
 namespace rois::broken {
 namespace {
 
-TEST(Conformance, BrokenRulesAreManyAndNamedOnce) {
+TEST(BrokenRules, AreManyAndHaveUniqueNames) {
     std::set<std::string> names;
     for (auto const part : all_parts)
         for (auto const& rule : part.rules()) EXPECT_TRUE(names.insert(rule.name).second) << rule.name;
     EXPECT_GE(names.size(), 197u);
 }
 
-// Plays the check that must find it; all of them when that is a rule for everything that comes.
+// Runs the check that must find the broken rule; all checks if the rule applies to all messages.
 Judged judge_broken(BrokenRule const& rule) {
     constexpr int no_such_check = 2;
     auto const [for_gateway, for_judge] = settings_of(rule.world);
@@ -37,7 +37,7 @@ Judged judge_broken(BrokenRule const& rule) {
     return judged.exit_code == no_such_check ? judge(order) : judged;
 }
 
-// Four at a time: they wait for most of it.
+// Four at a time: they mostly wait.
 std::vector<Judged> judge_all(std::vector<BrokenRule> const& rules) {
     std::vector<Judged> judged(rules.size());
     std::atomic<std::size_t> next = 0;
@@ -50,9 +50,9 @@ std::vector<Judged> judge_all(std::vector<BrokenRule> const& rules) {
     return judged;
 }
 
-// What is found in the worlds of effects is the broken rule's doing: without one, nothing is found, and all that is looked for
-// can be seen.
-TEST(Conformance, OfAnUnbrokenGatewaySeesItsEffects) {
+// Findings in the worlds of effects come from the broken rule: without one, no check fails, and all effects
+// are observable.
+TEST(BrokenRules, AreObservableInTheirWorlds) {
     std::map<std::pair<World, std::string>, BrokenRule> unbroken;
     for (auto const part : all_parts)
         for (auto const& rule : part.rules())

@@ -58,7 +58,7 @@ void remove_optional(pugi::xml_node root) {
     });
 }
 
-// What the request has that this gateway does without; empty when there is nothing.
+// Returns the optional part that the request uses and this gateway lacks; empty if there is none.
 std::string optional_part_of(std::string const& request) {
     std::string found;
     edited(request, [&](pugi::xml_node root) {
@@ -106,7 +106,7 @@ Edit renaming(Names const& names) {
     };
 }
 
-// New names by old ones, and the other way around with capital letters, too: conditions may ignore the case.
+// Maps old names to new ones. The reverse map also has capital letters: conditions may ignore the case.
 Names reversed(Names const& names) {
     Names reverse;
     for (auto const& [before, after] : names) {
@@ -131,7 +131,7 @@ std::regex expression_of(std::string const& pattern) {
     return std::regex{expression};
 }
 
-// A pattern of new names becomes the list of those that match it.
+// Replaces a pattern of new names by the list of matching names.
 Edit listing_patterns(Names const& names) {
     return [names](pugi::xml_node root) {
         for_each_below(root, [&](pugi::xml_node node) {
@@ -172,7 +172,7 @@ void nest_engines(pugi::xml_node root) {
     add_engine(building, "ground_floor", {building.child("rois:SubProfile")});
 }
 
-// Edits what the gateway says about itself and the world.
+// Edits the gateway's documents about itself and the world.
 Breaking says_otherwise(Edit const& edit) {
     return {.answer = [=](std::string const&, std::string const& answer, Link&) -> Documents { return {edited(answer, edit)}; },
             .notification = [=](std::string const& notification) -> Documents { return {edited(notification, edit)}; },
@@ -199,7 +199,7 @@ Breaking has_names(Names const& names, Edit const& edit) {
             if (is(request, "search") && has_text(request, "<fes:SortBy>")) sort(root, has_text(request, ">DESC<"));
         })};
     };
-    // A request without any of the names passes as it is, also when it is not valid XML.
+    // A request without any of the names is not changed, even if it is not valid XML.
     breaking.request = [=](std::string const& request) {
         bool const has_name = std::ranges::any_of(reverse, [&](auto const& name) { return has_text(request, name.first); });
         if (!has_name && !has_text(request, "PropertyIsLike")) return request;

@@ -17,7 +17,7 @@ void expect_whole(Judged const& judged, std::vector<std::string> const& held) {
     for (auto const& check : held) EXPECT_THAT(held_in(judged.text), testing::Contains(check)) << judged.text;
 }
 
-TEST(Conformance, OfAGatewayWithMandatoryPartsOnlyIsWhole) {
+TEST(Conformance, FindsNoBrokenRuleInAGatewayWithMandatoryPartsOnly) {
     EmptyHall gateway;
     Proxy const proxy{gateway.port(), has_mandatory_parts_only};
     expect_whole(judge(url(proxy.port())), {"basic_components_have_their_parameters", "navigation_reaches_its_target",
@@ -25,14 +25,14 @@ TEST(Conformance, OfAGatewayWithMandatoryPartsOnlyIsWhole) {
                                             "move_drives_its_line", "every_component_starts_and_stops"});
 }
 
-TEST(Conformance, OfAGatewayWithMandatoryPartsOnlyIsWholeAmongPeople) {
+TEST(Conformance, FindsNoBrokenRuleInAGatewayWithMandatoryPartsOnlyAmongPeople) {
     auto const [settings, options] = settings_of(World::visitor);
     EmptyHall gateway{settings};
     Proxy const proxy{gateway.port(), has_mandatory_parts_only};
     expect_whole(judge(url(proxy.port()) + options + " --over websocket --only follow"), {"follow_keeps_its_distance"});
 }
 
-TEST(Conformance, OfAGatewayWithOtherNamesIsWhole) {
+TEST(Conformance, FindsNoBrokenRuleInAGatewayWithOtherNames) {
     EmptyHall gateway{{"--engine-name", "Empfang-7", "--floor-plan", data + "other_names.xml"}};
     Proxy const with_names{gateway.port(), [] { return has_names(other_component_names()); }};
     Proxy const with_ids{with_names.port(), has_other_ids};
@@ -41,7 +41,7 @@ TEST(Conformance, OfAGatewayWithOtherNamesIsWhole) {
     expect_whole(judge(url(with_ids.port()) + " --over websocket"), held);
 }
 
-TEST(Conformance, OfAGatewayWithSubEnginesIsWhole) {
+TEST(Conformance, FindsNoBrokenRuleInAGatewayWithSubEngines) {
     EmptyHall gateway{{"--floor-plan", ROIS_SOURCE_DIR "/components/simulation/data/two-robots.xml"}};
     auto names = component_names("", "building.ground_floor.robot1.");
     names.merge(component_names("robot2.", "building.robot2."));

@@ -1,8 +1,8 @@
 // Links that break: the session is resumed, no command runs twice, and missed notifications are reported.
 #include <algorithm>
 
-#include "client/http_client.hpp"
 #include "client_cpp/rig.hpp"
+#include "kit/http_client.hpp"
 
 namespace rois::test {
 namespace {
@@ -280,7 +280,7 @@ TEST_P(TheLink, ReportsNotificationsThatTheEngineDropped) {
         xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"><rois:CommandUnitSequence><rois:command_unit_list
         xsi:type="rois:CommandMessageType" rois:command_type="start" rois:command_id="aside"><rois:component_ref
         rois:code="person_detection"/></rois:command_unit_list></rois:CommandUnitSequence></execute>)";
-    client::HttpClient http{gateway.address()};
+    kit::HttpClient http{gateway.address()};
     http.session = robot.client().session().text;
     ASSERT_EQ(http.post(detect).return_code(), "OK");
     ASSERT_TRUE(witness(witnessed.next(5s)));

@@ -1,8 +1,5 @@
 #include "client_cpp/proxy.hpp"
 
-#include <arpa/inet.h>
-#include <fcntl.h>
-#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
@@ -17,14 +14,6 @@ namespace rois::test {
 
 namespace {
 
-sockaddr_in loopback(std::uint16_t port) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    return address;
-}
-
 // Closes a connection with a reset.
 void close_hard(int descriptor) {
     linger const now{1, 0};
@@ -32,22 +21,9 @@ void close_hard(int descriptor) {
     close(descriptor);
 }
 
-int at_once(int descriptor) {
-    int const yes = 1;
-    setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-    return descriptor;
-}
-
 }  // namespace
 
-Proxy::Proxy(std::uint16_t gateway)
-    : listener_{socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)}, wake_{eventfd(0, EFD_CLOEXEC)}, gateway_{gateway} {
-    auto address = loopback(0);
-    socklen_t size = sizeof address;
-    if (bind(listener_, reinterpret_cast<sockaddr*>(&address), size) != 0 || listen(listener_, 64) != 0 ||
-        getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size) != 0)
-        throw std::runtime_error{"the proxy cannot listen"};
-    port_ = ntohs(address.sin_port);
+Proxy::Proxy(std::uint16_t gateway) : wake_{eventfd(0, EFD_CLOEXEC)}, gateway_{gateway} {
     thread_ = std::thread{[this] { run(); }};
 }
 
@@ -56,7 +32,6 @@ Proxy::~Proxy() {
     wake();
     thread_.join();
     cut_all();
-    close(listener_);
     close(wake_);
 }
 
@@ -148,14 +123,13 @@ bool Proxy::tears(std::size_t bytes) {
 }
 
 void Proxy::accept() {
-    auto const client = at_once(accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC));
-    if (client < 0) return;
+    auto const accepted = listener_.accept();
+    if (!accepted) return;
+    auto const client = *accepted;
     ++accepted_;
-    auto const gateway = at_once(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
-    auto const address = loopback(gateway_);
-    if (refuses_ || connect(gateway, reinterpret_cast<sockaddr const*>(&address), sizeof address) != 0) {
+    auto const gateway = refuses_ ? -1 : kit::try_connect_to(gateway_);
+    if (gateway < 0) {
         close_hard(client);
-        close(gateway);
         return;
     }
     pairs_.push_back({client, gateway, false, {}, {}});
@@ -196,7 +170,7 @@ int Proxy::wait_time() const {
 
 void Proxy::run() {
     while (!ending_) {
-        std::vector<pollfd> watched{{listener_, POLLIN, 0}, {wake_, POLLIN, 0}};
+        std::vector<pollfd> watched{{listener_.descriptor(), POLLIN, 0}, {wake_, POLLIN, 0}};
         int time = 0;
         {
             std::lock_guard const lock{mutex_};

@@ -12,6 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "kit/socket.hpp"
+
 namespace rois::test {
 
 // Listens on a free port of the loopback. Thread-safe.
@@ -22,8 +24,8 @@ public:
     Proxy(Proxy const&) = delete;
     Proxy& operator=(Proxy const&) = delete;
 
-    std::uint16_t port() const { return port_; }
-    std::string url() const { return "http://127.0.0.1:" + std::to_string(port_); }
+    std::uint16_t port() const { return listener_.port(); }
+    std::string url() const { return "http://127.0.0.1:" + std::to_string(port()); }
 
     // Cuts all connections now.
     void cut();
@@ -73,8 +75,7 @@ private:
     std::size_t next_cut() { return evenly_ ? longest_ : dice_() % longest_ + 1; }
     void wake() const;
 
-    std::uint16_t port_ = 0;
-    int listener_ = -1;
+    kit::Listener listener_;
     int wake_ = -1;
     std::atomic<bool> ending_ = false;
     std::atomic<std::size_t> accepted_ = 0;

@@ -1,8 +1,5 @@
 // The example reception in C++: the same day as with the other clients gives the same history.
-#include <sys/wait.h>
-
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 
@@ -11,15 +8,11 @@
 namespace rois::test {
 namespace {
 
-// The output of the reception, and its exit code.
+// Returns the output of the reception; checks its exit code.
 std::string printed(std::string const& url, std::string const& visitors, int exit_code = 0) {
-    std::string text;
-    auto* const pipe = popen(("ROIS_URL=" + url + " " ROIS_BINARY_DIR "/bin/reception " + visitors + " 2>&1").c_str(), "r");
-    for (int c = std::getc(pipe); c != EOF; c = std::getc(pipe)) text.push_back(static_cast<char>(c));
-    auto const status = pclose(pipe);
-    EXPECT_TRUE(WIFEXITED(status)) << text;
-    EXPECT_EQ(WEXITSTATUS(status), exit_code) << text;
-    return text;
+    auto const ended = kit::run(ROIS_BINARY_DIR "/bin/reception", {visitors}, {}, {{"ROIS_URL", url}});
+    EXPECT_EQ(ended.exit_code, exit_code) << ended.error;
+    return ended.out + ended.error;
 }
 
 TEST(TheReceptionInCpp, PrintsTheExpectedHistory) {

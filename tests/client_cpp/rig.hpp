@@ -14,14 +14,16 @@
 #include <vector>
 
 #include "client_cpp/proxy.hpp"
+#include "kit/gateway_process.hpp"
 #include "rois/blocking.hpp"
 #include "rois/client.hpp"
-#include "server/gateway_process.hpp"
 
 namespace rois::test {
 
 using namespace std::chrono_literals;
 using namespace rois::conditions;
+using kit::GatewayProcess;
+using kit::shared_gateway;
 
 // Settings with short pauses.
 inline Settings quick(std::string url, Way way = Way::websocket) {

@@ -1,9 +1,7 @@
 // Motion leases of robots that `rois` has set in motion, and stop for everything.
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -28,23 +26,14 @@ constexpr auto way = "target_position=14000, 6000";
 class Shell {
 public:
     Shell(std::string const& lines, std::string const& url) {
-        int ends[2];
-        EXPECT_EQ(pipe2(ends, O_CLOEXEC), 0);
-        process_ = fork();
-        if (process_ == 0) {
-            dup2(ends[0], STDIN_FILENO);
-            setenv("ROIS_URL", url.c_str(), 1);
-            setenv("PATH", (ROIS_BINARY_DIR "/bin:" + std::string{getenv("PATH")}).c_str(), 1);
-            execlp("sh", "sh", "-c", (lines + "\nread line").c_str(), nullptr);
-            _exit(127);
-        }
-        close(ends[0]);
-        in_ = ends[1];
+        Variables const variables{{"ROIS_URL", url}, {"PATH", ROIS_BINARY_DIR "/bin:" + std::string{getenv("PATH")}}};
+        process_ = kit::start("sh", {"-c", lines + "\nread line"}, variables, {.in = in_.to_read});
+        close(in_.to_read);
     }
     ~Shell() {
         signal(SIGKILL);
-        waitpid(process_, nullptr, 0);
-        close(in_);
+        kit::exit_code(process_);
+        close(in_.to_write);
     }
     Shell(Shell const&) = delete;
     Shell& operator=(Shell const&) = delete;
@@ -52,8 +41,8 @@ public:
     void signal(int number) const { kill(process_, number); }
 
 private:
+    kit::Pipe in_;
     pid_t process_ = 0;
-    int in_ = -1;
 };
 
 class RoisAndMotion : public testing::Test {

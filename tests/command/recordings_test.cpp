@@ -5,8 +5,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "client/http_client.hpp"
 #include "command/rois_fixture.hpp"
+#include "kit/http_client.hpp"
 
 namespace rois::test {
 namespace {
@@ -43,7 +43,7 @@ TEST_F(Rois, RejectsUnknownPathsAndMethods) {
     RoisProcess between{{"record", file_named("refused.jsonl"), "--listen", "127.0.0.1:0", "--json"}, at()};
     auto const url = json::parse(between.line())["listening"].get<std::string>();
     auto const port = std::stoi(url.substr(url.rfind(':') + 1));
-    client::HttpClient http{{.port = static_cast<std::uint16_t>(port)}};
+    kit::HttpClient http{{.port = static_cast<std::uint16_t>(port)}};
     EXPECT_EQ(http.get("/elsewhere").fault(), "not_found");
     EXPECT_EQ(http.get("/elsewhere").reason(), "only sessions are served here: /rois, /rois/notifications");
     EXPECT_EQ(http.get("/rois").fault(), "upgrade_required");

@@ -6,9 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "server/gateway_process.hpp"
+#include "kit/gateway_process.hpp"
 
 namespace rois::test {
+
+using kit::Ended;
+using kit::GatewayProcess;
+using kit::shared_gateway;
+using kit::Variables;
 
 // Runs rois with these arguments and this standard input until it ends. Unless `variables` sets ROIS_URL, no gateway answers
 // there.

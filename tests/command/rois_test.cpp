@@ -403,7 +403,7 @@ TEST_F(Rois, WarnsOfUnknownVariables) {
 
 TEST_F(Rois, KnowsTheVariablesOfTheGateway) {
     Variables variables{{"ROIS_URL", shared_gateway().url()}};
-    auto const configuration = json::parse(run_gateway({"--print-config"}).out, nullptr, true, true);
+    auto const configuration = json::parse(kit::run_gateway({"--print-config"}).out, nullptr, true, true);
     for (auto const& [key, value] : configuration.items()) {
         std::string name = "ROIS_" + key;
         for (auto& letter : name) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));

@@ -31,7 +31,7 @@ std::vector<TypedName> typed_names(pugi::xml_node parent, char const* child) {
 
 std::vector<std::string> const common_commands{"start", "stop", "suspend", "resume"};
 
-// A common command that the profile has anew, and that cannot be given without knowing what it means.
+// A common command that the profile redefines, so that a check cannot use it.
 bool needs_arguments(Message const& command) {
     return std::ranges::find(common_commands, command.name) != common_commands.end() &&
            std::ranges::any_of(command.arguments, [](TypedName const& argument) { return !argument.default_value; });
@@ -230,7 +230,7 @@ pugi::xml_node profile_of(pugi::xml_node answer, std::string const& ref) {
     return {};
 }
 
-Catalogue Catalogue::read(client::Document const& answer) {
+Catalogue Catalogue::read(kit::Document const& answer) {
     Catalogue catalogue;
     auto const root = answer.root();
     catalogue.engine = name_of_engine(root.child("rois:HRIEngineProfile"));

@@ -1,4 +1,4 @@
-// What a gateway says that it has: its components and their profiles, read from an answer of get_profile.
+// The components of a gateway and their profiles, read from an answer of get_profile.
 #pragma once
 
 #include <map>
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "client/vocabulary.hpp"
+#include "kit/vocabulary.hpp"
 
 namespace rois::conformance {
 
@@ -33,7 +33,7 @@ struct Component {
     bool has_common = false;            // start, stop, suspend, resume and component_status (table 32)
     bool is_common = false;             // has them, and its commands need no arguments
 
-    // What it is of the basic components: the end of its URN in lower case, "persondetection"; empty for others.
+    // The basic component: the end of its URN in lower case, "persondetection"; empty for others.
     std::string basic() const;
     // A basic component that is active from `start` to `stop`: detection, localization, identification or recognition.
     bool is_function() const;
@@ -55,7 +55,7 @@ struct Catalogue {
     std::map<std::string, std::set<std::string>> whole;  // by engine: the refs of its components and of its sub engines'
 
     // `answer` is that of get_profile without a condition.
-    static Catalogue read(client::Document const& answer);
+    static Catalogue read(kit::Document const& answer);
 
     Component const* find(std::string const& ref) const;
 };

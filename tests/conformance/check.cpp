@@ -13,18 +13,18 @@ void require(bool holds, std::string const& otherwise) {
     if (!holds) throw Broken{otherwise};
 }
 
-client::Document const& ok(client::Document const& answer) {
+kit::Document const& ok(kit::Document const& answer) {
     require(answer.return_code() == "OK", "expected OK, but the answer is " + answer.whole());
     return answer;
 }
 
-void refused(client::Document const& answer, std::string const& return_code, std::string const& words) {
+void refused(kit::Document const& answer, std::string const& return_code, std::string const& words) {
     require(answer.return_code() == return_code, "expected " + return_code + ", but the answer is " + answer.whole());
     require(answer.reason().find(words) != std::string::npos,
             "the reason should name \"" + words + "\", but the answer is " + answer.whole());
 }
 
-void fault(client::Document const& answer, std::string const& code) {
+void fault(kit::Document const& answer, std::string const& code) {
     require(answer.fault() == code, "expected the fault " + code + ", but the answer is " + answer.whole());
 }
 
@@ -37,7 +37,7 @@ std::string first(std::string const& what, std::vector<std::string> const& texts
     return texts.front();
 }
 
-std::string value_of(client::Values const& values, std::string const& name) {
+std::string value_of(kit::Values const& values, std::string const& name) {
     auto const found = values.find(name);
     require(found != values.end(), "there should be a value of " + name + ", and is none");
     require(found->second.size() == 1, name + " should have one value, and has " + list(found->second));

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "client/application.hpp"
+#include "kit/application.hpp"
 
 namespace rois::conformance {
 
 class Stage;
 
-// The gateway does otherwise than the rule says; the text tells what was expected and what came.
+// The gateway breaks the rule; the text contains the expected and the received value.
 class Broken : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -25,7 +25,7 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-// The gateway offers no way to see the effect: nothing says where the robot is, or nobody is in front of it.
+// The effect is not observable: the robot's position is not reported, or no person is in front of it.
 class NotObservable : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -35,7 +35,7 @@ struct Check {
     std::string name;    // the rule in words, with underscores
     std::string proves;  // figures, tables, decisions
     std::function<void(Stage&)> play;
-    std::optional<client::Way> only_over{};
+    std::optional<kit::Way> only_over{};
 };
 
 // A clause of the specification, by which the report is grouped.
@@ -64,22 +64,22 @@ Clause action_clause();
 Clause people_clause();
 Clause system_clause();
 
-// What no gateway has: a component, a command, a query, an event or a parameter of this name.
+// A name of a component, command, query, event or parameter that no gateway has.
 inline constexpr auto nobody = "conformance_nobody";
 
 std::vector<Clause> all_clauses();  // in the order in which they are played
 
 void require(bool holds, std::string const& otherwise);
 // The answer itself when it is OK.
-client::Document const& ok(client::Document const& answer);
+kit::Document const& ok(kit::Document const& answer);
 // The answer is this refusal, and its reason has these words.
-void refused(client::Document const& answer, std::string const& return_code, std::string const& words = "");
-void fault(client::Document const& answer, std::string const& code);
+void refused(kit::Document const& answer, std::string const& return_code, std::string const& words = "");
+void fault(kit::Document const& answer, std::string const& code);
 void same(std::string const& what, std::string const& expected, std::string const& found);
 std::string list(std::vector<std::string> const& texts);  // for messages
 // What a gateway says may be empty where it should not be: Broken says so.
 std::string first(std::string const& what, std::vector<std::string> const& texts);
 // The only value of this result or parameter.
-std::string value_of(client::Values const&, std::string const& name);
+std::string value_of(kit::Values const&, std::string const& name);
 
 }  // namespace rois::conformance

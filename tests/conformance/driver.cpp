@@ -39,7 +39,7 @@ Driver::~Driver() {
             return;
         }
     } catch (std::exception const&) {
-        // The robot stays where it is: the check has said what is wrong, or another application has the navigation.
+        // The robot stays: the check has reported the error, or another application has bound the navigation.
     }
 }
 

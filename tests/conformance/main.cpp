@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "client/line.hpp"
 #include "conformance/play.hpp"
+#include "kit/line.hpp"
 #include "types/texts.hpp"
 #include "xml/validation/schemas.hpp"
 
@@ -87,7 +87,7 @@ std::optional<CommandLine> read_command_line(std::span<char* const> arguments) {
             line.report = value;
         } else if (name == "--over") {
             if (value != "http" && value != "websocket") throw BadUsage{"--over takes http or websocket, not " + value};
-            line.order.ways = {value == "http" ? rois::client::Way::http : rois::client::Way::websocket};
+            line.order.ways = {value == "http" ? rois::kit::Way::http : rois::kit::Way::websocket};
         } else if (name == "--only") {
             line.order.only = value;
         } else if (name == "--token") {

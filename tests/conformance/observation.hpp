@@ -17,7 +17,7 @@ using std::chrono::milliseconds;
 struct Sighting {
     std::string robot;  // its code
     Point at;
-    double sigma = 5;          // mm; the reported standard deviation, or what is assumed when none is reported
+    double sigma = 5;          // mm; the reported standard deviation, or an assumed one
     double heading_sigma = 1;  // degrees
     std::string timestamp;
 };
@@ -41,7 +41,7 @@ public:
     Eye(Guest&, Component const& of);
 
     Sighting look() const;
-    // Looks until this holds, for half a second at most: what is reported may lag behind. Returns the last look.
+    // Repeats the observation until this holds, for at most half a second, because reports may lag. Returns the last observation.
     Sighting look_until(std::function<bool(Sighting const&)> const& holds) const;
 
 private:
@@ -63,9 +63,9 @@ Trip watch(
     Stage&, Guest&, Eye const&, std::string const& command_id,
     std::function<bool(Sighting const&)> const& enough = [](Sighting const&) { return false; });
 
-// The command completes with OK, after as long as it is told to run; NotPlayed when the component has failed.
+// Expects that the command completes with OK after its running time. Throws NotPlayed if the component has failed.
 void require_end(Guest&, std::string const& command_id, Component const&);
-// From the request to its end, for as long as it is told to run. The command completes with OK; NotPlayed when the component has
+// Expects that the command completes with OK. Returns the time from the request to its end. Throws NotPlayed if the component has
 // failed.
 milliseconds duration_of(Guest&, Command const&, Component const&);
 // How long a command takes that completes at once: the way to the component and back.

@@ -2,9 +2,9 @@
 
 #include <chrono>
 
-#include "client/line.hpp"
 #include "conformance/check.hpp"
 #include "conformance/stage.hpp"
+#include "kit/line.hpp"
 
 namespace rois::conformance {
 
@@ -14,12 +14,12 @@ using Clock = std::chrono::steady_clock;
 
 std::string name_of(Way way) { return way == Way::http ? "HTTP" : "WebSocket"; }
 
-Catalogue catalogue_of(client::Address const& address) {
-    client::HttpClient client{address};
+Catalogue catalogue_of(kit::Address const& address) {
+    kit::HttpClient client{address};
     auto const connected = client.call("connect");
-    if (connected.return_code() != "OK") throw client::LineEnded{"it opens no session: " + connected.body};
+    if (connected.return_code() != "OK") throw kit::LineEnded{"it opens no session: " + connected.body};
     auto const profile = client.call("get_profile");
-    if (profile.return_code() != "OK") throw client::LineEnded{"it tells no profile: " + profile.body};
+    if (profile.return_code() != "OK") throw kit::LineEnded{"it tells no profile: " + profile.body};
     return Catalogue::read(Document{profile.body});
 }
 
@@ -38,7 +38,7 @@ void judge(Finding& finding, Check const& check, Stage& stage) {
     } catch (std::exception const& reason) {  // Broken, LineEnded, or a document that is none
         found(Outcome::broken, reason.what());
     } catch (...) {
-        found(Outcome::broken, "something that cannot be told went wrong");
+        found(Outcome::broken, "an unknown exception was thrown");
     }
     finding.seconds = std::chrono::duration<double>(Clock::now() - began).count();
 }
@@ -48,7 +48,7 @@ bool is_asked_for(Order const& order, Check const& check, Way way) {
 }
 
 Chapter standing_rules(Traffic const& traffic) {
-    Chapter chapter{"All that is said, whatever is played", {}};
+    Chapter chapter{"All messages of all checks", {}};
     for (auto const& rule : traffic.rules()) {
         Finding finding{rule.name, rule.proves, ""};
         if (!rule.objection.empty()) {

@@ -33,7 +33,7 @@ std::string shortened(std::string const& text) {
     return text.size() <= longest_text ? text : text.substr(0, longest_text) + " ...";
 }
 
-// The only way into the text: a line of its own for each thing that is said, whatever a gateway has put into it.
+// The only way to add text: one line for each entry, whatever a gateway has put into it.
 void write_line(std::ostream& out, std::string const& line) { out << readable(line) << "\n"; }
 
 // The only way into the document.

@@ -14,7 +14,7 @@ enum class Outcome { holds, broken, not_played, not_observable };
 struct Finding {
     std::string name;
     std::string proves;
-    std::string over;  // "HTTP", "WebSocket"; empty for what is seen over all
+    std::string over;  // "HTTP", "WebSocket"; empty for checks over all transports
     Outcome outcome = Outcome::holds;
     std::string text{};  // why, unless it holds
     double seconds = 0;
@@ -38,7 +38,7 @@ void write_junit(std::ostream&, Report const&);
 // The report of a gateway that could not be judged.
 void write_junit_error(std::ostream&, std::string const& gateway, std::string const& why);
 
-// On one line, with U+FFFD for what is no text: bytes that are not UTF-8, control characters.
+// Returns the text on one line, with U+FFFD in place of control characters and bytes that are not UTF-8.
 std::string readable(std::string_view);
 
 }  // namespace rois::conformance

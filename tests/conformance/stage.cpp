@@ -4,7 +4,7 @@
 #include <array>
 #include <ctime>
 
-#include "client/line.hpp"
+#include "kit/line.hpp"
 
 namespace rois::conformance {
 
@@ -30,7 +30,7 @@ std::string in_ssml(std::string const& content) {
 
 }  // namespace
 
-Stage::Stage(client::Address address, Way way, Catalogue const& catalogue, Traffic& traffic, double room)
+Stage::Stage(kit::Address address, Way way, Catalogue const& catalogue, Traffic& traffic, double room)
     : address_{std::move(address)},
       way_{way},
       catalogue_{catalogue},
@@ -73,7 +73,7 @@ void Stage::mind_the_time() const {
     require(std::chrono::steady_clock::now() < end_, "the check has taken too long (a minute, or six times the patience)");
 }
 
-Guest::Guest(Stage& stage, Comes comes) : Application{client::wire_to(stage.address(), stage.way())}, stage_{stage} {
+Guest::Guest(Stage& stage, Comes comes) : Application{kit::wire_to(stage.address(), stage.way())}, stage_{stage} {
     if (comes == Comes::connected) ok(connect());
 }
 
@@ -95,7 +95,7 @@ void Guest::take(Component const& component) {
 }
 
 std::string Guest::order(Command const& command) {
-    auto const ids = client::command_ids(ok(execute(command)));
+    auto const ids = kit::command_ids(ok(execute(command)));
     require(ids.size() == 1, "the answer should name one command");
     return first("a command", ids);
 }
@@ -118,7 +118,7 @@ void Guest::require_success(std::string const& command_id, Component const& comp
 Keeping::Keeping(Guest& guest, Component const& component)
     : guest_{guest}, component_{component}, before_{guest.get_parameter(component.ref).values("parameters")} {}
 
-// One by one: what is refused leaves the others be.
+// One by one: a refused parameter does not affect the others.
 Keeping::~Keeping() {
     try {
         auto const answer = guest_.get_parameter(component_.ref);
@@ -142,7 +142,7 @@ std::string Guest::state_of(std::string const& command_id) {
 }
 
 std::string Guest::component_status(std::string const& ref) {
-    return value_of(ok(query("component_status", client::where(client::equal("component_ref", ref)))).values(), "status");
+    return value_of(ok(query("component_status", kit::where(kit::equal("component_ref", ref)))).values(), "status");
 }
 
 Component const* Guest::teller_of(Component const& component) const {
@@ -196,7 +196,7 @@ void Guest::check_answer(Document const& answer, std::string const& operation, s
         events_.clear();
         told_.clear();
     }
-    for (auto const& id : client::command_ids(answer)) commands_.insert(id);
+    for (auto const& id : kit::command_ids(answer)) commands_.insert(id);
     if (auto const id = answer.text("command_id"); !id.empty()) commands_.insert(id);
     if (auto const id = answer.text("subscribe_id"); !id.empty()) subscriptions_.insert(id);
 }
@@ -240,7 +240,7 @@ void Guest::check_event(Document const& event) {
 void Guest::ask_for_details() {
     if (!is_connected()) return;
     for (auto const& id : std::exchange(errors_, {})) {
-        auto const answer = ask("get_error_detail", client::text_element("error_id", id));
+        auto const answer = ask("get_error_detail", kit::text_element("error_id", id));
         auto const details = answer.values();
         stage_.traffic().see("errors_have_details",
                              answer.return_code() == "OK" && details.contains("component_ref") && details.contains("time") &&
@@ -297,7 +297,7 @@ Command command(Component const& component, std::string const& type, std::string
     return {.component = component.ref, .type = type, .id = id, .delay = delay};
 }
 
-client::Xml only(Component const& component) { return client::where(client::equal("component_ref", component.ref)); }
+kit::Xml only(Component const& component) { return kit::where(kit::equal("component_ref", component.ref)); }
 
 std::string unique_name() {
     static unsigned names = 0;

@@ -1,4 +1,4 @@
-// Where a check is played: the gateway, the way to it, and those who come to it as service applications.
+// The environment of a check: the gateway, the transport, and the service applications.
 #pragma once
 
 #include <chrono>
@@ -8,24 +8,24 @@
 #include <string>
 #include <vector>
 
-#include "client/application.hpp"
-#include "client/http_client.hpp"
 #include "conformance/catalogue.hpp"
 #include "conformance/check.hpp"
 #include "conformance/traffic.hpp"
+#include "kit/application.hpp"
+#include "kit/http_client.hpp"
 
 namespace rois::conformance {
 
-using client::Argument;
-using client::Command;
-using client::Document;
-using client::Way;
+using kit::Argument;
+using kit::Command;
+using kit::Document;
+using kit::Way;
 
 class Stage {
 public:
-    Stage(client::Address address, Way way, Catalogue const& catalogue, Traffic& traffic, double room);
+    Stage(kit::Address address, Way way, Catalogue const& catalogue, Traffic& traffic, double room);
 
-    client::Address const& address() const { return address_; }
+    kit::Address const& address() const { return address_; }
     Way way() const { return way_; }
     Catalogue const& catalogue() const { return catalogue_; }
     Traffic& traffic() { return traffic_; }
@@ -36,7 +36,7 @@ public:
     // A basic component of one of these kinds; NotPlayed when there is none.
     Component const& one_of(std::vector<std::string> const& kinds) const;
     Component const& speaker() const { return one_of({"speechsynthesis"}); }
-    // Its first measurement after `start` is an event (decision 8), also when nobody is there.
+    // Its first measurement after `start` is an event (decision 8), also if no person is there.
     Component const& detector() const;
     // A component with start and stop, and another one: of the same engine, if there are two in one.
     std::pair<Component const*, Component const*> two_common() const;
@@ -45,7 +45,7 @@ public:
     void mind_the_time() const;
 
 private:
-    client::Address address_;
+    kit::Address address_;
     Way way_;
     Catalogue const& catalogue_;
     Traffic& traffic_;
@@ -66,7 +66,7 @@ public:
 private:
     Guest& guest_;
     Component const& component_;
-    client::Values before_;
+    kit::Values before_;
 };
 
 // One robot, as the query robot_position tells it (table 34).
@@ -76,7 +76,7 @@ struct Robot {
 };
 
 // A service application. It looks at all that it hears, and leaves nothing behind.
-class Guest : public client::Application {
+class Guest : public kit::Application {
 public:
     enum class Comes { connected, as_a_stranger };
     explicit Guest(Stage&, Comes = Comes::connected);
@@ -93,7 +93,7 @@ public:
     // The command completes with OK; NotPlayed when the component has failed, which an error tells (decision 16).
     void require_success(std::string const& command_id, Component const&);
     // Waits until all that was caused before has been told. The component is bound and not suspended, so that `resume` does
-    // nothing but complete at once.
+    // only complete at once.
     void settle(Component const&);
     // get_command_result's `status`.
     std::string state_of(std::string const& command_id);
@@ -102,7 +102,7 @@ public:
     Component const* teller_of(Component const&) const;
     // The robot that a component is part of; nothing when that cannot be known here.
     std::optional<Robot> robot_of(Component const&);
-    // Of what was heard: the statuses with which this command completed.
+    // Returns the statuses with which this command completed.
     std::vector<std::string> endings(std::string const& command_id) const;
     std::size_t heard_events(std::string const& type) const;
 
@@ -118,13 +118,13 @@ private:
     std::set<std::string> completed_;      // ids
     std::set<std::string> subscriptions_;
     std::vector<std::string> errors_;                     // ids
-    std::map<std::string, std::string> events_;           // by id: what is the same for all subscriptions
+    std::map<std::string, std::string> events_;           // the parts that all subscriptions share, by id
     std::set<std::pair<std::string, std::string>> told_;  // events and subscriptions, by their ids
 };
 
 // This parameter with the type that the profile gives it; NotPlayed when the component has no such parameter.
 Argument argument(Component const&, std::string const& name, std::vector<std::string> const& values);
-// What a speaker has to say: plain text, or the same in SSML for one that reads SSML alone.
+// Returns a text for a speaker: plain text, or SSML for one that accepts only SSML.
 Argument spoken(Component const& speaker, std::string const& text);
 // What a move of so many millimetres straight on takes.
 Argument straight_on(Component const& move, long distance);
@@ -145,7 +145,7 @@ Argument turned(Dial const&, int value);  // 40 to 60
 Command long_speech(Component const& speaker, std::string const& id);
 Command short_speech(Component const& speaker, std::string const& id);
 Command command(Component const&, std::string const& type, std::string const& id = "", std::optional<int> delay = {});
-client::Xml only(Component const&);  // a condition
-std::string unique_name();           // an id that no other application gives
+kit::Xml only(Component const&);  // a condition
+std::string unique_name();        // an id that no other application gives
 
 }  // namespace rois::conformance

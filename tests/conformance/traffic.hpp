@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "client/vocabulary.hpp"
+#include "kit/vocabulary.hpp"
 #include "xml/validation/schemas.hpp"
 #include "xml/validation/validator.hpp"
 

@@ -1,16 +1,9 @@
 // Decisions 4 to 7: binding, and the commands that need it.
-#include <gmock/gmock.h>
-
-#include "conditions.hpp"
+#include "engine/conditions/conditions.hpp"
+#include "engine/world.hpp"
 #include "types/texts.hpp"
-#include "world.hpp"
 
 namespace rois {
-
-using namespace std::chrono_literals;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 TEST(Bind, KeepsAComponentForOneSession) {
     World world{navigation};
@@ -46,14 +39,6 @@ TEST(BindAny, TakesTheLowestFreeMatch) {
     EXPECT_EQ(desk.bind_any(speaks), "speech_a");
     EXPECT_EQ(hall.bind_any(speaks), "speech_b");
     EXPECT_EQ(world.connect().bind_any(speaks), "OUT_OF_RESOURCES");
-}
-
-TEST(BindAny, PrefersAFreeComponentToOneThatTheSessionHasBound) {
-    World world{named("speech_a", speech), named("speech_b", speech)};
-    auto desk = world.connect();
-    EXPECT_EQ(desk.bind_any(), "speech_a");
-    EXPECT_EQ(desk.bind_any(), "speech_b");
-    EXPECT_EQ(desk.bind_any(), "speech_a") << "without a free one, one that the session has bound";
 }
 
 TEST(BindAny, KeepsToTheRobotThatTheSessionWorksWith) {
@@ -255,17 +240,6 @@ TEST(Binding, IsRequiredForCommands) {
     EXPECT_EQ(in_words(hall.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time");
     EXPECT_EQ(desk.get_parameter("gripper").return_code, ReturnCode::bad_parameter);
     EXPECT_EQ(desk.set_parameter("gripper", {}).return_code, ReturnCode::bad_parameter);
-}
-
-TEST(Binding, IsNotRequiredForQueries) {
-    World world{navigation};
-    auto desk = world.connect(), hall = world.connect();
-    hall.bind("navigation");
-    EXPECT_EQ(desk.query("route").return_code, ReturnCode::ok);
-    EXPECT_EQ(in_words(desk.query("get_parameter").results.parameters), "time_limit=0 routing_policy=time");
-    EXPECT_EQ(desk.subscribe("reached_target").return_code, ReturnCode::ok);
-    EXPECT_EQ(desk.search(), std::vector<std::string>{"navigation"});
-    EXPECT_EQ(desk.ask(GetProfile{}).components.size(), 1U);
 }
 
 TEST(Release, StopsTheRunningAction) {

@@ -1,13 +1,9 @@
 // Limits: conditions of subscriptions in total, live commands, and the results of ended commands.
-#include <gmock/gmock.h>
-
 #include "engine/commands/command.hpp"
 #include "engine/conditions/like_pattern.hpp"
-#include "world.hpp"
+#include "engine/world.hpp"
 
 namespace rois {
-
-using testing::HasSubstr;
 
 namespace {
 

@@ -1,15 +1,10 @@
 // Components that are added and removed while sessions are open, and user-defined components.
-#include <gmock/gmock.h>
 
 #include <stdexcept>
 
-#include "world.hpp"
+#include "engine/world.hpp"
 
 namespace rois {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 namespace {
 

@@ -1,16 +1,13 @@
 // Links and applications end at random moments: no motion lasts longer than its lease (decision 33), however badly the component
 // behaves.
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 #include <stdexcept>
 
-#include "world.hpp"
+#include "engine/world.hpp"
 
 namespace rois {
-
-using namespace std::chrono_literals;
 
 namespace {
 

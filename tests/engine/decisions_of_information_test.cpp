@@ -1,15 +1,8 @@
 // Decisions 18 to 28 by number, as far as they concern the engine: queries, events, notifications, errors, values.
-#include <gmock/gmock.h>
-
-#include "conditions.hpp"
-#include "world.hpp"
+#include "engine/conditions/conditions.hpp"
+#include "engine/world.hpp"
 
 namespace rois {
-
-using namespace std::chrono_literals;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 namespace {
 

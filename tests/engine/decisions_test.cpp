@@ -1,14 +1,7 @@
 // Decisions 1 to 9 by number: each rule as one dialogue. docs/conformance-decisions.md lists the tests of the details.
-#include <gmock/gmock.h>
-
-#include "world.hpp"
+#include "engine/world.hpp"
 
 namespace rois {
-
-using namespace std::chrono_literals;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 namespace {
 
@@ -115,18 +108,6 @@ TEST(Decision03, ASessionThatTheEngineEndsReceivesItsLastNotifications) {
     EXPECT_TRUE(desk.told_of_the_end());
 }
 
-TEST(Decision03, CommandsContinueIfConfigured) {
-    EngineSettings settings;
-    settings.on_session_end = OnSessionEnd::continue_;
-    World world{{navigation}, settings};
-    auto desk = world.connect();
-    desk.bind("navigation");
-    desk.execute(go("go"));
-    desk.leave();
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start"));
-    EXPECT_THAT(desk.heard(), IsEmpty());
-}
-
 TEST(Decision04, ABindingIsExclusive) {
     World world{named("robot_a", navigation), named("robot_b", navigation)};
     auto desk = world.connect(), hall = world.connect();
@@ -207,7 +188,7 @@ TEST(Decision08, ParametersAreStoredAndStartActs) {
     world["speech"].finishes();
     EXPECT_THAT(desk.heard(), ElementsAre("2 completed say OK")) << "an action completes at its end";
     desk.execute(named("look", start("detection")));
-    EXPECT_THAT(desk.heard(), ElementsAre("3 completed look OK")) << "a function completes as soon as it is active";
+    EXPECT_THAT(desk.heard(), ElementsAre("3 completed look OK")) << "a function completes once it is active";
     EXPECT_THAT(desk.execute(start("navigation")).reason, HasSubstr("target_position is mandatory"));
     desk.subscribe("reached_target");
     desk.execute(go("go"));

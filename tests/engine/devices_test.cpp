@@ -1,14 +1,10 @@
 // Devices: advanced by time, in turns.
-#include <gmock/gmock.h>
 
 #include <optional>
 
-#include "world.hpp"
+#include "engine/world.hpp"
 
 namespace rois {
-
-using namespace std::chrono_literals;
-using testing::ElementsAre;
 
 namespace {
 

@@ -1,15 +1,9 @@
 // Decisions 16 and 24: failing components, and the sessions that are notified.
-#include <gmock/gmock.h>
-
-#include "world.hpp"
+#include "engine/world.hpp"
 
 namespace rois {
 
-using namespace std::chrono_literals;
 using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 namespace {
 
@@ -22,18 +16,6 @@ struct Errors : testing::Test {
 };
 
 }  // namespace
-
-TEST_F(Errors, OfAComponentGoToSessionsThatHaveItBoundOrSubscribed) {
-    auto hall = world.connect(), door = world.connect(), other = world.connect();
-    hall.subscribe("reached_target");
-    door.subscribe("person_detected");
-    other.bind("speech");
-    robot.reports(ErrorType::user_defined_error, "a wheel is stuck");
-    EXPECT_THAT(desk.heard(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
-    EXPECT_THAT(hall.heard(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
-    EXPECT_THAT(door.heard(), IsEmpty());
-    EXPECT_THAT(other.heard(), IsEmpty());
-}
 
 TEST_F(Errors, OfAComponentDoNotGoToSubscribersOfAnother) {
     World two{named("robot_a", navigation), named("robot_b", navigation)};

@@ -1,12 +1,8 @@
 // Identifiers have at most 256 characters, everywhere in a request.
-#include <gmock/gmock.h>
-
+#include "engine/world.hpp"
 #include "types/identifier_length.hpp"
-#include "world.hpp"
 
 namespace rois {
-
-using testing::HasSubstr;
 
 namespace {
 

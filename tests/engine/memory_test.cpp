@@ -1,16 +1,11 @@
 // The memory budget, and what the engine does when little is left.
 #include "engine/memory_budget.hpp"
 
-#include <gmock/gmock.h>
-
-#include "world.hpp"
+#include "engine/world.hpp"
 
 namespace rois {
 
-using namespace std::chrono_literals;
 using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::SizeIs;
 
 namespace {

@@ -1,4 +1,4 @@
-#include "parts.hpp"
+#include "engine/parts.hpp"
 
 #include <algorithm>
 #include <stdexcept>

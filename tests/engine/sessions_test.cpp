@@ -1,55 +1,21 @@
 // Decisions 1 to 3: sessions begin, lose their link, and end.
-#include <gmock/gmock.h>
-
-#include "world.hpp"
+#include "engine/world.hpp"
 
 namespace rois {
-
-using namespace std::chrono_literals;
-using testing::ElementsAre;
-using testing::IsEmpty;
 
 namespace {
 
 bool lives(World& world, Application const& application) { return world.engine->notifications(application.session) != nullptr; }
 
+// The session ends after this time, not before.
+void expect_end_after(std::chrono::seconds time, World& world, Application const& application) {
+    world.advance(time - 50ms);
+    EXPECT_TRUE(lives(world, application));
+    world.advance(50ms);
+    EXPECT_FALSE(lives(world, application));
+}
+
 }  // namespace
-
-TEST(Session, IsRequiredForEveryOperationExceptConnect) {
-    World world{navigation};
-    auto const bind = Operation{Bind{Application::identifier("navigation")}};
-    EXPECT_EQ(std::get<Refusal>(world.say({}, bind)), Refusal::no_session);
-    EXPECT_EQ(std::get<Refusal>(world.say({"made-up"}, Disconnect{})), Refusal::no_session);
-    EXPECT_EQ(std::get<Refusal>(world.say({}, Resume{{"made-up"}, 0})), Refusal::no_session);
-}
-
-TEST(Session, EndsWithDisconnect) {
-    World world{navigation};
-    auto desk = world.connect();
-    desk.leave();
-    EXPECT_EQ(desk.refusal_of(Search{}), Refusal::no_session);
-    EXPECT_EQ(desk.refusal_of(Disconnect{}), Refusal::no_session);
-    EXPECT_EQ(world.engine->statistics().sessions, 0U);
-}
-
-TEST(Session, ASecondConnectInsideChangesNothing) {
-    World world{navigation};
-    auto desk = world.connect();
-    desk.bind("navigation");
-    auto const again = desk.ask(Connect{});
-    EXPECT_EQ(again.return_code, ReturnCode::ok);
-    EXPECT_EQ(again.session, desk.session);
-    EXPECT_EQ(world.engine->statistics().sessions, 1U);
-    EXPECT_EQ(desk.status_of("navigation"), "READY");
-}
-
-TEST(Session, ConnectWithAnEndedIdOpensANewOne) {
-    World world{navigation};
-    auto desk = world.connect();
-    desk.leave();
-    EXPECT_NE(desk.ask(Connect{}).session, desk.session);
-    EXPECT_EQ(world.engine->statistics().sessions, 1U);
-}
 
 TEST(Session, CannotBeOpenedAboveTheLimit) {
     EngineSettings settings;
@@ -87,24 +53,6 @@ TEST(Session, ThatIsIdleForLongestMakesRoomForANewOne) {
     bound.release("navigation");
     EXPECT_TRUE(std::holds_alternative<Reply>(world.say({}, Connect{})));
     EXPECT_FALSE(known(bound));
-}
-
-TEST(Session, DisconnectStopsWhatItStarted) {
-    World world{navigation, detection};
-    auto desk = world.connect();
-    desk.bind("navigation");
-    desk.bind("detection");
-    desk.execute(start("detection"));
-    desk.execute(go("go"), go("and on"));
-    desk.heard();
-    desk.leave();
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
-    EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt")) << "an active function counts, too";
-    EXPECT_THAT(desk.heard(), ElementsAre("2 completed go ABORT", "3 completed and on ABORT"));
-    EXPECT_TRUE(desk.told_of_the_end());
-    auto hall = world.connect();
-    EXPECT_EQ(hall.bind("navigation"), ReturnCode::ok);
-    EXPECT_EQ(hall.bind("detection"), ReturnCode::ok);
 }
 
 TEST(Session, ReceivesNothingAfterItsEnd) {
@@ -167,10 +115,7 @@ TEST(Link, AWebSocketThatClosesLeavesTheSessionTheResumeWindow) {
     world.advance(200s);
     EXPECT_TRUE(lives(world, desk)) << "a silent WebSocket is a link";
     world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
-    world.advance(29900ms);
-    EXPECT_TRUE(lives(world, desk));
-    world.advance(100ms);
-    EXPECT_FALSE(lives(world, desk));
+    expect_end_after(30s, world, desk);
 }
 
 TEST(Link, AClientThatBindsAndVanishesIsStoppedWithinTheWindow) {
@@ -215,25 +160,10 @@ TEST(Link, CannotBeResumedFromASequenceThatWasNeverSent) {
     EXPECT_THAT(refused.reason, testing::HasSubstr("last_sequence"));
 }
 
-TEST(Link, HttpMayBeSilentForTheSessionTimeoutAndTheWindow) {
-    World world{navigation};
-    auto desk = world.connect_without_link();
-    world.engine->heard_from(desk.session, world.now);
-    world.advance(80s);
-    world.engine->heard_from(desk.session, world.now);
-    world.advance(89900ms);
-    EXPECT_TRUE(lives(world, desk));
-    world.advance(100ms);
-    EXPECT_FALSE(lives(world, desk));
-}
-
 TEST(Link, ASessionWithoutRequestsAfterConnectEnds) {
     World world{navigation};
     auto desk = world.connect_without_link();
-    world.advance(29900ms);
-    EXPECT_TRUE(lives(world, desk));
-    world.advance(100ms);
-    EXPECT_FALSE(lives(world, desk));
+    expect_end_after(30s, world, desk);
 }
 
 TEST(Link, AStreamThatClosesLeavesTheSessionTimeoutToo) {
@@ -242,10 +172,7 @@ TEST(Link, AStreamThatClosesLeavesTheSessionTimeoutToo) {
     world.engine->link_opened(desk.session, Link::stream, world.now);
     world.advance(300s);
     world.engine->link_closed(desk.session, Link::stream, Closing::lost, world.now);
-    world.advance(89900ms);
-    EXPECT_TRUE(lives(world, desk));
-    world.advance(100ms);
-    EXPECT_FALSE(lives(world, desk));
+    expect_end_after(90s, world, desk);
 }
 
 TEST(Link, OneOfSeveralIsEnough) {
@@ -267,10 +194,7 @@ TEST(Link, HttpBesideAWebSocketCounts) {
     world.engine->link_opened(desk.session, Link::websocket, world.now);
     world.engine->heard_from(desk.session, world.now);
     world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
-    world.advance(89950ms);
-    EXPECT_TRUE(lives(world, desk));
-    world.advance(50ms);
-    EXPECT_FALSE(lives(world, desk));
+    expect_end_after(90s, world, desk);
 }
 
 TEST(Link, ManyShortPollsDoNotShortenIt) {
@@ -282,10 +206,7 @@ TEST(Link, ManyShortPollsDoNotShortenIt) {
         world.advance(1s);
     }
     EXPECT_TRUE(lives(world, desk));
-    world.advance(88950ms);
-    EXPECT_TRUE(lives(world, desk));
-    world.advance(50ms);
-    EXPECT_FALSE(lives(world, desk));
+    expect_end_after(89s, world, desk);
 }
 
 TEST(Link, OfAnUnknownSessionHasNoEffect) {

@@ -1,15 +1,8 @@
 // The receivers of errors, and from when until when (7.4.1.2); ends of commands that the notes below tables 7 and 8 leave open.
-#include <gmock/gmock.h>
-
-#include "conditions.hpp"
-#include "world.hpp"
+#include "engine/conditions/conditions.hpp"
+#include "engine/world.hpp"
 
 namespace rois {
-
-using namespace std::chrono_literals;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 namespace {
 

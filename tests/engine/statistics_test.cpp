@@ -1,13 +1,7 @@
 // The engine's statistics of sessions and limits.
-#include <gmock/gmock.h>
-
-#include "world.hpp"
+#include "engine/world.hpp"
 
 namespace rois {
-
-using namespace std::chrono_literals;
-using testing::ElementsAre;
-using testing::IsEmpty;
 
 namespace {
 

@@ -1,13 +1,7 @@
 // If the clock jumps by a day, no deadline is early or late (bad-input.md), and documents have the new time.
-#include <gmock/gmock.h>
-
-#include "world.hpp"
+#include "engine/world.hpp"
 
 namespace rois {
-
-using namespace std::chrono_literals;
-using testing::ElementsAre;
-using testing::IsEmpty;
 
 namespace {
 

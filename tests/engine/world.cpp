@@ -1,4 +1,4 @@
-#include "world.hpp"
+#include "engine/world.hpp"
 
 #include <algorithm>
 

@@ -4,6 +4,10 @@
 //     desk.bind("navigation");
 #pragma once
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
 #include <initializer_list>
 #include <map>
 #include <memory>
@@ -13,10 +17,15 @@
 #include <vector>
 
 #include "engine/engine.hpp"
-#include "parts.hpp"
+#include "engine/parts.hpp"
 #include "types/messages.hpp"
 
 namespace rois {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
 
 class World;
 

@@ -1,17 +1,12 @@
-// Components come and go while memory is missing: all of the change happens, or nothing.
-#include <gmock/gmock.h>
+// Components are added and removed without memory: the change happens completely or not at all.
 
 #include <new>
 
 #include "engine/world.hpp"
+#include "faults/driving_component.hpp"
 #include "faults/faults.hpp"
-#include "faults/wheels.hpp"
 
 namespace rois {
-
-using namespace std::chrono_literals;
-using testing::ElementsAre;
-using testing::IsEmpty;
 
 namespace {
 
@@ -36,10 +31,10 @@ TEST_P(ChangeWithoutMemory, HappensWholeOrNotAtAll) {
         desk.subscribe("reached_target", equal("component_ref", "navigation"));
         desk.execute(go("go"), after(100ms, go("later")));
         ComponentChange change{{"navigation"}, {}, {common}};
-        auto wheels = std::make_unique<Wheels>("base", navigation);
-        wheels->drives = true;
-        auto const& base = *wheels;
-        change.coming.push_back(std::move(wheels));
+        auto driving = std::make_unique<DrivingComponent>("base", navigation);
+        driving->drives = true;
+        auto const& base = *driving;
+        change.coming.push_back(std::move(driving));
 
         bool thrown = false;
         faults::fail_at(faults::Of::memory, n, GetParam());

@@ -1,16 +1,10 @@
-// Components that hang, throw, lie, and answer late or twice; a calendar that jumps and a process that stood still: the clock
-// goes on, and what moves stops.
-#include <gmock/gmock.h>
-
+// Components that hang, throw, report wrong states, and answer late or twice; a calendar that jumps, and a suspended process: the
+// clock goes on, and moving components halt.
 #include "engine/world.hpp"
 
 namespace rois {
 
-using namespace std::chrono_literals;
 using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::Not;
 
 namespace {
@@ -34,7 +28,7 @@ struct Misbehaving : testing::Test {
 
     auto halts() { return std::ranges::count(robot.told, "halt"); }
 
-    // Whatever the robot does, another application's delay is fired in time.
+    // A delay of another application ends in time, whatever the robot does.
     void expect_time_to_pass() {
         other.execute(after(100ms, say("")));
         other.heard();
@@ -67,7 +61,7 @@ TEST_F(Misbehaving, AComponentThatFailsToStartIsHalted) {
     EXPECT_EQ(desk.result_of("go"), "ERROR");
 }
 
-TEST_F(Misbehaving, AComponentThatSaysNothingIsHaltedInTime) {
+TEST_F(Misbehaving, ASilentComponentIsHaltedInTime) {
     robot.on_start = OnStart::stays_silent;
     robot.halts_later = true;
     desk.execute(go("go"));
@@ -78,9 +72,9 @@ TEST_F(Misbehaving, AComponentThatSaysNothingIsHaltedInTime) {
     expect_time_to_pass();
 }
 
-TEST_F(Misbehaving, AComponentThatLiesIsHaltedWhenItsSessionEnds) {
+TEST_F(Misbehaving, AComponentThatReportsAFalseEndIsHaltedWhenItsSessionEnds) {
     desk.execute(go("go"));
-    robot.finishes();  // it says so, and drives on
+    robot.finishes();  // reports the end, but drives on
     EXPECT_EQ(desk.result_of("go"), "OK");
     desk.leave();
     EXPECT_THAT(robot.told, Contains("halt"));
@@ -102,7 +96,7 @@ TEST_F(Misbehaving, AnswersTwiceAndLateAreCountedAndChangeNothing) {
     expect_time_to_pass();
 }
 
-TEST_F(Misbehaving, TheCalendarMovesNothing) {
+TEST_F(Misbehaving, ACalendarThatJumpsMovesNoComponent) {
     for (auto const day : {24h, -48h}) {
         desk.execute(go(""));
         world.set_calendar(day);
@@ -115,13 +109,13 @@ TEST_F(Misbehaving, TheCalendarMovesNothing) {
     }
 }
 
-TEST_F(Misbehaving, AProcessThatStoodStillFor10SecondsHoldsWhatMoves) {
+TEST_F(Misbehaving, AProcessSuspendedFor10SecondsHoldsMovingComponents) {
     desk.execute(go("go"));
     other.execute(after(5s, say("say")));
     world.now = world.now + 10s;
     world.engine->tick(world.now);
     EXPECT_EQ(robot.told.back(), "suspend");
-    EXPECT_EQ(other.result_of("say"), "OK") << "what was due meanwhile is done";
+    EXPECT_EQ(other.result_of("say"), "OK") << "overdue actions are done";
     expect_time_to_pass();
 }
 

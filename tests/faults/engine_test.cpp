@@ -1,21 +1,18 @@
-// A scripted history of the engine in which memory runs out at every single call: the clock goes on, and what moves stops.
-#include <gmock/gmock.h>
+// A scripted history of the engine in which each call in turn has no memory: the clock goes on, and moving components halt.
 
 #include <algorithm>
 #include <new>
 #include <random>
 
 #include "engine/world.hpp"
+#include "faults/driving_component.hpp"
 #include "faults/faults.hpp"
-#include "faults/wheels.hpp"
 
 namespace rois {
 
-using namespace std::chrono_literals;
-
 namespace {
 
-// Does once what the test put there.
+// Calls a function of the test once.
 class Hand final : public Device {
 public:
     std::function<void()> next;
@@ -27,14 +24,15 @@ public:
 struct Hall {
     MemoryBudget budget;
     World world{speech};
-    Wheels* base = nullptr;
-    Wheels* arm = nullptr;
+    DrivingComponent* base = nullptr;
+    DrivingComponent* arm = nullptr;
     std::shared_ptr<Hand> hand = std::make_shared<Hand>();
     std::optional<Application> desk, guest;
     SubscribeId subscription;
 
     Hall() {
-        auto first = std::make_unique<Wheels>("base", navigation), second = std::make_unique<Wheels>("arm", navigation);
+        auto first = std::make_unique<DrivingComponent>("base", navigation),
+             second = std::make_unique<DrivingComponent>("arm", navigation);
         base = first.get();
         arm = second.get();
         arm->confirms_late = true;
@@ -51,7 +49,7 @@ struct Hall {
         world.advance(50ms);
     }
 
-    // Everything that the engine can be asked for, step by step.
+    // All operations of the engine, step by step.
     std::vector<std::function<void()>> history() {
         return {
             [this] { desk.emplace(world.connect()); },
@@ -109,7 +107,7 @@ struct Hall {
         return {[this] { end(); }, [this] { arm->stand_still(); }, [this] { world.advance(100ms); }};
     }
 
-    // The same steps again and again, each time in another order and with other sessions.
+    // Repeats the steps, each time in another order and with other sessions.
     static void play_rounds(std::vector<std::function<void()>>& steps, std::vector<std::function<void()>> const& last,
                             int rounds) {
         for (int round = 0; round < rounds; ++round) {
@@ -120,25 +118,25 @@ struct Hall {
         }
     }
 
-    // Returns how many steps failed; the next ones do what they can.
+    // Returns the number of failed steps; the steps after a failed one still run.
     static int play(std::vector<std::function<void()>> const& steps) {
         int failed = 0;
         for (auto const& step : steps) {
             try {
                 step();
             } catch (std::exception const&) {
-                ++failed;  // a request, and its application hears of it
+                ++failed;  // a request: its application receives the error
             }
         }
         return failed;
     }
 
-    // The applications are not heard from any more.
+    // Drops the applications.
     void end() {
         for (auto* application : {&desk, &guest})
             if (*application) lose_links((*application)->session);
     }
-    // Nor are those of earlier rounds.
+    // Drops those of earlier rounds, too.
     void end_all() {
         for (int i = 1; i <= most_sessions; ++i) lose_links({"secret-" + std::to_string(i)});
     }
@@ -153,13 +151,13 @@ struct Hall {
             try {
                 world.advance(50ms);
             } catch (std::exception const&) {
-                // What an earlier failure has left, told once.
+                // Reports what an earlier failure left, once.
             }
         }
     }
 };
 
-// A delay is fired, and a component that says nothing misses its deadline.
+// A delay ends, and a silent component misses its deadline.
 void expect_time_to_pass(World& world, std::uint64_t n) {
     auto late = world.connect();
     ASSERT_EQ(late.bind("speech"), ReturnCode::ok) << n;
@@ -189,7 +187,7 @@ void expect_no_double_answers(Hall& hall, std::uint64_t n) {
     }
 }
 
-// Returns false when the rounds of the history were over before their n-th call.
+// Returns false if the history ended before its n-th call.
 bool survives(std::uint64_t n, std::uint64_t how_many, int rounds = 1) {
     Hall hall;
     auto history = hall.history();
@@ -221,14 +219,14 @@ TEST(History, IsPlayedWholeWithoutFaults) {
 
 class MemoryThatRunsOut : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(MemoryThatRunsOut, AtAnyCallStopsNoClockAndLeavesNothingMoving) {
+TEST_P(MemoryThatRunsOut, AtAnyCallStopsNoClockAndHaltsMovingComponents) {
     std::uint64_t n = 1;
     while (survives(n, GetParam()) && !HasFailure() && n < 20'000) ++n;
     EXPECT_GT(n, 500) << "the history needs memory that often";
 }
 
-// Each 41st call up to the 20,000th, another selection for each parameter.
-TEST_P(MemoryThatRunsOut, LateInALongHistoryStopsNoClockAndLeavesNothingMoving) {
+// Every 41st call up to the 20,000th, with another offset for each parameter.
+TEST_P(MemoryThatRunsOut, LateInALongHistoryStopsNoClockAndHaltsMovingComponents) {
     constexpr int rounds = 80;
     std::uint64_t n = 1 + GetParam() % 41;
     while (n < 20'000 && !HasFailure() && survives(n, GetParam(), rounds)) n += 41;

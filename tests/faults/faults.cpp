@@ -19,7 +19,7 @@ namespace {
 struct Fault {
     std::atomic<bool> armed = false;
     std::atomic<bool> happened = false;
-    std::atomic<std::uint64_t> at = 0;  // the first that fails, and the first behind it that does not
+    std::atomic<std::uint64_t> at = 0;  // the first call that fails, and the first after it that does not
     std::atomic<std::uint64_t> until = 0;
     std::atomic<std::uint64_t> calls = 0;
 };
@@ -29,7 +29,7 @@ thread_local constinit bool exempt = false;
 
 Fault& fault(Of of) { return all[static_cast<std::size_t>(of)]; }
 
-// Counts a call, and says whether it is to fail.
+// Counts a call, and returns whether it must fail.
 bool fails(Of of) {
     auto& one = fault(of);
     if (!one.armed.load(std::memory_order_relaxed) || exempt) return false;
@@ -97,7 +97,7 @@ void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memo
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
-// In place of those of the C library.
+// These replace the functions of the C library.
 extern "C" {
 
 ssize_t send(int socket, void const* data, size_t size, int flags) {

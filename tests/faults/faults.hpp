@@ -1,4 +1,4 @@
-// Faults for this test program alone: memory that runs out, and calls of the system that fail. They hit every thread that is not
+// Faults in this test program: memory that runs out, and system calls that fail. They affect every thread that is not
 // exempt.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace rois::faults {
 
-// What can fail.
+// The calls that can fail.
 enum class Of : std::uint8_t {
     memory,  // operator new throws std::bad_alloc; not for a destructor while an exception unwinds (MemoryReserve)
     send,    // send and write: EPIPE
@@ -15,17 +15,17 @@ enum class Of : std::uint8_t {
     epoll    // epoll_wait and epoll_ctl: ENOMEM
 };
 
-// The n-th call from now fails (1: the next), and those behind it, so many in all.
+// Lets the n-th call from now fail (1: the next), and the following ones, `count` in total.
 void fail_at(Of, std::uint64_t n, std::uint64_t how_many = 1);
-// Each call fails until `stop`.
+// Lets each call fail until `stop`.
 void fail(Of);
-// Nothing fails from now on. Returns whether something failed since the last `fail` or `fail_at`.
+// Ends all faults. Returns whether a call failed since the last `fail` or `fail_at`.
 bool stop();
 
-// How often it was called since the last `fail_at`, by threads that are not exempt.
+// Returns the number of calls since the last `fail_at`, by threads that are not exempt.
 std::uint64_t calls(Of);
 
-// While it lives, nothing fails for its thread.
+// Exempts its thread as long as it exists.
 class Exempt {
 public:
     Exempt();

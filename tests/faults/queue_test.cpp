@@ -1,4 +1,4 @@
-// A session's notifications while memory is missing: a call changes the queue as a whole or not at all.
+// A notification queue without memory: a call changes it completely or not at all.
 #include <gtest/gtest.h>
 
 #include <new>
@@ -10,7 +10,7 @@ namespace rois {
 
 namespace {
 
-// 4 sent and 20 waiting notifications: 16 events, and a command behind each fourth of them.
+// 4 sent and 20 waiting notifications: 16 events, and a command after every fourth of them.
 struct Filled {
     NotificationQueue queue{SessionId{"session"}, 100, 100};
 
@@ -28,7 +28,7 @@ struct Filled {
 
 }  // namespace
 
-TEST(NotificationQueueWithoutMemory, KeepsAllNotificationsOrDropsAllThatItShould) {
+TEST(NotificationQueueWithoutMemory, ChangesCompletelyOrNotAtAll) {
     bool failed = true;
     for (std::uint64_t n = 1; failed; ++n) {
         Filled filled;

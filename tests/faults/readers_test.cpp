@@ -1,6 +1,4 @@
-// A reader that is on its way out, as a WebSocket is that an exception has unwound.
-#include <gtest/gtest.h>
-
+// A reader that is being destroyed, like a WebSocket after an exception.
 #include "engine/world.hpp"
 #include "files/files.hpp"
 #include "gateway/gateway.hpp"
@@ -12,7 +10,7 @@ namespace rois {
 
 namespace {
 
-// Has its place among the session's readers until all of it is gone.
+// Stays registered with the session until its destruction is complete.
 class Leaving : public Reader {
 public:
     Leaving(Wakes& wakes, std::function<void()> meanwhile) : Reader{wakes}, meanwhile_{std::move(meanwhile)} {}
@@ -36,7 +34,7 @@ EngineProfile profile() {
 
 }  // namespace
 
-TEST(AReaderOnItsWayOut, IsNoTroubleForTheRequestsOfOthers) {
+TEST(AReaderThatIsBeingDestroyed, DoesNotAffectRequestsOfOthers) {
     xml::Platform const platform;
     auto const schemas = std::make_shared<xml::Schemas const>(files::schemas());
     xml::RequestReader requests{schemas};
@@ -55,9 +53,9 @@ TEST(AReaderOnItsWayOut, IsNoTroubleForTheRequestsOfOthers) {
     auto leaving = std::make_shared<Leaving>(wakes, [&] { answer = (gateway.stop_everything(), ask(other, "disconnect")); });
     auto read = gateway.read(session, Link::websocket, 0, *leaving);
     leaving->reading = std::move(std::get<std::unique_ptr<Reading>>(read));
-    EXPECT_NO_THROW(leaving.reset()) << "every session is told meanwhile, also this one";
+    EXPECT_NO_THROW(leaving.reset()) << "every session is notified meanwhile, also this one";
     EXPECT_EQ(answer.turn, Answer::Turn::disconnected);
-    EXPECT_NO_THROW(ask(session, "disconnect")) << "nobody is woken that is gone";
+    EXPECT_NO_THROW(ask(session, "disconnect")) << "no destroyed reader is woken";
 }
 
 }  // namespace rois

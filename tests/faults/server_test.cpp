@@ -1,16 +1,16 @@
-// The whole gateway in this process, under faults: it answers again, its clock goes on, and what moves stops.
+// The whole gateway in this process, under faults: it answers again, its clock goes on, and moving components halt.
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <spdlog/spdlog.h>
 
 #include <thread>
 
-#include "client/vocabulary.hpp"
-#include "client/websocket_client.hpp"
+#include "faults/driving_component.hpp"
 #include "faults/faults.hpp"
-#include "faults/wheels.hpp"
 #include "files/files.hpp"
 #include "gateway/secrets.hpp"
+#include "kit/vocabulary.hpp"
+#include "kit/websocket_client.hpp"
 #include "net/server.hpp"
 #include "xml/validation/schemas.hpp"
 
@@ -28,7 +28,7 @@ net::Settings settings() {
     return settings;
 }
 
-// What a vanished application has bound is soon free again.
+// Components of a vanished application soon become free.
 EngineSettings short_windows() {
     EngineSettings settings;
     settings.session_timeout = settings.resume_window = 50ms;
@@ -45,14 +45,14 @@ EngineProfile profile() {
 
 bool is_ok(pugi::xml_node answer) { return std::string_view{answer.attribute("return_code").value()} == "OK"; }
 
-// Its own threads suffer from faults; that of the test does not.
+// Faults affect its own threads, but not the thread of the test.
 struct Rig {
     faults::Exempt exempt;
     xml::Platform platform;
     std::shared_ptr<xml::Schemas const> schemas = std::make_shared<xml::Schemas const>(files::schemas());
     Readers readers;
     Engine engine{profile(), {common}, short_windows(), readers, fresh_secret};
-    Wheels* base = nullptr;
+    DrivingComponent* base = nullptr;
     Telemetry telemetry;
     std::optional<Gateway> gateway;
     std::optional<net::Documents> documents;
@@ -60,13 +60,13 @@ struct Rig {
     std::atomic<int> given_up = 0;
     std::atomic<int> broken = 0;  // connections
     std::thread thread;
-    client::Address address;
+    kit::Address address;
 
     explicit Rig(std::shared_ptr<Device> device = nullptr) {
         spdlog::set_level(spdlog::level::off);
-        auto wheels = std::make_unique<Wheels>("base", navigation);
-        base = wheels.get();
-        engine.add(std::move(wheels));
+        auto driving = std::make_unique<DrivingComponent>("base", navigation);
+        base = driving.get();
+        engine.add(std::move(driving));
         if (device) engine.add(std::move(device));
         gateway.emplace(engine, readers, telemetry);
         documents.emplace(*gateway, telemetry, *schemas, net::Site{"", net::WebFiles{{}}, ""});
@@ -76,7 +76,7 @@ struct Rig {
         address.port = static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
         address.patience = 2s;
         thread = std::thread{[this] { server->run(); }};
-        EXPECT_TRUE(comes([&] { return client::HttpClient{address}.get("/healthz").status > 0; }));
+        EXPECT_TRUE(comes([&] { return kit::HttpClient{address}.get("/healthz").status > 0; }));
     }
     ~Rig() {
         faults::stop();
@@ -84,32 +84,32 @@ struct Rig {
         thread.join();
     }
 
-    // What an application does, as far as it comes: drives, hears of it, and leaves, with or without a word.
+    // Plays an application as far as the faults allow: drives, receives notifications, and leaves with or without disconnect.
     enum class Leaves : std::uint8_t { with_a_word, without };
     void drive(Leaves leaves = Leaves::with_a_word) {
         auto hasty = address;
         hasty.patience = 300ms;
         try {
-            client::WebSocketClient desk{hasty};
+            kit::WebSocketClient desk{hasty};
             desk.call("connect");
             desk.call("subscribe", "<event_type>reached_target</event_type>");
-            bool const bound = is_ok(desk.call("bind", client::component_ref("base")));
-            desk.call("execute", client::sequence(client::unit({.component = "base", .id = "go"}) + client::pause(1) +
-                                                  client::unit({.component = "base", .type = "stop", .id = "stop"})));
+            bool const bound = is_ok(desk.call("bind", kit::component_ref("base")));
+            desk.call("execute", kit::sequence(kit::unit({.component = "base", .id = "go"}) + kit::pause(1) +
+                                               kit::unit({.component = "base", .type = "stop", .id = "stop"})));
             if (bound) desk.next();
-            desk.call("execute", client::sequence(client::unit({.component = "base", .id = "again"})));
-            client::HttpClient other{hasty};
+            desk.call("execute", kit::sequence(kit::unit({.component = "base", .id = "again"})));
+            kit::HttpClient other{hasty};
             other.call("connect");
             other.notifications(0, 0);
             other.get("/metrics");
-            other.post("<connect/>");  // is judged by the full validator
+            other.post("<connect/>");  // the full validator checks it
             if (leaves == Leaves::without) desk.vanish();
         } catch (std::runtime_error const&) {
-            ++broken;  // a connection: its application begins anew
+            ++broken;  // the connection: its application starts again
         }
     }
 
-    // Asks until it is so, for two seconds.
+    // Repeats the question until the answer is true, up to two seconds.
     template <class What>
     bool comes(What const& what) {
         for (auto const end = std::chrono::steady_clock::now() + 2s; std::chrono::steady_clock::now() < end;) {
@@ -125,12 +125,12 @@ struct Rig {
 
     void expect_to_live(std::string const& after) {
         EXPECT_TRUE(comes([&] { return !base->drives; })) << after << ": it drives on";
-        EXPECT_TRUE(comes([&] { return client::HttpClient{address}.get("/healthz").status == 200; })) << after;
+        EXPECT_TRUE(comes([&] { return kit::HttpClient{address}.get("/healthz").status == 200; })) << after;
         EXPECT_TRUE(comes([&] {
-            client::WebSocketClient desk{address};
+            kit::WebSocketClient desk{address};
             desk.call("connect");
-            if (!is_ok(desk.call("bind", client::component_ref("base")))) return false;
-            desk.call("execute", client::sequence(client::pause(20) + client::unit({.component = "base", .type = "stop"})));
+            if (!is_ok(desk.call("bind", kit::component_ref("base")))) return false;
+            desk.call("execute", kit::sequence(kit::pause(20) + kit::unit({.component = "base", .type = "stop"})));
             return std::string_view{desk.next_document().name()} == "completed";
         })) << after
             << ": no delay is fired";
@@ -157,7 +157,7 @@ TEST(Gateway, SurvivesMemoryThatRunsOutAtAnyCall) {
     EXPECT_EQ(rig.given_up, 0);
 }
 
-// Each 997th call up to the 20,000th.
+// Every 997th call up to the 20,000th.
 TEST(Gateway, SurvivesMemoryThatRunsOutLate) {
     Rig rig;
     for (std::uint64_t n = 997; n <= 20'000 && !testing::Test::HasFailure(); n += 997) {
@@ -195,7 +195,7 @@ std::string name(testing::TestParamInfo<Of> const& of) {
 
 INSTANTIATE_TEST_SUITE_P(Each, Faults, testing::Values(Of::memory, Of::send, Of::accept, Of::epoll), name);
 
-TEST(Gateway, IsGivenUpWhenEachTickFails) {
+TEST(Gateway, EndsIfEachTickFails) {
     struct Broken : Device {
         void advance(Instant) override {}
         bool goes_on() const override { return breaks ? throw std::bad_alloc{} : false; }
@@ -208,7 +208,7 @@ TEST(Gateway, IsGivenUpWhenEachTickFails) {
     EXPECT_FALSE(rig.base->drives);
 }
 
-TEST(Gateway, SaysThatItIsNotHealthyWhileAComponentHangs) {
+TEST(Gateway, IsNotHealthyWhileAComponentHangs) {
     Rig rig;
     std::atomic<bool> hangs = true;
     rig.base->on_start = [&] {
@@ -217,17 +217,17 @@ TEST(Gateway, SaysThatItIsNotHealthyWhileAComponentHangs) {
     std::thread driver{[&] {
         auto patient = rig.address;
         patient.patience = 20s;
-        client::WebSocketClient desk{patient};
+        kit::WebSocketClient desk{patient};
         desk.call("connect");
-        desk.call("bind", client::component_ref("base"));
-        desk.call("execute", client::sequence(client::unit({.component = "base"})));
+        desk.call("bind", kit::component_ref("base"));
+        desk.call("execute", kit::sequence(kit::unit({.component = "base"})));
     }};
     auto hasty = rig.address;
-    hasty.patience = 100ms;  // one of the two threads hangs, and connections to it
-    EXPECT_TRUE(rig.comes([&] { return client::HttpClient{hasty}.get("/healthz").status == 503; }));
+    hasty.patience = 100ms;  // one of the two threads hangs with its connections
+    EXPECT_TRUE(rig.comes([&] { return kit::HttpClient{hasty}.get("/healthz").status == 503; }));
     hangs = false;
     driver.join();
-    EXPECT_TRUE(rig.comes([&] { return client::HttpClient{rig.address}.get("/healthz").status == 200; }));
+    EXPECT_TRUE(rig.comes([&] { return kit::HttpClient{rig.address}.get("/healthz").status == 200; }));
 }
 
 }  // namespace rois

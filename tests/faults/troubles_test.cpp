@@ -1,4 +1,4 @@
-// What is survived, and when it is too much.
+// Exceptions that the gateway survives, and the rate at which it ends.
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -52,7 +52,7 @@ TEST_F(ATrouble, IsOneIncidentForATenthOfASecond) {
     for (int i = 0; i < 20; ++i) after(9ms);
     EXPECT_EQ(given_up, 0) << "from 9 to 180 ms: two incidents";
     for (int i = 0; i < 5; ++i) after(9ms);
-    EXPECT_EQ(given_up, 1) << "what goes on is too much";
+    EXPECT_EQ(given_up, 1) << "this rate of exceptions is too high";
 }
 
 TEST_F(ATrouble, OfAConnectionIsItsOwn) {

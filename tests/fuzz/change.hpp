@@ -1,4 +1,4 @@
-// One change of a document, of many kinds. What a kind does is in the file of what it changes: change_*.cpp.
+// One change of a document, of many kinds. change_*.cpp has the changes by the part that they change.
 #pragma once
 
 #include <algorithm>

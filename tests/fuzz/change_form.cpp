@@ -66,7 +66,7 @@ void Change::change_quotes() {
     text_[value.begin - 1] = text_[value.end] = other;
 }
 
-// Far enough for what follows to lie across the edge of a parser's buffer.
+// Long enough that the following text crosses the edge of a parser's buffer.
 void Change::push_apart() {
     if (!one_in(4)) return;
     std::string all;

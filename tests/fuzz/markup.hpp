@@ -1,4 +1,4 @@
-// The tags of a document, found without looking too closely: what is to be changed need not be well-formed.
+// Finds the tags of a document, which need not be well-formed.
 #pragma once
 
 #include <cstddef>

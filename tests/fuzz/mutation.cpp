@@ -18,7 +18,7 @@ Mutation::Mutation(std::vector<std::string> samples, std::uint64_t seed)
     : samples_{std::move(samples)}, given_{samples_.size()}, random_{seed} {}
 
 std::string Mutation::next() {
-    // Half of them from what was learnt.
+    // Half of them use learnt pieces.
     auto const below = random_() % 2 == 0 ? given_ : samples_.size();
     auto text = samples_[static_cast<std::size_t>(random_() % below)];
     auto const changes = std::array<std::size_t, 6>{1, 1, 1, 2, 2, 4}[static_cast<std::size_t>(random_() % 6)];

@@ -1,4 +1,4 @@
-// What the changes of a document are made of: names that the schemas know, values at the edges of types, markup in wrong places.
+// The material of changes: names of the schemas, values at the edges of types, markup in wrong places.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What a document holds, whoever reads it: elements and attributes with their namespaces, and the text between them.
+// The content of a document, independent of the parser: elements and attributes with their namespaces, and text.
 #pragma once
 
 #include <string>

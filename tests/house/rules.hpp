@@ -28,8 +28,8 @@ Complaints against_braces_in_awaits(Tree const&);
 // Files of C++, TypeScript and Python are short.
 Complaints against_short_files(Tree const&);
 
-// Relative links in README.md, ARCHITECTURE.md, CONTRIBUTING.md, SECURITY.md, docs/*.md and web/*/README.md lead to a file or
-// folder.
+// Relative links in README.md, ARCHITECTURE.md, CONTRIBUTING.md, SECURITY.md, docs/*.md, web/*/README.md and tests/**/README.md
+// lead to a file or folder.
 Complaints against_links(Tree const&);
 
 // docs/dependencies.md names every package that CMake finds (except those that the project installs), that ./dev installs, and

@@ -64,7 +64,7 @@ TEST(Layers, ALibraryBelongsToOneLayer) {
                                                   "server/types/ids.hpp:1: server/types/ may not see <unistd.h>"));
 }
 
-TEST(Layers, ALibraryDoesNotShineThroughAHeader) {
+TEST(Layers, ALibraryIsNotVisibleThroughAHeader) {
     Tree const tree{{"server/main/main.cpp", "#include \"net/web.hpp\"\n"},
                     {"server/net/web.hpp", "#include \"net/socket.hpp\"\n"},
                     {"server/net/web.cpp", "#include \"net/web.hpp\"\n"},
@@ -73,7 +73,7 @@ TEST(Layers, ALibraryDoesNotShineThroughAHeader) {
                 ElementsAre("server/main/main.cpp:1: server/main/ may not see <boost/asio.hpp> through server/net/socket.hpp"));
 }
 
-TEST(Layers, PosesMayShineThrough) {
+TEST(Layers, PosesMayBeVisibleThroughAHeader) {
     Tree const tree{{"server/main/main.cpp", "#include \"simulation/world/pose.hpp\"\n"},
                     {"components/simulation/world/pose.hpp", "#include <Eigen/Geometry>\n"}};
     EXPECT_THAT(against_layers(tree), IsEmpty());
@@ -117,7 +117,7 @@ TEST(PassedInTime, IsReadByTheNetworkAndMainAlone) {
                 ElementsAre("server/engine/engine.cpp:1: time and chance are passed to server/engine/, not read: ::now"));
 }
 
-TEST(PassedInTime, HasManyDoors) {
+TEST(PassedInTime, IsReadByManyFunctions) {
     Tree const tree{{"components/simulation/world/hall.cpp",
                      "std::time(nullptr);\n"
                      "Steady::clock :: now();\n"
@@ -129,7 +129,7 @@ TEST(PassedInTime, HasManyDoors) {
     EXPECT_EQ(against_passed_in_time(tree).size(), 6U);
 }
 
-TEST(PassedInTime, MayBeSpokenOf) {
+TEST(PassedInTime, MayBeNamedInCommentsAndTexts) {
     Tree const tree{{"server/types/instant.hpp",
                      "// nobody calls steady_clock::now() here\n"
                      "/* nor\n system_clock::now() */ auto text = \"::now\" R\"x(::now\n\")x\";\n"

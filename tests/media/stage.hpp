@@ -10,12 +10,12 @@
 #include <thread>
 #include <vector>
 
-#include "client/received_media.hpp"
+#include "kit/received_media.hpp"
 #include "media/server.hpp"
 
 namespace rois::media {
 
-using namespace client;
+using namespace kit;
 
 class Stage {
 public:

@@ -1,15 +1,13 @@
 // The example that uses only section 7.7, against the real gateway.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <string>
 
-#include "server/gateway_process.hpp"
+#include "kit/gateway_process.hpp"
 
 namespace rois::test {
 namespace {
@@ -18,12 +16,10 @@ constexpr auto source_file = ROIS_SOURCE_DIR "/client-cpp/examples/greeting.cpp"
 
 TEST(AProgramOfTheCppPsm, GreetsAVisitor) {
     std::string const visitor = ROIS_SOURCE_DIR "/tests/server/data/one_visitor.xml";
-    GatewayProcess const gateway{{"--scenario", visitor, "--sim-speed", "20", "--seed", "7"}};
-    std::string said;
-    auto* const pipe = popen(("ROIS_URL=" + gateway.url() + " " ROIS_BINARY_DIR "/bin/greeting 2>&1").c_str(), "r");
-    for (int c = std::getc(pipe); c != EOF; c = std::getc(pipe)) said.push_back(static_cast<char>(c));
-    EXPECT_EQ(WEXITSTATUS(pclose(pipe)), 0);
-    EXPECT_EQ(said, "greeted a visitor\n");
+    kit::GatewayProcess const gateway{{"--scenario", visitor, "--sim-speed", "20", "--seed", "7"}};
+    auto const ended = kit::run(ROIS_BINARY_DIR "/bin/greeting", {}, {}, {{"ROIS_URL", gateway.url()}});
+    EXPECT_EQ(ended.exit_code, 0) << ended.error;
+    EXPECT_EQ(ended.out, "greeted a visitor\n");
 }
 
 TEST(AProgramOfTheCppPsm, IsShortAndIncludesOnlyItsHeaders) {

@@ -1,12 +1,13 @@
 // The C++ PSM against the real gateway: what its functions return.
 #include <future>
 
+#include "kit/socket.hpp"
 #include "psm/rig.hpp"
 
 namespace {
 
 using namespace rois::test::psm;
-using rois::test::GatewayProcess;
+using rois::kit::GatewayProcess;
 using RoIS_HRI::OUT_OF_RESOURCES;  // not the one of RoIS_Service
 
 std::string filter(std::string const& reference, std::string const& value) {
@@ -65,31 +66,15 @@ TEST_F(CppPsm, ConnectsAgainAfterADisconnect) {
     EXPECT_EQ(other.call(rois::Bind{{.code = "move"}}).return_code, rois::ReturnCode::ok) << "disconnect releases";
 }
 
-// Returns the head of the first request of a program, from a server that never answers.
-std::string first_head(int listener) {
-    auto const client = accept(listener, nullptr, nullptr);
-    std::string head;
-    for (char c = 0; head.find("\r\n\r\n") == head.npos && read(client, &c, 1) == 1;) head.push_back(c);
-    close(client);
-    close(listener);
-    return head;
-}
-
 TEST_F(CppPsm, SendsTheTokenOfTheEnvironment) {
-    auto const listener = socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    ASSERT_EQ(bind(listener, reinterpret_cast<sockaddr*>(&address), size), 0);
-    ASSERT_EQ(listen(listener, 1), 0);
-    ASSERT_EQ(getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size), 0);
-    auto head = std::async(std::launch::async, first_head, listener);
-    use("http://127.0.0.1:" + std::to_string(ntohs(address.sin_port)));
+    rois::kit::Listener listener;
+    auto head =
+        std::async(std::launch::async, [&] { return rois::kit::Socket{listener.accept().value()}.take_until("\r\n\r\n"); });
+    use("http://127.0.0.1:" + std::to_string(listener.port()));
     setenv("ROIS_TOKEN", "open-sesame", 1);
     EXPECT_EQ(system.connect(), error);
     unsetenv("ROIS_TOKEN");
-    EXPECT_THAT(head.get(), HasSubstr("Authorization: Bearer open-sesame\r\n"));
+    EXPECT_THAT(head.get().value(), HasSubstr("Authorization: Bearer open-sesame\r\n"));
 }
 
 // --- XML texts ---

@@ -6,8 +6,8 @@
 namespace {
 
 using namespace rois::test::psm;
-using rois::test::GatewayProcess;
-using rois::test::shared_gateway;
+using rois::kit::GatewayProcess;
+using rois::kit::shared_gateway;
 
 // Remembers where people are.
 class People : public Person_Localization::Event {

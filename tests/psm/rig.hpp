@@ -34,13 +34,15 @@
 #include "RoIS_Speech_Synthesis.hpp"
 #include "RoIS_System_Information.hpp"
 #include "RoIS_Video_Streaming.hpp"
+#include "kit/gateway_process.hpp"
 #include "reason.hpp"
 #include "rois/blocking.hpp"
-#include "server/gateway_process.hpp"
 
 namespace rois::test::psm {
 
 using namespace std::chrono_literals;
+using kit::GatewayProcess;
+using kit::shared_gateway;
 using rois::Blocking;
 using rois::psm::reason;
 using testing::Contains;

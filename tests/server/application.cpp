@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "client/line.hpp"
+#include "kit/line.hpp"
 
 namespace rois::test {
 
-Application::Application(Way way, GatewayProcess const& gateway) : client::Application{wire_to(gateway.address(), way)} {}
+Application::Application(Way way, GatewayProcess const& gateway) : kit::Application{wire_to(gateway.address(), way)} {}
 
 Application::~Application() {
     try {

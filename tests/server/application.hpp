@@ -1,15 +1,15 @@
-// A service application that checks always, beside what the test says: each answer belongs to its request (name and request_id),
-// a refusal has a reason and no out parameters, and the notifications' sequence has no gap.
+// A service application that always checks: each answer belongs to its request (name and request_id),
+// a refusal has a reason and no out parameters, and the sequence of the notifications has no gap.
 #pragma once
 
-#include "client/application.hpp"
-#include "server/gateway_process.hpp"
+#include "kit/application.hpp"
+#include "kit/gateway_process.hpp"
 
 namespace rois::test {
 
-using namespace client;
+using namespace kit;
 
-class Application : public client::Application {
+class Application : public kit::Application {
 public:
     // Not connected yet.
     explicit Application(Way, GatewayProcess const&);

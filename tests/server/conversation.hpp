@@ -1,4 +1,4 @@
-// What the dialogues over both ways have in common: the hall and an application that is connected.
+// The fixture of dialogues over HTTP and over WebSocket: an empty hall and a connected application.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -8,7 +8,11 @@
 
 namespace rois::test {
 
-// A hall that nobody enters, 20 times as fast as the world.
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// An empty hall, 20 times as fast as real time.
 GatewayProcess& empty_hall();
 
 class Conversation : public testing::TestWithParam<Way> {
@@ -18,7 +22,7 @@ protected:
     Application desk{GetParam(), empty_hall()};
 };
 
-// The same dialogues over HTTP and over WebSocket.
+// Runs the tests of a suite over HTTP and over WebSocket.
 #define ROIS_OVER_BOTH_WAYS(suite) \
     INSTANTIATE_TEST_SUITE_P(Over, suite, testing::ValuesIn(all_ways), testing::PrintToStringParamName())
 
@@ -27,7 +31,7 @@ MATCHER(IsOk, "is OK") {
     return arg.return_code() == "OK" && arg.reason().empty();
 }
 
-// A refusal whose reason holds these words.
+// Matches a refusal whose reason contains these words.
 MATCHER_P2(IsRefused, code, words, std::string{code} + " because of " + words) {
     *result_listener << arg.whole();
     return arg.return_code() == code && arg.reason().find(words) != std::string::npos;
@@ -37,7 +41,7 @@ inline Command speak(std::string const& text, std::string const& id = "") {
     return {.component = "speech_synthesis", .id = id, .arguments = {speech_text(text)}};
 }
 
-// A speech that goes on for longer than any test.
+// A speech that takes longer than any test.
 Command speak_long(std::string const& id);
 
 }  // namespace rois::test

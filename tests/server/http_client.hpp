@@ -1,19 +1,19 @@
-// The HTTP client, for the gateways of these tests.
+// The kit's HTTP client for a GatewayProcess.
 #pragma once
 
-#include "client/http_client.hpp"
-#include "server/gateway_process.hpp"
+#include "kit/gateway_process.hpp"
+#include "kit/http_client.hpp"
 
 namespace rois::test {
 
-using namespace client;
+using namespace kit;
 
-class HttpClient : public client::HttpClient {
+class HttpClient : public kit::HttpClient {
 public:
-    explicit HttpClient(GatewayProcess const& gateway = shared_gateway()) : client::HttpClient{gateway.address()} {}
+    explicit HttpClient(GatewayProcess const& gateway = shared_gateway()) : kit::HttpClient{gateway.address()} {}
 };
 
-// Connects, binds a component, and lets `count` notifications be queued: a set_parameter each, which completes at once.
+// Connects, binds a component, and queues `count` notifications: each set_parameter completes at once.
 void bind_and_complete(HttpClient&, int count);
 void complete(HttpClient&, int count);
 

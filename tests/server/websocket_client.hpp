@@ -1,14 +1,14 @@
-// The WebSocket client, for the gateways of these tests.
+// The kit's WebSocket client for a GatewayProcess.
 #pragma once
 
-#include "client/websocket_client.hpp"
+#include "kit/websocket_client.hpp"
 #include "server/http_client.hpp"
 
 namespace rois::test {
 
-class WebSocketClient : public client::WebSocketClient {
+class WebSocketClient : public kit::WebSocketClient {
 public:
-    explicit WebSocketClient(GatewayProcess const& gateway = shared_gateway()) : client::WebSocketClient{gateway.address()} {}
+    explicit WebSocketClient(GatewayProcess const& gateway = shared_gateway()) : kit::WebSocketClient{gateway.address()} {}
 };
 
 void bind_and_complete(WebSocketClient&, int count);

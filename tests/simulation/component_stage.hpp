@@ -16,7 +16,7 @@
 #include "files/files.hpp"
 #include "simulation/adapters/adapters.hpp"
 #include "simulation/adapters/robot_components.hpp"
-#include "simulation/fake_media.hpp"
+#include "simulation/streaming/fake_media.hpp"
 #include "types/texts.hpp"
 #include "xml/profiles/profile_document.hpp"
 

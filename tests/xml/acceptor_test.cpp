@@ -6,7 +6,7 @@
 #include "fuzz/comparison.hpp"
 #include "fuzz/mutation.hpp"
 #include "fuzz/samples.hpp"
-#include "speaking.hpp"
+#include "xml/speaking.hpp"
 #include "xml/tables/acceptor.hpp"
 
 namespace rois::xml {

@@ -2,8 +2,8 @@
 // texts around it are our own.
 #include <gmock/gmock.h>
 
-#include "speaking.hpp"
 #include "types/data_type.hpp"
+#include "xml/speaking.hpp"
 
 namespace rois::xml {
 namespace {

@@ -4,7 +4,7 @@
 #include <pugixml.hpp>
 #include <set>
 
-#include "speaking.hpp"
+#include "xml/speaking.hpp"
 
 namespace rois::xml {
 namespace {

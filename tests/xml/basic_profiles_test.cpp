@@ -4,8 +4,8 @@
 
 #include <map>
 
-#include "speaking.hpp"
 #include "types/data_type.hpp"
+#include "xml/speaking.hpp"
 
 namespace rois::xml {
 namespace {

@@ -1,8 +1,8 @@
 // Round trips: requests that clients encode and the engine decodes, and answers in the other direction.
 #include <gmock/gmock.h>
 
-#include "speaking.hpp"
 #include "xml/codec/decoding.hpp"
+#include "xml/speaking.hpp"
 
 namespace rois::xml {
 namespace {

@@ -1,7 +1,7 @@
 // Decoding of conditions: every operator, geometry and time, and the reasons for unsupported parts.
 #include <gmock/gmock.h>
 
-#include "speaking.hpp"
+#include "xml/speaking.hpp"
 
 namespace rois::xml {
 namespace {

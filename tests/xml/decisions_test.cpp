@@ -1,7 +1,7 @@
 // Decisions 26, 27 and 29, as far as they concern documents.
 #include <gmock/gmock.h>
 
-#include "speaking.hpp"
+#include "xml/speaking.hpp"
 
 namespace rois::xml {
 namespace {

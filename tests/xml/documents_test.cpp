@@ -1,7 +1,7 @@
 // Documents from files, and the schemas.
 #include <gmock/gmock.h>
 
-#include "speaking.hpp"
+#include "xml/speaking.hpp"
 
 namespace rois::xml {
 namespace {

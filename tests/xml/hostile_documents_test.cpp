@@ -4,7 +4,7 @@
 #include <thread>
 #include <vector>
 
-#include "speaking.hpp"
+#include "xml/speaking.hpp"
 #include "xml/validation/grammars.hpp"
 #include "xml/validation/validator.hpp"
 

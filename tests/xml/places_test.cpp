@@ -1,8 +1,8 @@
 // The place of a fault, and what it expected.
 #include <gmock/gmock.h>
 
-#include "speaking.hpp"
 #include "xml/codec/place.hpp"
+#include "xml/speaking.hpp"
 
 namespace rois::xml {
 namespace {

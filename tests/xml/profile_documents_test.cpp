@@ -1,8 +1,8 @@
 // Profiles that deviate from the schemas: common deviations are read with a warning, others are rejected with their place.
 #include <gmock/gmock.h>
 
-#include "speaking.hpp"
 #include "types/data_type.hpp"
+#include "xml/speaking.hpp"
 
 namespace rois::xml {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "speaking.hpp"
+#include "xml/speaking.hpp"
 
 namespace rois::xml {
 namespace {

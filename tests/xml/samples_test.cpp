@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "speaking.hpp"
+#include "xml/speaking.hpp"
 
 namespace rois::xml {
 namespace {

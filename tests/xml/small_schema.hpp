@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "fuzz/comparison.hpp"
-#include "speaking.hpp"
+#include "xml/speaking.hpp"
 
 namespace rois::xml {
 

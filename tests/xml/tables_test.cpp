@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "small_schema.hpp"
+#include "xml/small_schema.hpp"
 
 namespace rois::xml {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fuzz/pieces.hpp"
-#include "small_schema.hpp"
+#include "xml/small_schema.hpp"
 
 namespace rois::xml {
 namespace {

@@ -1,0 +1,18 @@
+// The address of a gateway.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace rois::kit {
+
+struct Address {
+    std::string host = "127.0.0.1";  // a name or an IP address
+    std::uint16_t port = 0;
+    std::string authority = "localhost";         // for the header Host
+    std::string token{};                         // the bearer token; empty: none
+    std::chrono::milliseconds patience{20'000};  // longest wait for one thing
+};
+
+}  // namespace rois::kit

@@ -1,0 +1,242 @@
+#include "kit/application.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <sstream>
+
+#include "kit/websocket_client.hpp"
+
+namespace rois::kit {
+
+namespace {
+
+class HttpWire final : public Wire {
+public:
+    explicit HttpWire(Address const& address) : client_{address}, patience_{address.patience} {}
+
+    std::string ask(std::string const& request, std::vector<std::string>&) override { return client_.post(request).body; }
+
+    void wait(std::vector<std::string>& news) override { take(poll(), news); }
+
+    void look(std::vector<std::string>& news) override { take(client_.notifications(last_, 0), news); }
+
+    void use(std::string const& session) override {
+        if (client_.session != session) last_ = 0;
+        client_.session = session;
+    }
+
+private:
+    void take(HttpReply const& reply, std::vector<std::string>& news) {
+        pugi::xml_document as_written;
+        as_written.load_buffer(reply.body.data(), reply.body.size());
+        for (auto const notification : as_written.document_element().children()) {
+            last_ = notification.attribute("sequence").as_uint();
+            news.push_back(document_of(notification));
+        }
+    }
+
+    // Repeats the long poll until it returns a notification, or the patience is over.
+    HttpReply poll() {
+        using Clock = std::chrono::steady_clock;
+        constexpr std::chrono::seconds longest{30};  // long poll (wire.md, endpoints)
+        constexpr std::chrono::milliseconds imprecision{500};
+        auto const patience = std::max(std::chrono::ceil<std::chrono::seconds>(patience_), std::chrono::seconds{1});
+        auto const end = Clock::now() + patience;
+        std::string empty;
+        for (auto left = patience; left.count() > 0; left = std::chrono::round<std::chrono::seconds>(end - Clock::now())) {
+            auto const wait = std::min(left, longest);
+            auto const due = Clock::now() + wait - imprecision;
+            auto reply = client_.notifications(last_, static_cast<unsigned>(wait.count()));
+            if (reply.root().first_child()) return reply;
+            empty = reply.body;
+            if (Clock::now() < due) throw LineEnded{"a long poll returned early without a notification: " + empty};
+        }
+        throw LineEnded{"no notification for " + std::to_string(patience.count()) + " s: " + empty};
+    }
+
+    // Adds the namespaces that the enclosing list declares.
+    static std::string document_of(pugi::xml_node notification) {
+        for (auto const declared : notification.parent().attributes()) {
+            if (!notification.attribute(declared.name())) notification.append_copy(declared);
+        }
+        std::ostringstream text;
+        notification.print(text, "", pugi::format_raw);
+        return text.str();
+    }
+
+    HttpClient client_;
+    std::chrono::milliseconds patience_;
+    unsigned last_ = 0;
+};
+
+class WebSocketWire final : public Wire {
+public:
+    explicit WebSocketWire(Address const& address) : client_{address} {}
+
+    std::string ask(std::string const& request, std::vector<std::string>& news) override {
+        client_.send(request);
+        while (true) {
+            auto text = next_text();
+            if (!is_notification(text)) return text;
+            news.push_back(std::move(text));
+        }
+    }
+
+    void wait(std::vector<std::string>& news) override { news.push_back(next_text()); }
+
+    void look(std::vector<std::string>&) override {}  // they arrive with the answers
+
+    void use(std::string const&) override {}  // the session is the socket's
+
+private:
+    static bool is_notification(std::string const& text) { return !Document{text}.attribute("sequence").empty(); }
+
+    std::string next_text() {
+        auto frame = client_.next();
+        while (frame.kind == Kind::ping) {
+            client_.send(frame.payload, Kind::pong);
+            frame = client_.next();
+        }
+        if (frame.kind != Kind::text) throw LineEnded{"closed with " + std::to_string(frame.close_code())};
+        return frame.payload;
+    }
+
+    WebSocketClient client_;
+};
+
+}  // namespace
+
+std::unique_ptr<Wire> wire_to(Address const& address, Way way) {
+    if (way == Way::http) return std::make_unique<HttpWire>(address);
+    return std::make_unique<WebSocketWire>(address);
+}
+
+std::ostream& operator<<(std::ostream& out, Way way) { return out << (way == Way::http ? "Http" : "WebSocket"); }
+
+void Application::leave() {
+    if (connected_) disconnect();
+}
+
+Document Application::ask(std::string const& operation, Xml const& children, Attributes const& attributes) {
+    auto const request_id = "request-" + std::to_string(++requests_);
+    auto with_id = attributes;
+    with_id.emplace_back("request_id", request_id);
+    std::vector<std::string> news;
+    Document const answer{wire_->ask(request(operation, children, with_id), news)};
+    take(news);
+    check_answer(answer, operation, request_id);
+    return answer;
+}
+
+Document Application::connect() {
+    auto answer = ask("connect");
+    if (answer.return_code() != "OK") return answer;
+    if (!connected_) last_sequence_ = 0;
+    connected_ = true;
+    session_ = answer.text("session");
+    wire_->use(session_);
+    return answer;
+}
+
+Document Application::disconnect() {
+    auto answer = ask("disconnect");
+    connected_ = false;
+    return answer;
+}
+
+Document Application::bind(std::string const& ref) { return ask("bind", component_ref(ref)); }
+
+Document Application::release(std::string const& ref) { return ask("release", component_ref(ref)); }
+
+Document Application::get_parameter(std::string const& ref) { return ask("get_parameter", component_ref(ref)); }
+
+Document Application::set_parameter(std::string const& ref, std::vector<Argument> const& arguments) {
+    return ask("set_parameter", component_ref(ref) + parameters(arguments));
+}
+
+Document Application::execute(Xml const& units) { return ask("execute", sequence(units)); }
+
+Document Application::get_command_result(std::string const& id, Xml const& condition) {
+    return ask("get_command_result", text_element("command_id", id) + condition);
+}
+
+Document Application::query(std::string const& type, Xml const& condition) {
+    return ask("query", text_element("query_type", type) + condition);
+}
+
+Document Application::subscribe(std::string const& event, Xml const& condition, bool inline_results) {
+    return ask("subscribe", text_element("event_type", event) + condition,
+               inline_results ? Attributes{{"inline_results", "true"}} : Attributes{});
+}
+
+Document Application::unsubscribe(std::string const& id) { return ask("unsubscribe", text_element("subscribe_id", id)); }
+
+Document Application::get_event_detail(std::string const& id, Xml const& condition) {
+    return ask("get_event_detail", text_element("event_id", id) + condition);
+}
+
+std::vector<std::string> Application::search(Xml const& condition) {
+    auto const answer = ask("search", condition);
+    if (answer.return_code() != "OK") return {""};
+    std::vector<std::string> refs;
+    for (auto const ref : answer.root().child("component_ref_list").children("component_ref"))
+        refs.emplace_back(ref.attribute("rois:code").value());
+    return refs;
+}
+
+Document Application::hear() {
+    if (waiting_.empty()) {
+        std::vector<std::string> news;
+        wire_->wait(news);
+        take(news);
+    }
+    history_.push_back(waiting_.front());
+    waiting_.erase(waiting_.begin());
+    return history_.back();
+}
+
+std::optional<Document> Application::hear_now() {
+    if (waiting_.empty()) {
+        std::vector<std::string> news;
+        wire_->look(news);
+        take(news);
+    }
+    if (waiting_.empty()) return {};
+    return hear();
+}
+
+Document Application::hear_event(std::string const& type) {
+    while (true) {
+        auto heard = hear();
+        if (heard.text("event_type") == type) return heard;
+    }
+}
+
+std::string Application::status_of(std::string const& command_id) {
+    while (true) {
+        auto const heard = hear();
+        if (heard.name() == "completed" && heard.text("command_id") == command_id) return heard.text("status");
+    }
+}
+
+void Application::take(std::vector<std::string> const& news) {
+    for (auto const& text : news) {
+        Document notification{text};
+        check_notification(notification, ++last_sequence_);
+        waiting_.push_back(std::move(notification));
+    }
+}
+
+std::vector<std::string> lines(std::vector<Document> const& notifications) {
+    std::vector<std::string> lines;
+    for (auto const& one : notifications) {
+        if (one.name() == "completed") {
+            lines.push_back("completed " + one.text("command_id") + " " + one.text("status"));
+        } else {
+            lines.push_back(one.name() == "receive_event" ? one.text("event_type") : one.name());
+        }
+    }
+    return lines;
+}
+
+}  // namespace rois::kit

@@ -1,0 +1,61 @@
+// Runs rois-gateway.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "kit/address.hpp"
+#include "kit/process.hpp"
+
+namespace rois::kit {
+
+constexpr auto gateway_program = ROIS_BINARY_DIR "/bin/rois-gateway";
+
+// Runs rois-gateway with these arguments until it ends.
+Ended run_gateway(std::vector<std::string> const& arguments, Variables const& = {});
+
+// A gateway that listens on a free port of the loopback. The destructor ends it; the test fails if its exit code is not 0.
+class GatewayProcess {
+public:
+    // Waits until it listens. Throws std::runtime_error with its output if it ends before that.
+    explicit GatewayProcess(std::vector<std::string> arguments = {}, Variables const& = {});
+    ~GatewayProcess();
+    GatewayProcess(GatewayProcess const&) = delete;
+    GatewayProcess& operator=(GatewayProcess const&) = delete;
+
+    pid_t id() const { return process_; }
+    std::uint16_t port() const { return port_; }
+    std::string const& url() const { return url_; }
+    Address address() const { return {.port = port_}; }
+    std::size_t resident_bytes() const;
+    // Limits the address space of the process to its present size and this number of bytes.
+    void limit_address_space(std::size_t more) const;
+
+    // Returns the log as soon as it contains the text, or after ten seconds.
+    std::string log_with(std::string_view text);
+
+    void signal(int number);
+    // Waits for the end of the process.
+    Ended wait();
+
+private:
+    pid_t process_ = 0;
+    int errors_ = -1;  // its standard error; the reader empties it, so that the gateway never waits for the test
+    std::thread reader_;
+    std::mutex mutex_;  // guards the members below
+    std::condition_variable news_;
+    std::string log_;
+    bool ended_ = false;  // the end of the log was read
+    std::string url_;
+    std::uint16_t port_ = 0;
+};
+
+// The gateway with default settings that all tests of a program share.
+GatewayProcess& shared_gateway();
+
+}  // namespace rois::kit
