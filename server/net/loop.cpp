@@ -16,6 +16,7 @@ namespace rois::net {
 namespace {
 
 constexpr auto between_sweeps = std::chrono::milliseconds{50};
+constexpr auto shortest_idle = std::chrono::milliseconds{100};  // of a connection to be cut: a request may be on its way
 constexpr auto between_tries = std::chrono::milliseconds{10};
 
 // Returns the number of sweeps that check all connections: 1 if a deadline is short, 5 by default. So a deadline is missed by at
@@ -137,7 +138,9 @@ void Loop::sweep_some(Steady now) {
 
 bool Loop::cut_longest_idle() {
     auto const idlest = std::ranges::min_element(connections_, {}, &Connection::idle_due);
-    if (idlest == connections_.end() || (*idlest)->idle_due() == Steady::max()) return false;
+    if (idlest == connections_.end()) return false;
+    auto const idle_since = (*idlest)->idle_due() - shared_.settings.idle_timeout;
+    if (idle_since > std::chrono::steady_clock::now() - shortest_idle) return false;
     (*idlest)->cut();
     return true;
 }

@@ -47,7 +47,7 @@ public:
 
     // The loop's own thread calls the functions below.
     void serve(Socket, Admission::Place);
-    // Cuts the connection that has been idle for longest. Returns false if none is idle.
+    // Cuts the connection that has been idle for longest. Returns false if none has been idle for 0.1 s.
     bool cut_longest_idle();
     bool draining() const { return last_moment_ != Steady::max(); }
     Shared& shared() const { return shared_; }

@@ -17,18 +17,16 @@ namespace rois::test {
 
 namespace {
 
-// Arguments of `env`, which removes the settings of the machine, and runs `rois`.
-std::vector<std::string> clean(std::vector<std::string> const& arguments) {
-    std::vector<std::string> all{"-u",           "ROIS_SESSION", "-u",          "ROIS_TOKEN", "-u",
-                                 "ROIS_CA_FILE", "-u",           "ROIS_LISTEN", "-u",         "NO_COLOR"};
+// Returns arguments for `env`, which removes the settings of the machine, sets these variables, and runs `rois`.
+std::vector<std::string> for_env(std::vector<std::string> const& arguments, Variables const& variables) {
+    std::vector<std::string> all;
+    for (auto const* name : {"ROIS_SESSION", "ROIS_TOKEN", "ROIS_CA_FILE", "ROIS_LISTEN", "NO_COLOR"})
+        all.insert(all.end(), {"-u", name});
+    all.emplace_back("ROIS_URL=http://127.0.0.1:1");  // unless `variables` sets it
+    for (auto const& [name, value] : variables) all.push_back(name + "=" + value);
     all.emplace_back(ROIS_BINARY_DIR "/bin/rois");
     all.insert(all.end(), arguments.begin(), arguments.end());
     return all;
-}
-
-Variables with_url(Variables variables) {
-    variables.try_emplace("ROIS_URL", "http://127.0.0.1:1");
-    return variables;
 }
 
 std::filesystem::path const& folder() {
@@ -50,13 +48,13 @@ std::filesystem::path const& folder() {
 }  // namespace
 
 Ended run_rois(std::vector<std::string> const& arguments, std::string const& input, Variables const& variables) {
-    return kit::run("env", clean(arguments), input, with_url(variables));
+    return kit::run("env", for_env(arguments, variables), input);
 }
 
 RoisProcess::RoisProcess(std::vector<std::string> const& arguments, Variables const& variables) {
     kit::Pipe const out, error;
     auto const null = open("/dev/null", O_RDONLY | O_CLOEXEC);
-    process_ = kit::start("env", clean(arguments), with_url(variables), {null, out.to_write, error.to_write});
+    process_ = kit::start("env", for_env(arguments, variables), {}, {null, out.to_write, error.to_write});
     for (auto const end : {null, out.to_write, error.to_write}) close(end);
     out_ = out.to_read;
     error_ = error.to_read;

@@ -273,7 +273,7 @@ TEST_F(ComingAndGoing, HappensWholeOrNotAtAll) {
     Part lost = detection;
     lost.profile.sub_components = {"urn:nowhere"};
     EXPECT_THAT(try_to({"speech"}, {lost}), HasSubstr("'urn:nowhere'"));
-    EXPECT_THAT(try_to({"speech", "lamp"}, {}), HasSubstr("no component 'lamp'"));
+    EXPECT_THAT(try_to({"speech", "lamp"}, {}), HasSubstr("unknown component 'lamp'"));
     EXPECT_THAT(try_to({"speech"}, {navigation}), HasSubstr("two components with the ref 'navigation'"));
     EXPECT_THAT(try_to({}, {detection, detection}), HasSubstr("two components with the ref 'detection'"));
     EXPECT_THAT(desk.search(), ElementsAre("navigation", "speech"));

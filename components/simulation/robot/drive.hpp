@@ -83,7 +83,7 @@ private:
     void finish(MotionState);
     bool must_stand() const;
     void roll(Surroundings const&, Seconds dt);
-    DriveState wheels(Surroundings const&, Seconds dt) const;
+    DriveState state(Surroundings const&, Seconds dt) const;
     Twist steer(Surroundings const&, Seconds dt);
     MetresPerSecond safe(MetresPerSecond wanted, DriveState const&) const;
     bool would_touch(Pose const&, Surroundings const&) const;

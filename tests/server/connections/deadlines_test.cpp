@@ -104,16 +104,27 @@ TEST(Limit, OfConnectionsHoldsOverAllThreads) {
     for (int i = 0; i < 3; ++i) {
         inside.push_back(std::make_unique<HttpClient>(gateway));
         EXPECT_EQ(inside.back()->get("/healthz").status, 200);
+        inside.back()->line().send("GET /metrics HTTP/1.1\r\nHost: localhost\r\n");  // so it is not idle
     }
     std::vector<std::unique_ptr<HttpClient>> outside;
     for (int i = 0; i < 8; ++i) {
         outside.push_back(std::make_unique<HttpClient>(gateway));
         outside.back()->line().send("GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
     }
-    for (auto const& client : inside)
-        EXPECT_THAT(client->get("/metrics").body, testing::HasSubstr("rois_connections{kind=\"http\"} 3\n"));
+    inside.front()->line().send("\r\n");
+    EXPECT_THAT(inside.front()->read().body, testing::HasSubstr("rois_connections{kind=\"http\"} 3\n"));
     inside.clear();
     for (auto const& client : outside) EXPECT_EQ(client->read().status, 200);
+}
+
+TEST(Limit, OfConnectionsIsKeptByCuttingTheOneThatHasBeenIdleForLongest) {
+    GatewayProcess gateway{{"--max-connections", "2", "--threads", "1"}};
+    HttpClient oldest{gateway}, newer{gateway};
+    for (auto* client : {&oldest, &newer}) EXPECT_EQ(client->get("/healthz").status, 200);
+    HttpClient late{gateway};
+    EXPECT_EQ(late.get("/healthz").status, 200);
+    EXPECT_EQ(newer.get("/healthz").status, 200);
+    EXPECT_THROW(oldest.get("/healthz"), std::exception);
 }
 
 }  // namespace
