@@ -74,7 +74,7 @@ TEST(ConfigurationFile, WithAMistakeIsRefusedInOneLine) {
                      "FILE:1:18: this is not JSON: invalid string: ill-formed UTF-8 byte");
     expect_complaint(complaint_about("[]"), "FILE:1:1: the file must hold one object");
     expect_complaint(complaint_about("{\"sim_speed\": 1e999}"), "FILE:1:15: the number is too large");
-    expect_complaint(complaint_about("{\n  \"seed\": 1,\n  \"seed\": 2\n}"), "FILE:3:3: 'seed' is there twice");
+    expect_complaint(complaint_about("{\n  \"seed\": 1,\n  \"seed\": 2\n}"), "FILE:3:3: 'seed' is given twice");
 }
 
 TEST(Keys, AcceptTheValuesThatTheyShow) {
