@@ -13,8 +13,8 @@ namespace rois::net {
 namespace {
 
 constexpr std::size_t smallest_read = 1024;
-constexpr std::size_t largest_kept = 4 * 1024;  // bytes of memory of an empty input buffer
-constexpr std::size_t largest_read = 64 * 1024;
+constexpr std::size_t largest_kept = 4 * 1024;    // bytes of memory of an empty input buffer
+constexpr std::size_t largest_read = 16 * 1024;   // a turn: with larger ones, a thousand long bodies keep `stop` waiting
 constexpr std::size_t most_promised = 16 * 1024;  // bytes of memory for announced input
 
 }  // namespace
