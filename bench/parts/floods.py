@@ -31,7 +31,7 @@ def round(keep, settings):
         keep("fault: a component does not halt", measured(server, "motions", settings.seconds * 10))
     reader, writer = os.pipe()
     with gateway("unread-log", settings, log=writer) as (server,):
-        keep("fault: nobody reads the log", measured(server, "speeches", settings.seconds * 10))
+        keep("fault: standard error is not read", measured(server, "speeches", settings.seconds * 10))
     os.close(reader)
     os.close(writer)
     with gateway("no-memory", settings) as (server,):

@@ -18,8 +18,8 @@ constexpr std::chrono::milliseconds between_looks{100};  // of the thread at the
 constexpr std::size_t atomic_write = 4'096;              // PIPE_BUF: a pipe that is writable takes so much without blocking
 constexpr std::size_t longest_example = 80;
 
-// Hashes the line (FNV-1a) without digits, and without everything between its first and its last quotation mark: the text of a
-// client may contain such marks itself, so pairs of marks cannot be told apart.
+// Returns a hash (FNV-1a) of the line without its digits and without everything between its first and last quotation mark. Pairs
+// of marks cannot be matched, because a quoted text may contain marks itself.
 std::uint64_t cause_of(std::string_view line) {
     constexpr std::string_view marks = "'\"";
     std::uint64_t hash = 14'695'981'039'346'656'037U;

@@ -233,6 +233,27 @@ TEST_P(MemoryThatRunsOut, LateInALongHistoryStopsNoClockAndHaltsMovingComponents
     EXPECT_GE(n, 20'000) << "the rounds need memory that often";
 }
 
+// An open stream keeps the lease alive, so only the pause of the engine can hold the motion.
+TEST(MotionAfterAPauseOfTheEngine, IsHeldByTheNextTickIfMemoryIsMissing) {
+    bool failed = true;
+    for (std::uint64_t n = 1; failed && !testing::Test::HasFailure(); ++n) {
+        Hall hall;
+        auto desk = hall.world.connect_without_link();
+        hall.world.engine->link_opened(desk.session, Link::stream, hall.world.now);
+        desk.bind("base");
+        desk.execute(go("go", "base"));
+        hall.tick();
+        ASSERT_TRUE(hall.base->drives);
+        hall.world.now = hall.world.now + 10s;
+        std::vector<std::function<void()>> const steps{[&] { hall.world.engine->tick(hall.world.now); }};
+        faults::fail_at(faults::Of::memory, n);
+        Hall::play(steps);
+        failed = faults::stop();
+        hall.tick_quietly(50ms);
+        EXPECT_FALSE(hall.base->drives) << n;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(ForCalls, MemoryThatRunsOut, testing::Values(1, 2, 7, 60, 600),
                          [](auto const& calls) { return std::to_string(calls.param); });
 

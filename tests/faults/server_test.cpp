@@ -174,6 +174,7 @@ class Faults : public testing::TestWithParam<Of> {};
 
 TEST_P(Faults, Of30MillisecondsAreSurvived) {
     Rig rig;
+    bool failed = false;
     for (int turn = 0; turn < 4; ++turn) {
         std::thread others{[&] {
             faults::Exempt const exempt;
@@ -182,10 +183,11 @@ TEST_P(Faults, Of30MillisecondsAreSurvived) {
         std::this_thread::sleep_for(turn * 1ms);
         faults::fail(GetParam());
         std::this_thread::sleep_for(30ms);
-        faults::stop();
+        failed = faults::stop() || failed;
         others.join();
         rig.expect_to_live("turn " + std::to_string(turn));
     }
+    EXPECT_TRUE(failed) << "otherwise the test proves nothing";
 }
 
 std::string name(testing::TestParamInfo<Of> const& of) {
