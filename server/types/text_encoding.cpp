@@ -45,7 +45,7 @@ bool is_utf8(std::string_view text) {
 std::optional<std::string> percent_decoded(std::string_view text) {
     std::string plain;
     while (!text.empty()) {
-        unsigned char byte = static_cast<unsigned char>(text.front());
+        auto byte = static_cast<unsigned char>(text.front());
         std::size_t size = 1;
         if (byte == '%') {
             size = 3;
