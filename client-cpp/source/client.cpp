@@ -51,6 +51,7 @@ Task<std::vector<Command>> Client::execute(CommandUnitSequence sequence) {
     auto const inside = core();
     auto const watches = co_await inside->begin(std::move(sequence), "execute");
     std::vector<Command> commands;
+    commands.reserve(watches.size());
     for (auto const& watch : watches) commands.emplace_back(inside, watch);
     co_return commands;
 }

@@ -84,7 +84,7 @@ PersonLocalized PersonLocalized::from(ReceiveEvent const& event) { return locali
 FaceLocalized FaceLocalized::from(ReceiveEvent const& event) { return localized<FaceLocalized>(event, "face_ref"); }
 SoundLocalized SoundLocalized::from(ReceiveEvent const& event) { return localized<SoundLocalized>(event, "sound_ref"); }
 
-Task<Completion> Localization::set(LocalizationParameters parameters) const {
+Task<Completion> Localization::set(LocalizationParameters const& parameters) const {
     return set_parameter(Arguments{}
                              .integer("detection_threshold", rounded(parameters.detection_threshold))
                              .milliseconds("minimum_interval", parameters.minimum_interval)
@@ -120,7 +120,7 @@ SpeechInputFinished SpeechInputFinished::from(ReceiveEvent const& event) {
     return {Reading{results_of(event)}.time("timestamp").value_or(Utc{})};
 }
 
-Task<Completion> SpeechRecognition::set(SpeechRecognitionParameters parameters) const {
+Task<Completion> SpeechRecognition::set(SpeechRecognitionParameters const& parameters) const {
     return set_parameter(Arguments{}
                              .texts("languages", parameters.languages)
                              .text("grammar", parameters.grammar)
@@ -168,9 +168,9 @@ Task<Completion> SpeechSynthesis::say(std::string speech_text) const {
     return start(Arguments{}.text("speech_text", std::move(speech_text)).list());
 }
 
-Task<Completion> SpeechSynthesis::say(Speech speech) const { return start(arguments_of(speech)); }
+Task<Completion> SpeechSynthesis::say(Speech const& speech) const { return start(arguments_of(speech)); }
 
-Task<Completion> SpeechSynthesis::set(Speech speech) const { return set_parameter(arguments_of(speech)); }
+Task<Completion> SpeechSynthesis::set(Speech const& speech) const { return set_parameter(arguments_of(speech)); }
 
 Task<Speech> SpeechSynthesis::parameters() const {
     return read_parameters<Speech>(*this, [](Reading const& read) {
@@ -238,12 +238,12 @@ ParameterList arguments_of(MoveParameters const& parameters) {
 Task<Completion> Navigation::go_to(Target target, std::optional<Milliseconds> time_limit) const {
     auto parameters = NavigationParameters{}.with_target_position(std::move(target));
     parameters.time_limit = time_limit;
-    return go(std::move(parameters));
+    return go(parameters);
 }
 
-Task<Completion> Navigation::go(NavigationParameters parameters) const { return start(arguments_of(parameters)); }
+Task<Completion> Navigation::go(NavigationParameters const& parameters) const { return start(arguments_of(parameters)); }
 
-Task<Completion> Navigation::set(NavigationParameters parameters) const { return set_parameter(arguments_of(parameters)); }
+Task<Completion> Navigation::set(NavigationParameters const& parameters) const { return set_parameter(arguments_of(parameters)); }
 
 Task<NavigationParameters> Navigation::parameters() const {
     return read_parameters<NavigationParameters>(*this, [](Reading const& read) {
@@ -256,11 +256,11 @@ Task<NavigationParameters> Navigation::parameters() const {
     });
 }
 
-Task<Completion> Follow::follow(FollowParameters parameters) const { return start(arguments_of(parameters)); }
+Task<Completion> Follow::follow(FollowParameters const& parameters) const { return start(arguments_of(parameters)); }
 
-Task<Command> Follow::begin_following(FollowParameters parameters) const { return begin("start", arguments_of(parameters)); }
+Task<Command> Follow::begin_following(FollowParameters const& parameters) const { return begin("start", arguments_of(parameters)); }
 
-Task<Completion> Follow::set(FollowParameters parameters) const { return set_parameter(arguments_of(parameters)); }
+Task<Completion> Follow::set(FollowParameters const& parameters) const { return set_parameter(arguments_of(parameters)); }
 
 Task<FollowParameters> Follow::parameters() const {
     return read_parameters<FollowParameters>(*this, [](Reading const& read) {
@@ -284,7 +284,7 @@ Task<Completion> Move::move(Curve curve, std::optional<Milliseconds> time) const
     return start(arguments_of(parameters));
 }
 
-Task<Completion> Move::set(MoveParameters parameters) const { return set_parameter(arguments_of(parameters)); }
+Task<Completion> Move::set(MoveParameters const& parameters) const { return set_parameter(arguments_of(parameters)); }
 
 Task<MoveParameters> Move::parameters() const {
     return read_parameters<MoveParameters>(*this, [](Reading const& read) {
@@ -348,7 +348,7 @@ Task<Completion> Streaming::resume_stream(std::string stream_id) const {
 
 Task<StreamStatus> Streaming::get_stream_status() const { return stream_status_of(*this); }
 
-Task<Completion> Streaming::set(StreamParameters parameters) const {
+Task<Completion> Streaming::set(StreamParameters const& parameters) const {
     return set_parameter(Arguments{}
                              .text("encoding_parameters", parameters.encoding_parameters)
                              .text("transport_parameters", parameters.transport_parameters)

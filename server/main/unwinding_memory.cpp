@@ -27,7 +27,7 @@ public:
     }
 
     bool owns(void const* memory) const {
-        std::less_equal<void const*> const ordered;
+        std::less_equal<> const ordered;
         return ordered(blocks_.data(), memory) && !ordered(blocks_.data() + blocks_.size(), memory);
     }
 

@@ -114,7 +114,7 @@ struct SoundLocalized {
 class Localization : public Component {
 public:
     explicit Localization(Component component) : Component{std::move(component)} {}
-    Task<Completion> set(LocalizationParameters) const;
+    Task<Completion> set(LocalizationParameters const&) const;
     Task<LocalizationParameters> parameters() const;
 };
 
@@ -183,7 +183,7 @@ public:
     auto speech_recognized(QueryExpression condition = {}) const { return events<SpeechRecognized>(std::move(condition)); }
     auto speech_input_started(QueryExpression condition = {}) const { return events<SpeechInputStarted>(std::move(condition)); }
     auto speech_input_finished(QueryExpression condition = {}) const { return events<SpeechInputFinished>(std::move(condition)); }
-    Task<Completion> set(SpeechRecognitionParameters) const;
+    Task<Completion> set(SpeechRecognitionParameters const&) const;
     Task<SpeechRecognitionParameters> parameters() const;
 };
 
@@ -212,8 +212,8 @@ public:
     explicit SpeechSynthesis(Component component) : Component{std::move(component)} {}
     // Returns when the text has been spoken.
     Task<Completion> say(std::string speech_text) const;
-    Task<Completion> say(Speech) const;
-    Task<Completion> set(Speech) const;
+    Task<Completion> say(Speech const&) const;
+    Task<Completion> set(Speech const&) const;
     Task<Speech> parameters() const;
 };
 
@@ -243,9 +243,9 @@ public:
     explicit Navigation(Component component) : Component{std::move(component)} {}
     // Returns when the robot has reached the target; TIMEOUT if the time limit passed first.
     Task<Completion> go_to(Target, std::optional<Milliseconds> time_limit = {}) const;
-    Task<Completion> go(NavigationParameters) const;
+    Task<Completion> go(NavigationParameters const&) const;
     auto reached_target(QueryExpression condition = {}) const { return events<ReachedTarget>(std::move(condition)); }
-    Task<Completion> set(NavigationParameters) const;
+    Task<Completion> set(NavigationParameters const&) const;
     Task<NavigationParameters> parameters() const;
 };
 
@@ -257,9 +257,9 @@ public:
     explicit Follow(Component component) : Component{std::move(component)} {}
     // `follow` returns when the robot is stopped (OK) or the time limit has passed (TIMEOUT); `begin_following` returns when the
     // command is accepted.
-    Task<Completion> follow(FollowParameters) const;
-    Task<Command> begin_following(FollowParameters) const;
-    Task<Completion> set(FollowParameters) const;
+    Task<Completion> follow(FollowParameters const&) const;
+    Task<Command> begin_following(FollowParameters const&) const;
+    Task<Completion> set(FollowParameters const&) const;
     Task<FollowParameters> parameters() const;
 };
 
@@ -272,7 +272,7 @@ public:
     // Returns when the motion has ended.
     Task<Completion> move(Line, std::optional<Milliseconds> time = {}) const;
     Task<Completion> move(Curve, std::optional<Milliseconds> time = {}) const;
-    Task<Completion> set(MoveParameters) const;
+    Task<Completion> set(MoveParameters const&) const;
     Task<MoveParameters> parameters() const;
 };
 
@@ -302,7 +302,7 @@ public:
     Task<Completion> resume_stream(std::string stream_id) const;
     Task<StreamStatus> get_stream_status() const;  // of the latest stream
     auto notify_stream_status(QueryExpression condition = {}) const { return events<StreamStatusNotified>(std::move(condition)); }
-    Task<Completion> set(StreamParameters) const;
+    Task<Completion> set(StreamParameters const&) const;
     Task<StreamParameters> parameters() const;
 };
 

@@ -89,6 +89,7 @@ bool Subscriptions::needs_no_unsubscribe(Subscription const& one) const {
 
 std::vector<Subscription*> Subscriptions::all() {
     std::vector<Subscription*> list;
+    list.reserve(known_.size());
     for (auto const& [key, subscription] : known_) list.push_back(subscription.get());
     return list;
 }

@@ -23,7 +23,7 @@ inline constexpr bool is_tls = std::is_same_v<Stream, TlsSocket>;
 
 // Makes a TCP or TLS stream, or a `Layered` stream on top of it. `context` is null without TLS.
 template <class Stream, class Layered>
-Layered make_stream(Executor executor, asio::ssl::context* context) {
+Layered make_stream(Executor const& executor, asio::ssl::context* context) {
     if constexpr (is_tls<Stream>) {
         return Layered{executor, *context};
     } else {

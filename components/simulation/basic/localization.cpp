@@ -63,6 +63,7 @@ Context with_threshold(Context context, std::int32_t lowest) {
 template <class Measured>
 std::vector<Sighting> sightings_of(Measured measured) {
     std::vector<Sighting> sightings;
+    sightings.reserve(measured.size());
     for (auto& each : measured) sightings.push_back({std::move(each.ref), each.pose, each.height, each.covariance});
     return sightings;
 }
