@@ -258,7 +258,9 @@ Task<NavigationParameters> Navigation::parameters() const {
 
 Task<Completion> Follow::follow(FollowParameters const& parameters) const { return start(arguments_of(parameters)); }
 
-Task<Command> Follow::begin_following(FollowParameters const& parameters) const { return begin("start", arguments_of(parameters)); }
+Task<Command> Follow::begin_following(FollowParameters const& parameters) const {
+    return begin("start", arguments_of(parameters));
+}
 
 Task<Completion> Follow::set(FollowParameters const& parameters) const { return set_parameter(arguments_of(parameters)); }
 
