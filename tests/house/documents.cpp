@@ -70,7 +70,7 @@ void judge_manifest(Tree const& tree, std::string const& file, std::string const
 // A lock file must not name the host of its packages: that is npm's default, or a setting of the installation.
 void judge_lock(std::string const& file, std::string const& text, Complaints& complaints) {
     for_each_line(text, [&](std::string const& line, std::size_t number) {
-        if (line.find("\"resolved\": \"http") != line.npos)
+        if (line.find(R"("resolved": "http)") != line.npos)
             complaints.push_back(at(file, number) + "a lock file must not name a host");
     });
 }
