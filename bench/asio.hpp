@@ -31,8 +31,6 @@ void accept_for_ever(Acceptor& acceptor, Shared&... shared) {
             error_code ignored;
             socket.set_option(Tcp::no_delay{true}, ignored);
             socket.non_blocking(true, ignored);
-            // The cheapest algorithm on loopback. The gateway uses the system's default.
-            ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_CONGESTION, "reno", 4);
             std::make_shared<Session>(std::move(socket), shared...)->run();
         }
         accept_for_ever<Session>(acceptor, shared...);

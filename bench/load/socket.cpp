@@ -80,8 +80,6 @@ Socket::Socket(std::uint16_t port, Via via, std::string_view path) : via_{via} {
     if (::connect(descriptor_, reinterpret_cast<sockaddr const*>(&address), sizeof address) != 0) fail("connect failed");
     int const on = 1;
     ::setsockopt(descriptor_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    ::setsockopt(descriptor_, IPPROTO_TCP, TCP_CONGESTION, "reno",
-                 4);  // on loopback, the acknowledgements cost the server CPU time
     if (via == Via::http) return;
     auto hello = head_of("GET", path, {});
     hello.append(

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "net/answers.hpp"
+
 namespace rois::net {
 namespace {
 
@@ -11,14 +13,8 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-std::string written(HttpAnswer answer, Framing framing = {}) {
-    std::string out;
-    append(out, std::move(answer), framing);
-    return out;
-}
-
 TEST(HttpAnswer, IsAnXmlDocumentThatIsNotCached) {
-    auto const text = written(HttpAnswer{"<a/>"});
+    auto const text = written(HttpAnswer{.body = "<a/>"});
     EXPECT_THAT(text, StartsWith("HTTP/1.1 200 OK\r\nDate: "));
     EXPECT_THAT(text, HasSubstr(" GMT\r\nContent-Type: application/xml; charset=utf-8\r\nCache-Control: no-store\r\n"));
     EXPECT_THAT(text, EndsWith("\r\nContent-Length: 4\r\n\r\n<a/>"));
@@ -26,8 +22,8 @@ TEST(HttpAnswer, IsAnXmlDocumentThatIsNotCached) {
 
 TEST(HttpAnswer, IsAppended) {
     std::string out = "before";
-    append(out, HttpAnswer{"1"}, {});
-    append(out, HttpAnswer{"2"}, {});
+    append(out, HttpAnswer{.body = "1"}, {});
+    append(out, HttpAnswer{.body = "2"}, {});
     EXPECT_THAT(out, StartsWith("beforeHTTP/1.1 200 OK\r\n"));
     EXPECT_THAT(out, HasSubstr("\r\n\r\n1HTTP/1.1 200 OK\r\n"));
     EXPECT_THAT(out, EndsWith("\r\n\r\n2"));
@@ -36,24 +32,24 @@ TEST(HttpAnswer, IsAppended) {
 TEST(HttpAnswer, HasALengthAlsoIfItIsEmpty) { EXPECT_THAT(written(HttpAnswer{}), EndsWith("Content-Length: 0\r\n\r\n")); }
 
 TEST(HttpAnswer, ToHeadHasTheLengthOfTheBodyWithoutTheBody) {
-    EXPECT_THAT(written(HttpAnswer{"<a/>"}, {Framing::Body::omitted}), EndsWith("Content-Length: 4\r\n\r\n"));
+    EXPECT_THAT(written(HttpAnswer{.body = "<a/>"}, {Framing::Body::omitted}), EndsWith("Content-Length: 4\r\n\r\n"));
 }
 
 TEST(HttpAnswer, MayEndTheConnection) {
-    EXPECT_THAT(written(HttpAnswer{"<a/>"}), Not(HasSubstr("Connection:")));
-    EXPECT_THAT(written(HttpAnswer{"<a/>"}, {Framing::Body::sent, true}), HasSubstr("\r\nConnection: close\r\n"));
+    EXPECT_THAT(written(HttpAnswer{.body = "<a/>"}), Not(HasSubstr("Connection:")));
+    EXPECT_THAT(written(HttpAnswer{.body = "<a/>"}, {Framing::Body::sent, true}), HasSubstr("\r\nConnection: close\r\n"));
 }
 
 TEST(HttpAnswer, WithAnEndlessBodyHasNoLength) {
-    auto const text = written(HttpAnswer{"", "text/event-stream"}, {Framing::Body::endless, true});
+    auto const text = written(HttpAnswer{.content_type = "text/event-stream"}, {Framing::Body::endless, true});
     EXPECT_THAT(text, HasSubstr("Content-Type: text/event-stream\r\n"));
     EXPECT_THAT(text, Not(HasSubstr("Content-Length")));
     EXPECT_THAT(text, EndsWith("\r\nConnection: close\r\n\r\n"));
 }
 
 TEST(HttpAnswer, ThatIsNotModifiedHasNeitherBodyNorLength) {
-    HttpAnswer answer{"<a/>"};
-    answer.set(http::field::etag, "\"1\"");
+    HttpAnswer answer{.body = "<a/>"};
+    answer.fields.set(http::field::etag, "\"1\"");
     auto const text = written(not_modified(std::move(answer)));
     EXPECT_THAT(text, StartsWith("HTTP/1.1 304 Not Modified\r\n"));
     EXPECT_THAT(text, HasSubstr("\r\nETag: \"1\"\r\n"));

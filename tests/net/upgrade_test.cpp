@@ -5,32 +5,33 @@
 
 #include <map>
 
+#include "net/answers.hpp"
+#include "net/http/http_head.hpp"
+
 namespace rois::net {
 namespace {
 
 // The request of RFC 6455, 1.3, with our subprotocol. An empty value removes the field.
-HttpAnswer answer_to(std::map<std::string, std::string> const& changed = {}, http::verb method = http::verb::get,
-                     unsigned version = 11) {
+HttpAnswer answer_to(std::map<std::string, std::string> const& changed = {},
+                     std::string const& request_line = "GET /rois HTTP/1.1") {
     std::map<std::string, std::string> fields{{"Host", "server.example"},      {"Upgrade", "websocket"},
                                               {"Connection", "Upgrade"},       {"Sec-WebSocket-Key", "dGhlIHNhbXBsZSBub25jZQ=="},
                                               {"Sec-WebSocket-Version", "13"}, {"Sec-WebSocket-Protocol", "rois.xml.v1"}};
     for (auto const& [name, value] : changed) fields[name] = value;
-    RequestHead head;
-    head.message.method(method);
-    head.message.version(version);
-    head.message.target("/rois");
+    auto request = request_line + "\r\n";
     for (auto const& [name, value] : fields)
-        if (!value.empty()) head.message.insert(name, value);
+        if (!value.empty()) request += name + ": " + value + "\r\n";
+    RequestHead head;
+    EXPECT_FALSE(read_head(request + "\r\n", Settings{}, head));
     return upgrade(head);
 }
 
-unsigned status(std::map<std::string, std::string> const& changed) { return answer_to(changed).message.result_int(); }
-
-std::string field(HttpAnswer const& answer, std::string_view name) { return std::string{answer.message[name]}; }
+unsigned status(HttpAnswer const& answer) { return static_cast<unsigned>(answer.status); }
+unsigned status(std::map<std::string, std::string> const& changed) { return status(answer_to(changed)); }
 
 TEST(Upgrade, IsAnsweredAsTheStandardSays) {
     auto const answer = answer_to();
-    EXPECT_EQ(answer.message.result_int(), 101U);
+    EXPECT_EQ(status(answer), 101U);
     EXPECT_EQ(field(answer, "Upgrade"), "websocket");
     EXPECT_EQ(field(answer, "Connection"), "Upgrade");
     EXPECT_EQ(field(answer, "Sec-WebSocket-Accept"), "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=");
@@ -50,8 +51,8 @@ TEST(Upgrade, IgnoresTheCaseOfItsTokensAndOtherMembers) {
 }
 
 TEST(Upgrade, NeedsGetAndHttp11) {
-    EXPECT_EQ(answer_to({}, http::verb::head).message.result_int(), 426U);
-    EXPECT_EQ(answer_to({}, http::verb::get, 10).message.result_int(), 426U);
+    EXPECT_EQ(status(answer_to({}, "HEAD /rois HTTP/1.1")), 426U);
+    EXPECT_EQ(status(answer_to({}, "GET /rois HTTP/1.0")), 426U);
 }
 
 TEST(Upgrade, NeedsItsFields) {
@@ -66,7 +67,7 @@ TEST(Upgrade, NeedsItsFields) {
 TEST(Upgrade, NamesTheVersionThatItSupports) {
     for (auto const* version : {"8", "14", "13, 8", "013"}) {
         auto const answer = answer_to({{"Sec-WebSocket-Version", version}});
-        EXPECT_EQ(answer.message.result_int(), 426U) << version;
+        EXPECT_EQ(status(answer), 426U) << version;
         EXPECT_EQ(field(answer, "Sec-WebSocket-Version"), "13");
         EXPECT_EQ(field(answer, "Upgrade"), "websocket");
     }

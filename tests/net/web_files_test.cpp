@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "net/http/http_answer.hpp"
+#include "net/answers.hpp"
 #include "net/http/http_head.hpp"
 
 namespace rois::net {
@@ -19,14 +19,12 @@ WebFiles const small{{{"index.html", "<html/>"},
 using Fields = std::vector<std::pair<std::string, std::string>>;
 
 HttpAnswer get(std::string_view path, Fields const& fields = {}) {
+    std::string request = "GET / HTTP/1.1\r\nHost: robot.example:8080\r\n";
+    for (auto const& [name, value] : fields) request += name + ": " + value + "\r\n";
     RequestHead head;
-    for (auto const& [name, value] : fields) head.message.insert(name, value);
-    head.message.insert("Host", "robot.example:8080");
+    EXPECT_FALSE(read_head(request + "\r\n", Settings{}, head));
     return small.answer(path, head);
 }
-
-// Returns a header field of the answer.
-std::string field(HttpAnswer const& answer, std::string_view name) { return std::string{answer.message[name]}; }
 
 TEST(WebFile, HasItsType) {
     EXPECT_EQ(field(get("index.html"), "Content-Type"), "text/html; charset=utf-8");
@@ -43,26 +41,26 @@ TEST(WebFile, IsKeptForEverWhenItsNameChangesWithIt) {
 
 TEST(WebFile, IsSentInTheFormThatIsTaken) {
     auto const plain = get("assets/main-1a2b.js"), compressed = get("assets/main-1a2b.js", {{"Accept-Encoding", "br, gzip"}});
-    EXPECT_EQ(plain.message.body(), "let a = 1;");
+    EXPECT_EQ(plain.body, "let a = 1;");
     EXPECT_EQ(field(plain, "Content-Encoding"), "");
-    EXPECT_EQ(compressed.message.body(), "(compressed)");
+    EXPECT_EQ(compressed.body, "(compressed)");
     EXPECT_EQ(field(compressed, "Content-Encoding"), "gzip");
     for (auto const& answer : {plain, compressed}) EXPECT_EQ(field(answer, "Vary"), "Accept-Encoding");
     EXPECT_NE(field(plain, "ETag"), field(compressed, "ETag")) << "they are different bytes";
     auto const only_plain = get("assets/icon-3c4d.svg", {{"Accept-Encoding", "gzip"}});
-    EXPECT_EQ(only_plain.message.body(), "<svg/>") << "where there is no other form";
+    EXPECT_EQ(only_plain.body, "<svg/>") << "where there is no other form";
     EXPECT_EQ(field(only_plain, "Content-Encoding"), "");
 }
 
 TEST(WebFile, IsNotSentAgainToWhoeverHasThatForm) {
     auto const etag = field(get("index.html"), "ETag");
     auto const again = get("index.html", {{"If-None-Match", etag}});
-    EXPECT_EQ(again.message.result_int(), 304);
-    EXPECT_EQ(again.message.body(), "");
+    EXPECT_EQ(again.status, http::status::not_modified);
+    EXPECT_EQ(again.body, "");
     EXPECT_EQ(field(again, "ETag"), etag);
     EXPECT_EQ(field(again, "Cache-Control"), "no-cache");
     auto const script = field(get("assets/main-1a2b.js"), "ETag");
-    EXPECT_EQ(get("assets/main-1a2b.js", {{"If-None-Match", script}, {"Accept-Encoding", "gzip"}}).message.result_int(), 200);
+    EXPECT_EQ(get("assets/main-1a2b.js", {{"If-None-Match", script}, {"Accept-Encoding", "gzip"}}).status, http::status::ok);
 }
 
 TEST(WebFile, MayUseNothingFromElsewhere) {
@@ -78,7 +76,7 @@ TEST(WebFile, MayUseNothingFromElsewhere) {
 TEST(WebFile, IsNamedExactly) {
     for (auto const* path : {"assets/", "assets/main-1a2b.js.gz", "main-1a2b.js", "assets/../index.html", "", "INDEX.HTML"}) {
         auto const answer = get(path);
-        EXPECT_EQ(answer.message.result_int(), 404) << path;
+        EXPECT_EQ(answer.status, http::status::not_found) << path;
         EXPECT_EQ(answer.fault.value_or(Fault{}).code, FaultCode::not_found) << path;
     }
     EXPECT_TRUE(WebFiles{{}}.empty());

@@ -13,9 +13,10 @@ namespace rois::net {
 
 namespace {
 
-constexpr unsigned most_in_a_row = 4;              // pipelined requests before other connections have their turn
-constexpr std::size_t most_to_gather = 64 * 1024;  // bytes of answers to pipelined requests
-constexpr std::size_t most_to_keep = 16 * 1024;    // bytes of memory that an empty buffer of answers may keep
+constexpr unsigned most_in_a_row = 4;               // pipelined requests before other connections have their turn
+constexpr std::size_t most_to_gather = 64 * 1024;   // bytes of answers to pipelined requests
+constexpr std::size_t most_to_keep = 16 * 1024;     // bytes of memory that an empty buffer of answers may keep
+constexpr std::size_t most_to_keep_of_head = 1024;  // bytes, likewise of a head between requests
 constexpr auto longest_linger = std::chrono::seconds{2};
 constexpr auto longest_wait_without_memory = std::chrono::milliseconds{100};  // for a request while the system has no memory
 
@@ -74,6 +75,7 @@ void Connection::shut_down() {
 }
 
 Task<Connection::Then> Connection::serve() {
+    auto& shared = loop_.shared();
     auto then = Then::next;
     unsigned in_a_row = 0;
     while (then == Then::next) {
@@ -85,18 +87,25 @@ Task<Connection::Then> Connection::serve() {
         }
         request_due_ = idle_due_ = Steady::max();
         bool const whole = std::exchange(has_head_, false);
-        bool const is_request = head_.message.method() == http::verb::post && route_.endpoint == Endpoint::rois;
+        bool const is_request = head_.verb == http::verb::post && route_.endpoint == Endpoint::rois;
         if (whole && !is_request) then = co_await serve_other();
         if (whole && is_request) {
-            auto answer = co_await operate();
+            auto const body = wire_.text().substr(0, head_.content_length);
+            Answer answer;
+            if (LongDocuments::is_long(body.size())) {
+                co_await flush();  // answers to earlier requests do not wait for this one
+                answer = co_await shared.long_documents.answer(shared.gateway, session_, body, Via::http, opener_, loop_.wakes());
+            } else {
+                answer = shared.gateway.answer(loop_.reader(), session_, body, Via::http, opener_);
+            }
             wire_.use(head_.content_length);
             if (answer.turn == Answer::Turn::disconnected) {
                 co_await flush();
-                co_await others_heard(loop_.shared().gateway, session_, loop_.executor(), loop_.wakes());
+                co_await others_heard(shared.gateway, session_, loop_.executor(), loop_.wakes());
             }
             then = reply(std::move(answer));
         }
-        if (out_.size() > most_to_gather || holds_.size() >= loop_.shared().settings.max_requests_in_flight) co_await flush();
+        if (out_.size() > most_to_gather || holds_.size() >= shared.settings.max_requests_in_flight) co_await flush();
         ++in_a_row;
         if (in_a_row % most_in_a_row == 0) co_await asio::post(loop_.executor(), asio::use_awaitable_t<Executor>{});
     }
@@ -110,7 +119,7 @@ Connection::Then Connection::take_request() {
         if (then != Then::next) return then;
         auto const judged = judge_head();
         if (!has_head_) return judged;
-        if (wire_.received().size() < head_.content_length && !head_.is_http_1_0() && head_.lists("Expect", "100-continue"))
+        if (wire_.received().size() < head_.content_length && !head_.is_http_1_0 && head_.lists("Expect", "100-continue"))
             out_.append("HTTP/1.1 100 Continue\r\n\r\n");
     }
     if (wire_.received().size() >= head_.content_length) return Then::next;
@@ -156,7 +165,7 @@ Task<Connection::Then> Connection::receive() {
     idle_ = !has_head_ && wire_.received().empty();
     if (idle_ && loop_.draining()) co_return Then::end;
     if (idle_) request_due_ = Steady::max();
-    if (idle_) head_ = {};
+    if (idle_ && head_.text.capacity() > most_to_keep_of_head) head_ = {};
     if (!idle_ && request_due_ == Steady::max()) request_due_ = now() + settings.request_timeout;
     auto const expected = has_head_ ? head_.content_length - wire_.received().size() : 0;
     if (idle_ && idle_due_ == Steady::max()) idle_due_ = now() + settings.idle_timeout;
@@ -170,25 +179,16 @@ Task<Connection::Then> Connection::receive() {
     co_return Then::next;
 }
 
-// Performs the operation of the current request.
-Task<Answer> Connection::operate() {
-    auto& shared = loop_.shared();
-    auto const body = wire_.text().substr(0, head_.content_length);
-    if (!LongDocuments::is_long(body.size())) co_return shared.gateway.answer(loop_.reader(), session_, body, Via::http, opener_);
-    co_await flush();  // answers to earlier requests do not wait for this one
-    co_return co_await shared.long_documents.answer(shared.gateway, session_, body, Via::http, opener_, loop_.wakes());
-}
-
 Connection::Then Connection::reply(Answer&& answer) {
-    HttpAnswer http{std::move(answer.document)};
+    HttpAnswer http{.body = std::move(answer.document)};
     if (answer.fault) {
-        http.message.result(static_cast<unsigned>(http_status_of(answer.fault->code)));
-        if (answer.fault->code == FaultCode::too_many) http.set(http::field::retry_after, "1");
+        http.status = http::int_to_status(static_cast<unsigned>(http_status_of(answer.fault->code)));
+        if (answer.fault->code == FaultCode::too_many) http.fields.set(http::field::retry_after, "1");
         log(*answer.fault, request_line());
     }
-    if (answer.turn == Answer::Turn::connected) http.set("RoIS-Session", answer.session.text);
+    if (answer.turn == Answer::Turn::connected) http.fields.set("RoIS-Session", answer.session.text);
     if (answer.session_number != 0) {
-        http.set("RoIS-Session-Number", std::to_string(answer.session_number));
+        http.fields.set("RoIS-Session-Number", std::to_string(answer.session_number));
         log_joined(answer.session_number, "opened over HTTP", wire_.peer());
     }
     holds_.push_back(std::move(answer.hold));
@@ -204,12 +204,12 @@ Task<Connection::Then> Connection::serve_other() {
     if (route_.endpoint == Endpoint::stop) {
         auto const state = shared.gateway.stop_everything();
         spdlog::warn("everything is stopped, as asked by {}", wire_.peer());
-        co_return reply(HttpAnswer{xml::encode(state)});
+        co_return reply(HttpAnswer{.body = xml::encode(state)});
     }
     if (route_.endpoint == Endpoint::clear) {
         auto const state = shared.gateway.clear();
         spdlog::warn("commands may start again, as asked by {}", wire_.peer());
-        co_return reply(HttpAnswer{xml::encode(state)});
+        co_return reply(HttpAnswer{.body = xml::encode(state)});
     }
     if (route_.endpoint == Endpoint::notifications) co_return co_await serve_notifications();
     co_return reply(shared.documents.answer(route_, head_));
@@ -219,7 +219,7 @@ Connection::Then Connection::serve_upgrade() {
     auto const& shared = loop_.shared();
     if (shared.gateway.shutting_down()) return reply(answer_of(shutting_down()));
     auto const answer = upgrade(head_);
-    if (answer.message.result() != http::status::switching_protocols) return reply(answer);
+    if (answer.status != http::status::switching_protocols) return reply(answer);
     append(out_, answer, {});
     return Then::websocket;
 }
@@ -243,7 +243,7 @@ Task<Connection::Then> Connection::serve_notifications() {
     if (shared.gateway.shutting_down()) co_return reply(answer_of(shutting_down()));
     auto wanted = std::get<NotificationsWanted>(read);
     co_await flush();
-    if (wanted.as == NotificationsWanted::As::stream && head_.message.method() == http::verb::get) {
+    if (wanted.as == NotificationsWanted::As::stream && head_.verb == http::verb::get) {
         counted_.emplace(shared.telemetry, Telemetry::Kind::stream);
         auto const refused = co_await stream(wire_, loop_, session_, wanted);
         if (!refused) co_return Then::linger;
@@ -260,7 +260,7 @@ Connection::Then Connection::reply(HttpAnswer const& answer, Framed framed) {
         log(*answer.fault, request_line());
     }
     bool const close = framed == Framed::last || !head_.keep_alive() || loop_.draining();
-    auto const body = head_.message.method() == http::verb::head ? Framing::Body::omitted : Framing::Body::sent;
+    auto const body = head_.verb == http::verb::head ? Framing::Body::omitted : Framing::Body::sent;
     append(out_, answer, {body, close});
     return close ? Then::linger : Then::next;
 }
@@ -270,9 +270,9 @@ Connection::Then Connection::reply(HttpAnswer const& answer, Framed framed) {
 Connection::Then Connection::refuse(Fault const& fault) {
     loop_.shared().telemetry.faulted(fault.code);
     log(fault, has_head_ ? request_line() : wire_.text().substr(0, wire_.text().find_first_of("\r\n")));
-    bool const asks_for_head = has_head_ ? head_.message.method() == http::verb::head : wire_.text().starts_with("HEAD ");
+    bool const asks_for_head = has_head_ ? head_.verb == http::verb::head : wire_.text().starts_with("HEAD ");
     auto answer = answer_of(fault);
-    if (fault.code == FaultCode::too_many) answer.set(http::field::retry_after, "1");
+    if (fault.code == FaultCode::too_many) answer.fields.set(http::field::retry_after, "1");
     append(out_, answer, {asks_for_head ? Framing::Body::omitted : Framing::Body::sent, true});
     return Then::linger;
 }
@@ -282,7 +282,7 @@ void Connection::log(Fault const& fault, std::string_view request) {
 }
 
 // Returns the method and the path of the current request, without its query.
-std::string Connection::request_line() const { return std::string{head_.method()}.append(" ").append(head_.path); }
+std::string Connection::request_line() const { return std::string{head_.method}.append(" ").append(head_.path); }
 
 bool Connection::flush_at_once() {
     out_.erase(0, wire_.send_now(out_));

@@ -39,7 +39,6 @@ private:
 
     Task<Then> serve();
     Then take_request();
-    Task<Answer> operate();
     Then take_head();
     Then judge_head();
     Task<Then> receive();

@@ -17,9 +17,8 @@ constexpr std::chrono::milliseconds longest_tick{500};  // since the last tick o
 // A document that clients may cache if they ask each time whether it has changed.
 HttpAnswer versioned(std::string_view content_type, std::string body, RequestHead const& head) {
     auto const etag = '"' + digest(body) + '"';
-    HttpAnswer answer{std::move(body), content_type};
-    answer.set(http::field::cache_control, "no-cache");
-    answer.set(http::field::etag, etag);
+    HttpAnswer answer{.body = std::move(body), .content_type = content_type, .cache_control = "no-cache"};
+    answer.fields.set(http::field::etag, etag);
     return head.knows(etag) ? not_modified(std::move(answer)) : answer;
 }
 
@@ -28,9 +27,7 @@ HttpAnswer versioned_xml(std::string body, RequestHead const& head) {
 }
 
 HttpAnswer plain(http::status status, std::string body) {
-    HttpAnswer answer{std::move(body), "text/plain; charset=utf-8"};
-    answer.message.result(status);
-    return answer;
+    return {.status = status, .body = std::move(body), .content_type = "text/plain; charset=utf-8"};
 }
 
 HttpAnswer not_found(std::string reason) { return answer_of({FaultCode::not_found, std::move(reason), {}, {}}); }
@@ -82,9 +79,9 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const 
 HttpAnswer Documents::page(RequestHead const& head) const {
     auto html = plain_page(site_.page, head.host(), gateway_.components(), schemas_);
     auto answer = versioned("text/html; charset=utf-8", std::move(html), head);
-    answer.set("Content-Security-Policy", style_policy_);
-    answer.set("X-Content-Type-Options", "nosniff");
-    answer.set("Referrer-Policy", "no-referrer");
+    answer.fields.set("Content-Security-Policy", style_policy_);
+    answer.fields.set("X-Content-Type-Options", "nosniff");
+    answer.fields.set("Referrer-Policy", "no-referrer");
     return answer;
 }
 
@@ -120,7 +117,7 @@ HttpAnswer Documents::health() const {
 
 HttpAnswer Documents::readiness() const {
     if (gateway_.shutting_down()) return answer_of(shutting_down());
-    if (auto answer = health(); answer.message.result() != http::status::ok) return answer;
+    if (auto answer = health(); answer.status != http::status::ok) return answer;
     std::string trouble;
     if (gateway_.everything_is_stopped()) trouble = "stopped: nothing starts until POST /rois/clear\n";
     for (auto const& ref : gateway_.not_ready()) trouble += ref + " has not confirmed that it stands still\n";
@@ -128,7 +125,7 @@ HttpAnswer Documents::readiness() const {
 }
 
 HttpAnswer Documents::metrics() const {
-    return HttpAnswer{telemetry_.text(gateway_.statistics()), "text/plain; version=0.0.4; charset=utf-8"};
+    return {.body = telemetry_.text(gateway_.statistics()), .content_type = "text/plain; version=0.0.4; charset=utf-8"};
 }
 
 }  // namespace rois::net

@@ -81,7 +81,7 @@ Task<HttpAnswer> poll(Wire& wire, Loop& loop, SessionId const& session, Notifica
     document.append(xml::notifications_end());
     loop.shared().telemetry.delivered(taken.notifications.size());
     if (!watch.gone()) reading->answered();
-    co_return HttpAnswer{std::move(document)};
+    co_return HttpAnswer{.body = std::move(document)};
 }
 
 Task<std::optional<HttpAnswer>> stream(Wire& wire, Loop& loop, SessionId const& session, NotificationsWanted const& wanted) {
@@ -91,7 +91,7 @@ Task<std::optional<HttpAnswer>> stream(Wire& wire, Loop& loop, SessionId const& 
     if (auto const* fault = std::get_if<Fault>(&read)) co_return answer_of(*fault);
     auto const reading = std::get<std::unique_ptr<Reading>>(std::move(read));
     std::string out;
-    append(out, HttpAnswer{"", "text/event-stream"}, {Framing::Body::endless, true});
+    append(out, HttpAnswer{.content_type = "text/event-stream"}, {Framing::Body::endless, true});
     auto const watch =
         wire.watch([signal] { signal->raise(); }, [&reading](Steady now) { return reading->wants_signs_of_life(now); });
     while (!watch.gone()) {

@@ -1,8 +1,8 @@
 // Answers to HTTP requests, and how they are written.
 #pragma once
 
-#include <boost/beast/http/message.hpp>
-#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/http/fields.hpp>
+#include <boost/beast/http/status.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,14 +13,14 @@ namespace rois::net {
 
 namespace http = boost::beast::http;
 
-// An XML document that clients must not cache, unless the fields say something else.
+// An XML document that clients must not cache, unless the members say something else.
 struct HttpAnswer {
-    http::response<http::string_body> message;
-    std::optional<Fault> fault;  // set: the body is this fault
-
-    explicit HttpAnswer(std::string body = {}, std::string_view content_type = "application/xml; charset=utf-8");
-    void set(http::field name, std::string_view value) { message.set(name, value); }
-    void set(std::string_view name, std::string_view value) { message.set(name, value); }
+    http::status status = http::status::ok;
+    std::string body{};
+    std::string_view content_type = "application/xml; charset=utf-8";  // empty: the answer has no such field
+    std::string_view cache_control = "no-store";                       // likewise
+    http::fields fields{};                                             // all others but Date, Connection and Content-Length
+    std::optional<Fault> fault{};                                      // set: the body is this fault
 };
 
 HttpAnswer answer_of(Fault const&);

@@ -54,7 +54,7 @@ HttpAnswer misdirected(std::string_view authority) {
                                  ": expected localhost, an IP address or the name of its machine; the key hosts adds other names",
                              {},
                              {}});
-    answer.message.result(http::status::misdirected_request);
+    answer.status = http::status::misdirected_request;
     return answer;
 }
 
@@ -81,7 +81,7 @@ std::optional<HttpAnswer> refusal_of_other_sites(RequestHead const& head, Settin
 HttpAnswer method_not_allowed(Route const& route) {
     auto const allowed = methods_of(route.endpoint);
     auto answer = answer_of({FaultCode::method_not_allowed, "the methods taken here are " + std::string{allowed}, {}, {}});
-    answer.set(http::field::allow, allowed);
+    answer.fields.set(http::field::allow, allowed);
     return answer;
 }
 
@@ -100,14 +100,14 @@ Route route_of(std::string_view path) {
 
 std::optional<HttpAnswer> refusal(RequestHead const& head, Route const& route, Settings const& settings) {
     if (auto refused = refusal_of_other_sites(head, settings)) return refused;
-    if (route.endpoint == Endpoint::unknown && is_known_method(head.method()))
+    if (route.endpoint == Endpoint::unknown && is_known_method(head.method))
         return answer_of({FaultCode::not_found, "there is nothing at " + quoted(head.path), {}, {}});
-    if (!takes(route, head.method())) return method_not_allowed(route);
+    if (!takes(route, head.method)) return method_not_allowed(route);
     if (head.content_length > settings.document.bytes) {
         return answer_of(
             {FaultCode::too_large, "the body may have " + std::to_string(settings.document.bytes) + " bytes", {}, {}});
     }
-    if (head.message.method() != http::verb::post || route.endpoint != Endpoint::rois) return {};
+    if (head.verb != http::verb::post || route.endpoint != Endpoint::rois) return {};
     if (!xml::is_xml_media_type(head.field("Content-Type").value_or(""))) {
         return answer_of({FaultCode::unsupported_media_type,
                           "send one request document with the header Content-Type: application/xml (charset utf-8)",

@@ -53,15 +53,15 @@ HttpAnswer WebFiles::answer(std::string_view path, RequestHead const& head) cons
     auto const& file = found->second;
     bool const compressed = !file.compressed.empty() && head.takes_gzip();
     auto const etag = '"' + file.digest + (compressed ? "-gzip\"" : "\"");
-    HttpAnswer answer{std::string{compressed ? file.compressed : file.plain}, type_of(path)};
-    answer.set(http::field::cache_control, path.starts_with(assets) ? "public, max-age=31536000, immutable" : "no-cache");
-    answer.set(http::field::etag, etag);
-    answer.set(http::field::vary, "Accept-Encoding");
-    answer.set("Content-Security-Policy", policy(head));
-    answer.set("X-Content-Type-Options", "nosniff");
-    answer.set("Referrer-Policy", "no-referrer");
+    HttpAnswer answer{.body = std::string{compressed ? file.compressed : file.plain}, .content_type = type_of(path)};
+    answer.cache_control = path.starts_with(assets) ? "public, max-age=31536000, immutable" : "no-cache";
+    answer.fields.set(http::field::etag, etag);
+    answer.fields.set(http::field::vary, "Accept-Encoding");
+    answer.fields.set("Content-Security-Policy", policy(head));
+    answer.fields.set("X-Content-Type-Options", "nosniff");
+    answer.fields.set("Referrer-Policy", "no-referrer");
     if (head.knows(etag)) return not_modified(std::move(answer));
-    if (compressed) answer.set(http::field::content_encoding, "gzip");
+    if (compressed) answer.fields.set(http::field::content_encoding, "gzip");
     return answer;
 }
 

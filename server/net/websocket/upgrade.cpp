@@ -13,15 +13,15 @@ constexpr std::string_view suffix = "258EAFA5-E914-47DA-95CA-C5AB0DC85B11";  // 
 
 HttpAnswer wants_upgrade(std::string reason) {
     auto answer = answer_of({FaultCode::upgrade_required, std::move(reason), {}, {}});
-    answer.set(http::field::upgrade, "websocket");
-    answer.set(http::field::connection, "Upgrade");
-    answer.set(http::field::sec_websocket_version, "13");
+    answer.fields.set(http::field::upgrade, "websocket");
+    answer.fields.set(http::field::connection, "Upgrade");
+    answer.fields.set(http::field::sec_websocket_version, "13");
     return answer;
 }
 
 HttpAnswer broken(std::string reason) {
     auto answer = answer_of({FaultCode::not_well_formed, "broken WebSocket handshake: " + std::move(reason), {}, {}});
-    answer.set(http::field::sec_websocket_version, "13");
+    answer.fields.set(http::field::sec_websocket_version, "13");
     return answer;
 }
 
@@ -36,7 +36,7 @@ bool is_websocket_key(std::string_view text) {
 }  // namespace
 
 HttpAnswer upgrade(RequestHead const& head) {
-    if (head.message.method() != http::verb::get || head.is_http_1_0() || !head.lists("Upgrade", "websocket") ||
+    if (head.verb != http::verb::get || head.is_http_1_0 || !head.lists("Upgrade", "websocket") ||
         !head.lists("Connection", "upgrade")) {
         return wants_upgrade("POST a request document here, or open a WebSocket");
     }
@@ -46,14 +46,11 @@ HttpAnswer upgrade(RequestHead const& head) {
     if (!key || !is_websocket_key(*key)) return broken("Sec-WebSocket-Key is not one text of 16 bytes in base64");
     if (!head.lists("Sec-WebSocket-Protocol", subprotocol, RequestHead::Case::kept))
         return broken("ask for the subprotocol rois.xml.v1");
-    HttpAnswer answer;
-    answer.message.result(http::status::switching_protocols);
-    answer.message.erase(http::field::content_type);
-    answer.message.erase(http::field::cache_control);
-    answer.set(http::field::upgrade, "websocket");
-    answer.set(http::field::connection, "Upgrade");
-    answer.set(http::field::sec_websocket_accept, sha1_base64(std::string{*key}.append(suffix)));
-    answer.set(http::field::sec_websocket_protocol, subprotocol);
+    HttpAnswer answer{.status = http::status::switching_protocols, .content_type = {}, .cache_control = {}};
+    answer.fields.set(http::field::upgrade, "websocket");
+    answer.fields.set(http::field::connection, "Upgrade");
+    answer.fields.set(http::field::sec_websocket_accept, sha1_base64(std::string{*key}.append(suffix)));
+    answer.fields.set(http::field::sec_websocket_protocol, subprotocol);
     return answer;
 }
 
