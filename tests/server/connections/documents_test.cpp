@@ -122,10 +122,10 @@ TEST(FloorMap, OfAnEngineWithoutOneIsNotFound) {
     Gateway gateway{engine, readers, telemetry};
     net::Documents const documents{gateway, telemetry, schemas, {}};
     auto const answer = documents.answer(net::route_of("/rois/map"), {});
-    EXPECT_EQ(answer.message.result_int(), 404U);
+    EXPECT_EQ(answer.status, net::http::status::not_found);
     ASSERT_TRUE(answer.fault);
     EXPECT_EQ(answer.fault->code, FaultCode::not_found);
-    EXPECT_THAT(answer.message.body(), HasSubstr("this engine has no floor map"));
+    EXPECT_THAT(answer.body, HasSubstr("this engine has no floor map"));
 }
 
 TEST(Page, LinksToAllOfItAndShowsTheRealAddress) {
