@@ -1,10 +1,10 @@
-#include "main/health_check.hpp"
+#include "net/health_check.hpp"
 
 #include <boost/asio/ip/tcp.hpp>
 #include <chrono>
 #include <string>
 
-namespace rois {
+namespace rois::net {
 
 namespace {
 
@@ -31,4 +31,4 @@ std::string check_health(std::string const& host, std::uint16_t port) {
     return status.starts_with("HTTP/1.1 200 ") ? "" : "unexpected answer";
 }
 
-}  // namespace rois
+}  // namespace rois::net
