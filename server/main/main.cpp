@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "basic/base/component_names.hpp"
 #include "engine/engine.hpp"
 #include "files/files.hpp"
 #include "gateway/gateway.hpp"
@@ -26,9 +27,8 @@
 #include "net/health_check.hpp"
 #include "net/http/documents.hpp"
 #include "net/server.hpp"
-#include "simulation/adapters/robot_components.hpp"
+#include "simulation/adapters/robots.hpp"
 #include "simulation/adapters/simulated_hall.hpp"
-#include "simulation/basic/component_refs.hpp"
 #include "simulation/plan/floor_map.hpp"
 #include "simulation/plan/floor_plan_file.hpp"
 #include "simulation/scenario/scenario_file.hpp"
@@ -55,8 +55,8 @@ std::string chosen(std::string const& file, std::string_view built_in) {
     return file.empty() ? std::string{files::simulation().at(std::string{built_in})} : text_of_file(file);
 }
 
-simulation::Streams streams(Settings const& settings) {
-    return settings.media.host.empty() ? simulation::Streams::none : simulation::Streams::served;
+basic::Streams streams(Settings const& settings) {
+    return settings.media.host.empty() ? basic::Streams::none : basic::Streams::served;
 }
 
 // Returns the names of the components that are made from the folder of profiles.
@@ -65,7 +65,7 @@ std::vector<std::string> user_names(std::shared_ptr<xml::Schemas const> const& s
     std::vector<std::string> names;
     if (settings.profiles.empty()) return names;
     for (auto const& file : read_profile_folder(schemas, settings.profiles, own, streams(settings)))
-        if (file.profile) names.push_back(simulation::component_name(*file.profile));
+        if (file.profile) names.push_back(basic::component_name(*file.profile));
     return names;
 }
 
@@ -147,7 +147,7 @@ ComponentProfile profile_of_hall(std::shared_ptr<xml::Schemas const> const& sche
 
 // The refs of all components that do not come from the user's profiles.
 std::vector<std::string> own_refs(Settings const& settings, simulation::FloorPlan const& plan) {
-    auto refs = simulation::component_refs(plan);
+    auto refs = basic::component_refs(simulation::robot_names(plan));
     if (has_steering(settings)) refs.emplace_back(simulation::simulated_hall_ref);
     return refs;
 }
@@ -210,7 +210,8 @@ int serve(CommandLine const& command) {
     Engine engine{engine_profile(settings, simulation->hall().plan()), profiles, settings.engine, readers, fresh_secret};
     engine.add(simulation);
     engine.describe(simulation::named_places(simulation->hall().plan()));
-    for (auto& component : simulation::robot_components(simulation, media, profiles)) engine.add(std::move(component));
+    auto const robots = simulation::robots(simulation, media);
+    for (auto& component : basic::robot_components(robots, profiles)) engine.add(std::move(component));
     if (has_steering(settings)) engine.add(simulation::simulated_hall(simulation, profile_of_hall(schemas)));
     SpeechLog const speech_log{simulation};
     Telemetry telemetry;
@@ -219,7 +220,7 @@ int serve(CommandLine const& command) {
     MemoryReserve const reserve{memory};
     Gateway gateway{engine, readers, telemetry, client_limits(net_settings), memory};
     UserComponents user_components{
-        schemas, {simulation, media, schemas}, profiles, own_refs(settings, simulation->hall().plan()), settings.profiles};
+        schemas, {robots, schemas}, profiles, own_refs(settings, simulation->hall().plan()), settings.profiles};
     if (!settings.profiles.empty()) gateway.change([&] { return user_components.read(); });
     user_components.keep();
     net::Documents const documents{gateway,

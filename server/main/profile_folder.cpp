@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "basic/adapters/adapters.hpp"
+#include "basic/base/component_names.hpp"
 #include "main/configuration_file.hpp"
 #include "main/settings.hpp"
-#include "simulation/adapters/adapters.hpp"
-#include "simulation/basic/component_refs.hpp"
 #include "types/texts.hpp"
 #include "xml/profiles/profile_document.hpp"
 
@@ -136,11 +136,11 @@ Refused refuse(std::vector<Read>& all, std::vector<ComponentProfile> const& know
     return refused;
 }
 
-Objection asks_for_no_adapter(simulation::Streams streams) {
+Objection asks_for_no_adapter(basic::Streams streams) {
     return [=](Read const& read, std::vector<ComponentProfile> const& known) -> std::optional<std::string> {
         if (read.is_idle) return {};
         try {
-            simulation::adapter_of(*read.file.profile, known, streams);
+            basic::adapter_of(*read.file.profile, known, streams);
             return {};
         } catch (std::runtime_error const& error) {
             return read.adapter_place + ": " + error.what();
@@ -148,14 +148,14 @@ Objection asks_for_no_adapter(simulation::Streams streams) {
     };
 }
 
-Objection is_named_as_another(simulation::Streams streams) {
+Objection is_named_as_another(basic::Streams streams) {
     auto const files = std::make_shared<std::map<std::string, std::string>>();  // file names, by the names of their components
     return [=](Read const& read, std::vector<ComponentProfile> const& known) -> std::optional<std::string> {
         auto const& profile = *read.file.profile;
-        if (read.is_idle || simulation::adapter_of(profile, known, streams).empty()) return {};
-        auto const name = simulation::component_name(profile);
+        if (read.is_idle || basic::adapter_of(profile, known, streams).empty()) return {};
+        auto const name = basic::component_name(profile);
         auto const [first, is_first] = files->try_emplace(name, read.file.name);
-        bool const is_basic = simulation::is_basic(name);
+        bool const is_basic = basic::is_basic(name);
         if (is_first && !is_basic) return {};
         return (name == profile.object.name ? read.name_place : read.identifier_place) + ": there is a component " +
                quoted(name, 200) + " already: it is " + (is_basic ? "the gateway's own" : "that of " + first->second);
@@ -163,7 +163,7 @@ Objection is_named_as_another(simulation::Streams streams) {
 }
 
 // Repeats the checks until no file includes a refused one.
-void refuse_what_makes_nothing(std::vector<Read>& all, std::vector<ComponentProfile> const& known, simulation::Streams streams) {
+void refuse_what_makes_nothing(std::vector<Read>& all, std::vector<ComponentProfile> const& known, basic::Streams streams) {
     auto const some = [&](Objection const& objection) { return refuse(all, known, objection) == Refused::some; };
     do {
         while (some(includes_unknown)) {
@@ -189,7 +189,7 @@ void warn_of_ambiguous(std::vector<Read>& all, std::vector<ComponentProfile> con
 }  // namespace
 
 std::vector<ProfileFile> read_profile_folder(std::shared_ptr<xml::Schemas const> const& schemas, std::string const& folder,
-                                             std::vector<ComponentProfile> const& known, simulation::Streams streams) {
+                                             std::vector<ComponentProfile> const& known, basic::Streams streams) {
     std::vector<Read> all;
     for (auto const& path : documents_in(folder)) all.push_back(read(schemas, path));
     refuse_doubles(all, known);

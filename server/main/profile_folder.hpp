@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/basic/basic_components.hpp"
+#include "basic/components/basic_components.hpp"
 #include "types/profiles.hpp"
 #include "xml/validation/schemas.hpp"
 
@@ -26,7 +26,7 @@ struct ProfileFile {
 // file if its profile is invalid, needs an adapter that does not exist, or would make a component with a name that is taken.
 // Refusing a file affects only the files that include its profile. Throws BadSettings if the folder cannot be read.
 std::vector<ProfileFile> read_profile_folder(std::shared_ptr<xml::Schemas const> const&, std::string const& folder,
-                                             std::vector<ComponentProfile> const& known, simulation::Streams);
+                                             std::vector<ComponentProfile> const& known, basic::Streams);
 
 // The output of --check-profiles: a line for each finding and each valid file, and the totals.
 std::string report_of(std::vector<ProfileFile> const&);

@@ -5,7 +5,7 @@
 #include <utility>
 #include <variant>
 
-#include "simulation/robot/voice_characters.hpp"
+#include "basic/speech/voice_characters.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
@@ -19,7 +19,7 @@ using simulation::Happening;
 void log(Happening const& happening, std::string const& robot) {
     if (happening.kind == Happening::Kind::speech_started) {
         std::string voice;
-        if (happening.character != simulation::default_character) voice += ", voice " + happening.character;
+        if (happening.character != basic::default_character) voice += ", voice " + happening.character;
         if (!happening.prosody.empty()) voice += ", " + happening.prosody;
         spdlog::info("{} says in {}, {:.2f} s{}: {}", robot, happening.language, happening.lasts, voice,
                      quoted(happening.text, shown));

@@ -22,7 +22,7 @@ void log(ProfileFile const& file, bool stays) {
 
 }  // namespace
 
-UserComponents::UserComponents(std::shared_ptr<xml::Schemas const> schemas, simulation::Adapters adapters,
+UserComponents::UserComponents(std::shared_ptr<xml::Schemas const> schemas, basic::Adapters adapters,
                                std::vector<ComponentProfile> own, std::vector<std::string> const& refs, std::string folder)
     : schemas_{std::move(schemas)},
       adapters_{std::move(adapters)},

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "basic/adapters/adapters.hpp"
 #include "engine/engine.hpp"
 #include "main/profile_folder.hpp"
-#include "simulation/adapters/adapters.hpp"
 #include "xml/validation/schemas.hpp"
 
 namespace rois {
@@ -17,7 +17,7 @@ namespace rois {
 class UserComponents {
 public:
     // `own`: the built-in profiles. `refs`: the refs of the components that do not come from the user's profiles.
-    UserComponents(std::shared_ptr<xml::Schemas const>, simulation::Adapters, std::vector<ComponentProfile> own,
+    UserComponents(std::shared_ptr<xml::Schemas const>, basic::Adapters, std::vector<ComponentProfile> own,
                    std::vector<std::string> const& refs, std::string folder);
 
     // Reads the folder, and returns the changes since the last call. Logs the findings. If a file is refused now, keeps the
@@ -41,7 +41,7 @@ private:
                                                        std::set<std::string>& taken) const;
 
     std::shared_ptr<xml::Schemas const> schemas_;
-    simulation::Adapters adapters_;
+    basic::Adapters adapters_;
     std::vector<ComponentProfile> own_;
     std::set<std::string> refs_;
     std::string folder_;

@@ -8,6 +8,7 @@
 #include "kit/profile_folder.hpp"
 #include "main/settings.hpp"
 #include "main/user_components.hpp"
+#include "simulation/adapters/robots.hpp"
 #include "simulation/plan/floor_plan_file.hpp"
 #include "simulation/scenario/scenario_file.hpp"
 #include "xml/profiles/profile_document.hpp"
@@ -42,7 +43,7 @@ std::vector<ComponentProfile> const& built_in() {
     return all;
 }
 
-std::string report_on(std::string const& folder, simulation::Streams streams = simulation::Streams::none) {
+std::string report_on(std::string const& folder, basic::Streams streams = basic::Streams::none) {
     return report_of(read_profile_folder(schemas(), folder, built_in(), streams));
 }
 
@@ -118,7 +119,7 @@ TEST(ProfileFolder, DistinguishesGatewaysWithAndWithoutStreams) {
     folder.put("phone.xml",
                profile_document("urn:test::Phone", includes_common,
                                 "\n<gml:metaDataProperty xlink:href=\"urn:x-rois:def:adapter:simulation::audio_streaming\"/>"));
-    EXPECT_THAT(report_on(folder.name(), simulation::Streams::served), HasSubstr("phone.xml: ok\n"));
+    EXPECT_THAT(report_on(folder.name(), basic::Streams::served), HasSubstr("phone.xml: ok\n"));
     EXPECT_THAT(report_on(folder.name()), HasSubstr("refused: phone.xml:2:1: unknown adapter 'audio_streaming'"));
 }
 
@@ -146,7 +147,8 @@ struct ComponentsOfUsers : testing::Test {
     }
 
     kit::ProfileFolder folder;
-    UserComponents components{schemas(), {hall(), nullptr, schemas()}, built_in(), {"navigation"}, folder.name()};
+    UserComponents components{
+        schemas(), {simulation::robots(hall(), nullptr), schemas()}, built_in(), {"navigation"}, folder.name()};
     std::vector<std::string> gone;
 };
 

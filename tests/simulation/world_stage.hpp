@@ -13,6 +13,8 @@
 
 namespace rois::simulation {
 
+using namespace basic;
+
 // 10 m by 8 m without inner walls. The entrance is at (9, 4), the desk at (5, 7). robot1 stands at (2, 4) and looks along x.
 inline FloorPlan plain_hall() {
     FloorPlan plan;
@@ -45,6 +47,12 @@ inline FloorPlan hall_with_two_robots() {
 }
 
 inline Scenario nobody() { return {}; }
+
+// What a robot says in English with the default voice, for `duration` or as long as the text takes.
+inline Utterance said(std::string text, double loudness = 0.5, std::optional<Seconds> duration = {}) {
+    auto const seconds = duration.value_or(speech_duration(text));
+    return {{{.text = std::move(text), .language = "en", .duration = seconds}}, loudness};
+}
 
 // A known person who enters at once and does these actions.
 inline Role tanaka(std::vector<ScriptedAction> actions, std::vector<Answer> answers = {}) {

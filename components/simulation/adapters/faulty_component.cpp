@@ -1,4 +1,4 @@
-#include "simulation/adapters/robot_components.hpp"
+#include "simulation/adapters/robots.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -7,16 +7,22 @@
 #include <utility>
 #include <vector>
 
-#include "simulation/basic/component_refs.hpp"
-#include "simulation/basic/parameter_reading.hpp"
+#include "basic/base/component_names.hpp"
+#include "basic/base/parameter_reading.hpp"
+#include "basic/components/reaction_types.hpp"
+#include "basic/speech/languages.hpp"
 #include "simulation/scenario/steering.hpp"
-#include "simulation/speech/languages.hpp"
-#include "simulation/world/wire_units.hpp"
+#include "simulation/world/units.hpp"
 #include "types/listing.hpp"
 #include "types/texts.hpp"
 
 namespace rois::simulation {
 namespace {
+
+using basic::gestures;
+using basic::integer_of;
+using basic::is_language;
+using basic::text_of;
 
 constexpr std::size_t longest_name = 64, longest_text = 16'384;  // bytes
 constexpr WorldTime most_to_pass = std::chrono::hours{1};
@@ -39,6 +45,7 @@ public:
                             .version = {}};
         description_.profile = std::make_shared<ComponentProfile const>(std::move(profile));
         description_.positions = {"target_position"};
+        for (Place const& place : hall().plan().places) places_.push_back({place.name, place.pose});
     }
 
     ~SimulatedHall() override { simulation_->part(*this); }
@@ -95,7 +102,7 @@ public:
         std::vector<std::string> refs, poses;
         for (auto const& person : people) {
             refs.push_back(person.role);
-            poses.push_back(to_wire(person.pose));
+            poses.push_back(basic::to_wire(person.pose));
         }
         return one_row({{texts("visitor_ref", std::move(refs)), positions("position_data", std::move(poses), hall().plan().crs),
                          truths("known", people, [](Person const& person) { return person.known; }),
@@ -117,7 +124,7 @@ private:
     Hall const& hall() const { return simulation_->hall(); }
 
     std::optional<std::string> no_visitor(std::string_view name) const {
-        if (is_name(name) && name.size() <= longest_name && !hall().find_robot(name)) return {};
+        if (basic::is_name(name) && name.size() <= longest_name && !hall().find_robot(name)) return {};
         return "parameter 'visitor_ref': " + quoted(name) + " is not a valid visitor name: use at most " +
                std::to_string(longest_name) + " bytes, no spaces, dots or colons, and not the name of a robot";
     }
@@ -134,14 +141,14 @@ private:
 
     static std::optional<std::string> no_language(std::string_view language) {
         if (is_language(language)) return {};
-        return "parameter 'language': " + quoted(language) + " is not supported; expected one of " + names_of_languages();
+        return "parameter 'language': " + quoted(language) + " is not supported; expected one of " + basic::names_of_languages();
     }
 
     std::optional<std::string> no_way(Parameter const& targets) const {
         auto const& plan = hall().plan();
         if (targets.values.empty()) return "parameter 'target_position' must have at least one position";
-        if (auto problem = not_targets(targets, plan, [&](auto const& text) { return hall().target(text).has_value(); }))
-            return problem;
+        auto const is_target = [&](auto const& text) { return hall().target(text).has_value(); };
+        if (auto problem = basic::not_targets(targets, places_, is_target)) return problem;
         for (auto const& text : targets.values)
             if (plan.clearance(hall().target(text)->position) <= 0)
                 return "parameter 'target_position': " + quoted(text) + " is outside of the hall, in a wall or in furniture";
@@ -158,7 +165,7 @@ private:
 
     SharedOrderStatus order(std::string_view command_type, ParameterList const& arguments) {
         std::string const visitor{text_of(arguments, "visitor_ref")}, language{text_of(arguments, "language")};
-        if (command_type == "enter") return enter(visitor, language, is_true(arguments, "known"));
+        if (command_type == "enter") return enter(visitor, language, basic::is_true(arguments, "known"));
         if (command_type == "say") return hall().steer(visitor, Say{language, std::string{text_of(arguments, "text")}});
         if (command_type == "gesture") return hall().steer(visitor, Gesture{std::string{text_of(arguments, "gesture")}});
         if (command_type == "leave") return hall().steer(visitor, Leave{});
@@ -202,6 +209,7 @@ private:
 
     std::shared_ptr<Simulation> simulation_;
     ComponentDescription description_;
+    std::vector<basic::NamedPlace> places_;
     ComponentPort* port_ = nullptr;
     bool stepped_ = false;
     std::vector<Ordered> orders_;  // running

@@ -3,10 +3,14 @@
 #include <utility>
 #include <vector>
 
-#include "simulation/world/wire_units.hpp"
+#include "simulation/world/units.hpp"
 
 namespace rois::simulation {
 namespace {
+
+using basic::degrees;
+using basic::millimetres;
+using basic::rows_of;
 
 FloorMap::Box drawn(Box const& box) {
     Point const size = box.high - box.low;
@@ -61,6 +65,23 @@ FloorMap floor_map(FloorPlan const& plan) {
 }
 
 namespace {
+
+// Makes the frame `crs` that has this pose in `base`.
+Frame placed(std::string crs, std::string base, Pose const& pose, Covariance const& covariance) {
+    return {.crs = std::move(crs),
+            .base = std::move(base),
+            .position = {millimetres(pose.position.x()), millimetres(pose.position.y()), 0},
+            .orientation = {0, 0, degrees(pose.heading)},
+            .covariance = rows_of(covariance)};
+}
+
+// Makes the geometry of a box of the floor, for conditions.
+Geometry area(std::string crs, Box const& box) {
+    return {.crs = std::move(crs),
+            .low = {millimetres(box.low.x()), millimetres(box.low.y()), 0},
+            .high = {millimetres(box.high.x()), millimetres(box.high.y()), 0},
+            .dimensions = 2};
+}
 
 Frames frames(FloorPlan const& plan) {
     std::vector<Frame> others;

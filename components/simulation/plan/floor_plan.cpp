@@ -92,6 +92,21 @@ bool FloorPlan::can_go_straight(Point const& from, Point const& to, Metres radiu
     }
 }
 
+bool collides(FloorPlan const& plan, Disc const& body, Point const& to, std::span<Disc const> others, Metres gap) {
+    Metres const clearance = plan.clearance(to);
+    if (clearance < body.radius && clearance < plan.clearance(body.centre)) return true;
+    return std::ranges::any_of(others, [&](Disc const& other) {
+        Metres const apart = distance(to, other.centre);
+        return apart < body.radius + other.radius + gap && apart < distance(body.centre, other.centre);
+    });
+}
+
+std::vector<std::string> robot_names(FloorPlan const& plan) {
+    std::vector<std::string> names;
+    for (RobotPlan const& robot : plan.robots) names.push_back(robot.name);
+    return names;
+}
+
 std::optional<PlanFlaw> flaw(FloorPlan const& plan) {
     Point const size = plan.bounds.high - plan.bounds.low;
     if (size.minCoeff() < 1 || size.maxCoeff() > 200)

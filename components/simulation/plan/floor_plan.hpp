@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -101,6 +102,13 @@ struct FloorPlan {
     // Whether a disc of this radius can move straight between the points without touching a wall, desk or edge.
     bool can_go_straight(Point const& from, Point const& to, Metres radius) const;
 };
+
+// Whether a body that moves to `to` touches a wall or desk, or comes nearer than `gap` to another body. A body that is too near
+// already may move past or away.
+bool collides(FloorPlan const&, Disc const& body, Point const& to, std::span<Disc const> others, Metres gap = 0);
+
+// The names of the robots, in the plan's order.
+std::vector<std::string> robot_names(FloorPlan const&);
 
 // The first error of a plan (no entrance, a place within a wall, a duplicate name, ...). flaw() returns nothing if the plan is
 // valid.

@@ -1,7 +1,7 @@
 // Plane geometry of walls, boxes and discs. Lengths in metres.
 #pragma once
 
-#include "simulation/world/pose.hpp"
+#include "simulation/world/units.hpp"
 
 namespace rois::simulation {
 

@@ -1,15 +1,14 @@
 // The cost of paths: metres, or the seconds that a robot needs to drive along the corners.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
-#include "simulation/world/pose.hpp"
+#include "basic/body/motion.hpp"
+#include "simulation/world/units.hpp"
 
 namespace rois::simulation {
 
-// RoIS's routing_policy (table 46). `time`: fewest seconds, with turns and braking; `distance`: shortest.
-enum class RoutingPolicy : std::uint8_t { time, distance };
+using basic::RoutingPolicy;
 
 // The limits of motion of a robot or person.
 struct Agility {

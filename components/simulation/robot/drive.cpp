@@ -129,7 +129,8 @@ void Drive::roll(Surroundings const& around, Seconds dt) {
     auto const limits = must_stand() ? stopping_limits_ : driving(plan_);
     Twist const next = state(around, dt).next({safe(wanted.linear, state(around, dt)), wanted.angular}, limits, circle);
     Pose const there = moved(pose_, next, dt);
-    if (would_touch(there, around)) {
+    // The bumper: prevents contact with obstacles that enter the stopping distance.
+    if (collides(around.plan(), disc(), there.position, around.obstacles(robot_))) {
         twist_ = {};
         return;
     }
@@ -156,17 +157,6 @@ MetresPerSecond Drive::safe(MetresPerSecond wanted, DriveState const& at) const 
                  free_of_bodies(at.around.obstacles_with_stopping_room(robot_), pose_.position, heading, plan_.radius));
     MetresPerSecond const most = at.speed_to_stop_in(free);
     return std::clamp(wanted, -most, most);
-}
-
-// The bumper: prevents contact with obstacles that enter the stopping distance.
-bool Drive::would_touch(Pose const& there, Surroundings const& around) const {
-    FloorPlan const& floor = around.plan();
-    Metres const clearance = floor.clearance(there.position);
-    if (clearance < plan_.radius && clearance < floor.clearance(pose_.position)) return true;
-    return std::ranges::any_of(around.obstacles(robot_), [&](Disc const& other) {
-        Metres const apart = distance(there.position, other.centre);
-        return apart < plan_.radius + other.radius && apart < distance(pose_.position, other.centre);
-    });
 }
 
 }  // namespace rois::simulation

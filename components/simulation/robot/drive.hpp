@@ -64,6 +64,7 @@ public:
     Twist const& twist() const { return twist_; }
     RobotPlan const& plan() const { return plan_; }  // max_speed is the current limit
 
+    Disc disc() const { return {pose_.position, plan_.radius}; }
     // The floor that the robot needs to stop.
     Disc stopping_disc() const;
 
@@ -86,7 +87,6 @@ private:
     DriveState state(Surroundings const&, Seconds dt) const;
     Twist steer(Surroundings const&, Seconds dt);
     MetresPerSecond safe(MetresPerSecond wanted, DriveState const&) const;
-    bool would_touch(Pose const&, Surroundings const&) const;
 
     RobotId robot_;
     RobotPlan plan_;

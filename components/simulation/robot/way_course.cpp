@@ -247,7 +247,7 @@ public:
     explicit KeepDistanceCourse(KeepDistance motion) : motion_(motion) {}
 
     Twist steer(DriveState const& state, Progress& progress) override {
-        auto const whom = state.around.pose_of(motion_.whom);
+        auto const whom = state.around.pose_of(entity(motion_.whom));
         if (!whom) {
             progress.state = MotionState::lost;
             return {};

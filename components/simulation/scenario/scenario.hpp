@@ -3,18 +3,15 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
-#include "simulation/world/pose.hpp"
+#include "basic/body/perception.hpp"
+#include "simulation/world/units.hpp"
 
 namespace rois::simulation {
-
-// The gestures of visitors and robots: the codes of codebook::gesture.
-std::span<std::string_view const> gestures();
 
 // A target to walk or look to: the name of a place or robot, or a point.
 struct Whereabouts {
@@ -59,8 +56,7 @@ struct Answer {
     bool once = false;    // at most once a visit
 };
 
-// Codes of ISO 5218.
-enum class Gender : std::uint8_t { not_known = 0, male = 1, female = 2, not_applicable = 9 };
+using basic::Gender;
 
 // One person of a scenario.
 struct Role {

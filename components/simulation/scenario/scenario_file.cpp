@@ -3,16 +3,21 @@
 #include <algorithm>
 #include <utility>
 
-#include "simulation/basic/component_refs.hpp"
-#include "simulation/robot/reaction_types.hpp"
+#include "basic/adapters/robots.hpp"
+#include "basic/components/reaction_types.hpp"
 #include "simulation/world/person.hpp"
-#include "simulation/world/wire_units.hpp"
+#include "simulation/world/units.hpp"
 #include "types/listing.hpp"
 #include "types/texts.hpp"
 
 namespace rois::simulation {
 
 namespace {
+
+using basic::gestures;
+using basic::reaction_code;
+using basic::reaction_types;
+using basic::target_from_wire;
 
 bool is_true(std::string_view text) { return trimmed(text) == "true" || trimmed(text) == "1"; }
 
@@ -162,7 +167,7 @@ Scenario read_scenario(std::shared_ptr<xml::Schemas const> schemas, std::string 
     scenario.name = root.attribute("name", "");
     if (root.attribute("round")) scenario.round = root.number("round");
     if (auto const element = root.child("arrivals")) scenario.arrivals = arrivals(*element);
-    auto const refs = component_refs(plan, components);
+    auto const refs = basic::component_refs(robot_names(plan), components);
     for (auto const& element : root.children("fault")) scenario.faults.push_back(fault(element, refs));
     ScenarioReader const reader{plan};
     for (auto const& person : root.children("person")) {

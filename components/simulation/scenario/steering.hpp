@@ -10,7 +10,7 @@
 
 #include "simulation/scenario/scenario.hpp"
 #include "simulation/world/entity.hpp"
-#include "simulation/world/wire_units.hpp"
+#include "simulation/world/units.hpp"
 
 namespace rois::simulation {
 

@@ -4,11 +4,13 @@
 #include <cctype>
 #include <cmath>
 
+#include "simulation/world/visibility.hpp"
+
 namespace rois::simulation {
 namespace {
 
 constexpr Metres hearing = 5.0;  // at loudness 0.5, proportional to it
-constexpr Radians looks_at = from_degrees(60);
+constexpr Radians field_of_view = from_degrees(120);
 constexpr WorldTime gesture_length{1'500};
 constexpr WorldTime before_answer{700};
 
@@ -28,7 +30,7 @@ bool fits(Answer const& answer, Happening const& happening) {
 
 Visitor::Visitor(PersonId id, Role role, Pose const& pose, WorldTime now, FloorPlan const& plan, Planner const& planner,
                  std::uint64_t seed)
-    : role_(std::move(role)), random_(seed), walker_(plan, planner), came_(now), action_began_(now) {
+    : role_(std::move(role)), voice_(id), random_(seed), walker_(plan, planner), came_(now), action_began_(now) {
     person_.id = id;
     person_.role = role_.id;
     person_.known = role_.known;
@@ -39,12 +41,9 @@ Visitor::Visitor(PersonId id, Role role, Pose const& pose, WorldTime now, FloorP
 }
 
 void Visitor::notice(Happening const& happening, Robot const& robot, double loudness, VisitorSurroundings const& around) {
-    Point const here = person_.pose.position;
     bool const speech = happening.kind == Happening::Kind::speech_finished;
     Metres const reach = speech ? hearing * std::sqrt(std::max(0.0, loudness) / 0.5) : hearing;
-    if (ignores_ || distance(here, robot.pose.position) > reach) return;
-    if (std::abs(bearing(person_.pose, robot.pose.position)) > looks_at) return;
-    if (!around.plan.in_sight(here, robot.pose.position)) return;
+    if (ignores_ || !reaches(around.plan, person_.pose, robot.pose.position, reach, field_of_view)) return;
     addressed_ = around.now;
     if (talks_left_ > 0) patience_ = usual_patience;
     talks_left_ = std::max(0, talks_left_ - 1);
@@ -71,34 +70,16 @@ void Visitor::step(VisitorSurroundings& around) {
 }
 
 void Visitor::end_speech_and_gesture(VisitorSurroundings& around) {
-    if (person_.speaking && around.now >= person_.speaking->ends) {
-        Speech const said = *person_.speaking;
-        person_.speaking.reset();
-        around.chronicle.add({0,
-                              around.now,
-                              Happening::Kind::speech_finished,
-                              person_.id,
-                              person_.pose.position,
-                              said.text,
-                              said.language,
-                              0,
-                              {}});
-    }
+    voice_.step(around.now, person_.pose.position, around.chronicle);
+    person_.speaking = voice_.speech();
     if (person_.gesturing && around.now >= person_.gesturing->ends) person_.gesturing.reset();
 }
 
 void Visitor::say(std::string text, std::string language, VisitorSurroundings& around) {
-    person_.speaking = Speech{std::move(text), std::move(language), around.now, {}};
-    person_.speaking->ends = around.now + world_time(speech_duration(person_.speaking->text));
-    around.chronicle.add({0,
-                          around.now,
-                          Happening::Kind::speech_started,
-                          person_.id,
-                          person_.pose.position,
-                          person_.speaking->text,
-                          person_.speaking->language,
-                          0,
-                          {}});
+    Seconds const duration = basic::speech_duration(text);
+    voice_.speak({{{.text = std::move(text), .language = std::move(language), .duration = duration}}}, around.now,
+                 person_.pose.position, around.chronicle);
+    person_.speaking = voice_.speech();
 }
 
 void Visitor::make_gesture(std::string id, VisitorSurroundings& around) {

@@ -10,6 +10,7 @@
 #include "simulation/scenario/scenario.hpp"
 #include "simulation/scenario/walker.hpp"
 #include "simulation/world/chronicle.hpp"
+#include "simulation/world/voice.hpp"
 
 namespace rois::simulation {
 
@@ -89,6 +90,7 @@ private:
 
     Person person_;
     Role role_;
+    Voice voice_;
     Random random_;
     Walker walker_;
     WorldTime came_;

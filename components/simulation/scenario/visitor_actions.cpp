@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "simulation/scenario/visitor.hpp"
+#include "simulation/world/visibility.hpp"
 
 namespace rois::simulation {
 namespace {
@@ -11,6 +12,7 @@ constexpr Seconds longest_walk = 60;
 constexpr Seconds longest_turn = 2;
 constexpr RadiansPerSecond turn_rate = 3.5;
 constexpr Metres in_conversation = 1.8;
+constexpr Metres nearby = 4;  // a visitor does not interrupt a robot within this hearing range
 constexpr WorldTime conversation_lasts{8'000};
 
 }  // namespace
@@ -192,7 +194,7 @@ bool Visitor::stays_for_robot(VisitorSurroundings const& around) {
 
 bool Visitor::robot_speaks_nearby(VisitorSurroundings const& around) const {
     return std::ranges::any_of(around.robots, [&](Robot const& robot) {
-        return robot.speaking && distance(robot.pose.position, person_.pose.position) < 4;
+        return robot.speaking && hears(around.plan, person_.pose.position, robot.pose.position, nearby);
     });
 }
 

@@ -60,21 +60,12 @@ bool Walker::try_steps(Person& person, Point const& corner, MetresPerSecond spee
     Metres const stride = std::min(speed * dt, distance(from, corner));
     for (Radians turn : aside) {
         Point const step = stride * (turn == 0 ? 1.0 : 0.7) * unit(ahead + turn);
-        if (!can_step(from, from + step, obstacles)) continue;
+        if (collides(*plan_, {from, person_radius}, from + step, obstacles, touch_gap)) continue;
         person.pose.position = from + step;
         person.velocity = step / dt;
         return true;
     }
     return false;
-}
-
-bool Walker::can_step(Point const& from, Point const& to, std::span<Disc const> obstacles) const {
-    Metres const clearance = plan_->clearance(to);
-    if (clearance < person_radius && clearance <= plan_->clearance(from)) return false;
-    return std::ranges::none_of(obstacles, [&](Disc const& other) {
-        Metres const apart = distance(to, other.centre);
-        return apart < other.radius + person_radius + touch_gap && apart <= distance(from, other.centre);
-    });
 }
 
 // Plans another path after a while. If there is none, steps aside at random so that the others can pass.

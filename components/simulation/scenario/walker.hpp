@@ -31,7 +31,6 @@ public:
 private:
     bool plan_way(Pose const&, std::span<Disc const> obstacles);
     bool try_steps(Person&, Point const& corner, MetresPerSecond speed, std::span<Disc const> obstacles, Seconds dt);
-    bool can_step(Point const& from, Point const& to, std::span<Disc const> obstacles) const;
     void wait_for_room(Person const&, std::span<Disc const> obstacles, Random&, Seconds dt);
 
     FloorPlan const* plan_;

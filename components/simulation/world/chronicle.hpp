@@ -7,7 +7,7 @@
 #include <string>
 
 #include "simulation/world/entity.hpp"
-#include "simulation/world/pose.hpp"
+#include "simulation/world/units.hpp"
 
 namespace rois::simulation {
 
@@ -28,10 +28,10 @@ struct Happening {
     Point place = Point::Zero();  // of `who` at that time
     std::string text;
     std::string language;
-    // Only for speech_started of a robot:
+    // Only for speech_started:
     Seconds lasts = 0;        // duration without interruptions
     std::string prosody;      // as in Passage
-    std::string character{};  // the voice (voice_characters.hpp)
+    std::string character{};  // the voice (basic/speech/voice_characters.hpp)
 };
 
 // Append only; keeps the last `capacity` entries.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "simulation/basic/codebooks.hpp"
+#include "basic/base/codebooks.hpp"
 #include "simulation/world/world.hpp"
 #include "types/texts.hpp"
 
@@ -54,11 +54,11 @@ std::optional<Entity> Hall::find(std::string_view ref) const { return find(ref, 
 
 std::optional<Entity> Hall::find(std::string_view ref, std::string_view codebook) const {
     auto const is_from = [&](std::string_view names) {
-        return codebook.empty() || equal_ignoring_case(codebook, codebook::entity) || equal_ignoring_case(codebook, names);
+        return codebook.empty() || equal_ignoring_case(codebook, basic::codebook::entity) || equal_ignoring_case(codebook, names);
     };
-    if (auto robot = find_robot(ref); robot && is_from(codebook::robot)) return *robot;
-    if (auto person = world_->tracks.find(ref); person && is_from(codebook::track)) return *person;
-    if (!is_from(codebook::visitor)) return std::nullopt;
+    if (auto robot = find_robot(ref); robot && is_from(basic::codebook::robot)) return *robot;
+    if (auto person = world_->tracks.find(ref); person && is_from(basic::codebook::track)) return *person;
+    if (!is_from(basic::codebook::visitor)) return std::nullopt;
     for (Person const& person : people()) {
         if (person.known && person.role == ref && world_->tracks.identified(person.id)) return person.id;
     }
@@ -70,7 +70,7 @@ bool Hall::knows(std::string_view ref) const { return find_robot(ref) || world_-
 std::optional<Pose> Hall::pose_of(Entity entity) const { return world_->pose_of(entity); }
 
 std::optional<Target> Hall::target(std::string_view text) const {
-    if (auto target = target_from_wire(text)) return target;
+    if (auto target = basic::target_from_wire(text)) return target;
     Place const* place = plan().place(text);
     return place ? std::optional{Target{place->pose.position, place->pose.heading}} : std::nullopt;
 }

@@ -13,6 +13,7 @@
 #include "simulation/scenario/steering.hpp"
 #include "simulation/world/chronicle.hpp"
 #include "simulation/world/person.hpp"
+#include "simulation/world/voice.hpp"
 
 namespace rois::simulation {
 

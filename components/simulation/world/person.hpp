@@ -6,7 +6,7 @@
 
 #include "simulation/scenario/scenario.hpp"
 #include "simulation/world/entity.hpp"
-#include "simulation/world/pose.hpp"
+#include "simulation/world/units.hpp"
 
 namespace rois::simulation {
 
@@ -17,7 +17,7 @@ struct Speech {
     std::string language;  // ISO 639-1
     WorldTime began{};
     WorldTime ends{};
-    std::string character{};  // of a robot's voice (voice_characters.hpp); empty for a person
+    std::string character{};  // of the voice (basic/speech/voice_characters.hpp)
 };
 
 // A gesture in progress.

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "simulation/world/pose.hpp"
+#include "simulation/world/units.hpp"
 #include "types/instant.hpp"
 
 namespace rois::simulation {

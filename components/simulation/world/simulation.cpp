@@ -5,8 +5,6 @@
 
 namespace rois::simulation {
 
-void Observer::time_passed(Instant) {}
-
 Simulation::Simulation(FloorPlan plan, Scenario scenario, std::uint64_t seed, double speed)
     : faults_(scenario.faults), hall_(std::move(plan), std::move(scenario), seed) {
     if (speed != 0) time_.emplace(speed, Hall::step_length);

@@ -5,22 +5,15 @@
 #include <optional>
 #include <vector>
 
+#include "basic/body/body.hpp"
 #include "engine/component.hpp"
 #include "simulation/world/hall.hpp"
 #include "simulation/world/simulated_time.hpp"
 
 namespace rois::simulation {
 
-// Receives every step of the world (20 ms of world time). The simulation's components are observers: from observe() they report
-// measurements and the progress of actions.
-class Observer {
-public:
-    virtual ~Observer() = default;
-    // `when` is the real time of the step, not later than the engine's current time.
-    virtual void observe(Instant when) = 0;
-    // Called by each advance(), after the steps that were due: for work that depends on real time.
-    virtual void time_passed(Instant now);
-};
+// Receives every step of the world (20 ms of world time).
+using basic::Observer;
 
 // Shared by its components. Used by the engine's thread only.
 class Simulation : public Device {

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "simulation/world/entity.hpp"
-#include "simulation/world/pose.hpp"
+#include "simulation/world/units.hpp"
 
 namespace rois::simulation {
 

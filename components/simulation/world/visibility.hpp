@@ -1,4 +1,4 @@
-// Whether a sensor of a robot detects a person, without noise.
+// Who sees and hears whom, without noise.
 #pragma once
 
 #include <cmath>
@@ -8,9 +8,10 @@
 
 namespace rois::simulation {
 
-inline bool reaches(FloorPlan const& plan, Pose const& robot, Point const& place, Metres range, Radians field_of_view) {
-    return distance(robot.position, place) <= range && std::abs(bearing(robot, place)) <= field_of_view / 2 &&
-           plan.in_sight(robot.position, place);
+// Whether somebody with this pose sees `place`.
+inline bool reaches(FloorPlan const& plan, Pose const& self, Point const& place, Metres range, Radians field_of_view) {
+    return distance(self.position, place) <= range && std::abs(bearing(self, place)) <= field_of_view / 2 &&
+           plan.in_sight(self.position, place);
 }
 
 // Whether the person's face looks at the robot within this angle to either side.
@@ -32,9 +33,9 @@ inline bool recognizes(FloorPlan const& plan, Sensors::Identification const& sen
            is_turned_to(person, robot, sensor.turned_within);
 }
 
-inline bool hears(FloorPlan const& plan, Sensors::Sound const& sensor, Pose const& robot, Point const& place) {
-    Metres const range = plan.in_sight(robot.position, place) ? sensor.range : sensor.range / 2;
-    return distance(robot.position, place) <= range;
+// Whether somebody at `here` hears a sound at `place`. A wall in between halves the range.
+inline bool hears(FloorPlan const& plan, Point const& here, Point const& place, Metres range) {
+    return distance(here, place) <= (plan.in_sight(here, place) ? range : range / 2);
 }
 
 }  // namespace rois::simulation

@@ -60,23 +60,13 @@ Person const* Hall::World::person(PersonId id) const {
 
 Disc Hall::World::disc(Person const& who) const { return {who.pose.position, person_radius}; }
 
-std::vector<Disc> Hall::World::obstacles(RobotId robot) const {
+std::vector<Disc> Hall::World::others(Entity self, Room room) const {
     std::vector<Disc> discs;
     discs.reserve(people.size() + drives.size());
-    for (Person const& who : people) discs.push_back(disc(who));
-    for (Drive const& drive : drives) {
-        if (drive.robot() != robot) discs.push_back({drive.pose().position, drive.plan().radius});
-    }
-    return discs;
-}
-
-std::vector<Disc> Hall::World::obstacles_with_stopping_room(RobotId robot) const {
-    std::vector<Disc> discs;
-    discs.reserve(people.size() + drives.size());
-    for (Person const& who : people) discs.push_back(disc(who));
-    for (Drive const& drive : drives) {
-        if (drive.robot() != robot) discs.push_back(drive.stopping_disc());
-    }
+    for (Person const& who : people)
+        if (self != Entity{who.id}) discs.push_back(disc(who));
+    for (Drive const& drive : drives)
+        if (self != Entity{drive.robot()}) discs.push_back(room == Room::to_stop ? drive.stopping_disc() : drive.disc());
     return discs;
 }
 
@@ -87,7 +77,7 @@ std::vector<Disc> Hall::World::standing_obstacles(RobotId robot) const {
     }
     for (Drive const& drive : drives) {
         bool const stands = drive.twist().linear == 0;
-        if (drive.robot() != robot && stands) discs.push_back({drive.pose().position, drive.plan().radius});
+        if (drive.robot() != robot && stands) discs.push_back(drive.disc());
     }
     return discs;
 }
@@ -165,12 +155,7 @@ void Hall::World::stop_steering() {
 }
 
 VisitorSurroundings Hall::World::surroundings_of(PersonId self) {
-    VisitorSurroundings around{plan_, walkways_, robots, {}, chronicle, now, in_seconds(Hall::step_length)};
-    for (Person const& who : people) {
-        if (who.id != self) around.obstacles.push_back(disc(who));
-    }
-    for (Drive const& drive : drives) around.obstacles.push_back(drive.stopping_disc());
-    return around;
+    return {plan_, walkways_, robots, others(self, Room::to_stop), chronicle, now, in_seconds(Hall::step_length)};
 }
 
 // Notifies visitors of the speech and reactions of robots since the last step.
@@ -221,7 +206,7 @@ void Hall::World::track() {
     for (Robot const& each : robots) {
         Sensors const& sensors = plan_.robots[static_cast<std::size_t>(each.id)].sensors;
         for (Person const& who : people) {
-            bool const heard = who.speaking && hears(plan_, sensors.sound, each.pose, who.pose.position);
+            bool const heard = who.speaking && hears(plan_, each.pose.position, who.pose.position, sensors.sound.range);
             bool const recognized = recognizes(plan_, sensors.identification, each.pose, who);
             if (heard || recognized || sees(plan_, sensors.people, each.pose, who) ||
                 sees_face(plan_, sensors.faces, each.pose, who))

@@ -9,12 +9,12 @@
 #include <string_view>
 #include <vector>
 
-#include "simulation/robot/voice.hpp"
 #include "simulation/scenario/crowd.hpp"
 #include "simulation/scenario/steered_visitor.hpp"
 #include "simulation/scenario/visitor.hpp"
 #include "simulation/world/hall.hpp"
 #include "simulation/world/tracks.hpp"
+#include "simulation/world/voice.hpp"
 
 namespace rois::simulation {
 
@@ -24,8 +24,8 @@ public:
 
     FloorPlan const& plan() const override { return plan_; }
     std::optional<Pose> pose_of(Entity) const override;
-    std::vector<Disc> obstacles(RobotId) const override;
-    std::vector<Disc> obstacles_with_stopping_room(RobotId) const override;
+    std::vector<Disc> obstacles(RobotId robot) const override { return others(robot, Room::of_bodies); }
+    std::vector<Disc> obstacles_with_stopping_room(RobotId robot) const override { return others(robot, Room::to_stop); }
     std::vector<Disc> standing_obstacles(RobotId) const override;
 
     void step();
@@ -53,6 +53,10 @@ private:
         Role role;
         std::shared_ptr<OrderStatus> status;
     };
+
+    // The floor that robots take up: now, or until they have stopped.
+    enum class Room : std::uint8_t { of_bodies, to_stop };
+    std::vector<Disc> others(Entity self, Room) const;
 
     void admit();
     void admit_steered(Pose const& entrance);

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "simulation/adapters/adapters.hpp"
-#include "simulation/basic/component_refs.hpp"
+#include "basic/adapters/adapters.hpp"
+#include "basic/base/component_names.hpp"
 #include "simulation/component_stage.hpp"
 
 namespace rois::simulation::stage {
@@ -373,7 +373,7 @@ class AdaptersOf : public testing::Test {
 protected:
     std::shared_ptr<Simulation> simulation_ = std::make_shared<Simulation>(
         reception_with_two_robots(), Scenario{.name = "", .faults = {}, .roles = {}, .round = {}, .arrivals = {}}, 7, 1.0);
-    Adapters adapters_{simulation_, nullptr, schemas()};
+    Adapters adapters_{robots(simulation_, nullptr), schemas()};
 };
 
 TEST_F(AdaptersOf, EachRobotMakeOneComponent) {
@@ -398,7 +398,7 @@ TEST_F(AdaptersOf, StreamingComponentsNeedMedia) {
     profile.object.meta_data = "urn:x-rois:def:adapter:simulation::audio_streaming";
     EXPECT_THAT([&] { adapters_.components(profile, {}); },
                 testing::ThrowsMessage<std::runtime_error>(HasSubstr("unknown adapter 'audio_streaming'")));
-    Adapters const with_media{simulation_, std::make_shared<FakeMedia>(), schemas()};
+    Adapters const with_media{robots(simulation_, std::make_shared<FakeMedia>()), schemas()};
     EXPECT_THAT(with_media.components(profile, {}), SizeIs(2));
 }
 

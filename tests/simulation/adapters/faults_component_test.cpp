@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "simulation/basic/component_refs.hpp"
+#include "basic/base/component_names.hpp"
 #include "simulation/component_stage.hpp"
 
 namespace rois::simulation::stage {
@@ -137,8 +137,8 @@ TEST_F(Faults, DoNotAffectOtherComponents) {
 
 TEST_F(Faults, AcceptTheRefsOfAllComponents) {
     Stage stage{{}, reception_with_two_robots()};
-    EXPECT_THAT(component_refs(reception_with_two_robots()), UnorderedElementsAreArray(stage.refs()));
-    auto const with_a_lamp = component_refs(reception_with_two_robots(), {"lamp"});
+    EXPECT_THAT(component_refs(robot_names(reception_with_two_robots())), UnorderedElementsAreArray(stage.refs()));
+    auto const with_a_lamp = component_refs(robot_names(reception_with_two_robots()), {"lamp"});
     EXPECT_THAT(with_a_lamp, testing::IsSupersetOf({"lamp", "robot2.lamp"}));
     EXPECT_EQ(with_a_lamp.size(), 36u);
 }

@@ -4,6 +4,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "basic/components/reaction_types.hpp"
 #include "engine/engine.hpp"
 #include "files/files.hpp"
 #include "simulation/component_stage.hpp"
@@ -24,7 +25,7 @@ using testing::UnorderedElementsAre;
 TEST(Robots, ASingleRobotHasTheFifteenBasicComponents) {
     auto const simulation = std::make_shared<Simulation>(reception(), Scenario{}, 1, 1.0);
     std::vector<std::string> refs;
-    for (auto const& component : robot_components(simulation, nullptr, bare_profiles()))
+    for (auto const& component : robot_components(robots(simulation, nullptr), bare_profiles()))
         refs.push_back(component->description().ref.code);
     EXPECT_THAT(refs, UnorderedElementsAre("system_information", "person_detection", "person_localization",
                                            "person_identification", "face_detection", "face_localization", "sound_detection",
@@ -49,7 +50,7 @@ TEST(Robots, FailWithoutTheProfilesOfTheirComponents) {
     auto simulation = std::make_shared<Simulation>(reception(), Scenario{}, 1, 1.0);
     auto profiles = bare_profiles();
     profiles.pop_back();
-    EXPECT_THROW(robot_components(simulation, std::make_shared<FakeMedia>(), profiles), std::runtime_error);
+    EXPECT_THROW(robot_components(robots(simulation, std::make_shared<FakeMedia>()), profiles), std::runtime_error);
 }
 
 TEST(Robots, SeeTheSamePersonByTheSameName) {
@@ -100,7 +101,7 @@ protected:
                      .arrivals = {}},
             7, 1.0);
         engine_->add(std::static_pointer_cast<Device>(simulation_));
-        for (auto& component : robot_components(simulation_, std::make_shared<FakeMedia>(), profiles_))
+        for (auto& component : robot_components(robots(simulation_, std::make_shared<FakeMedia>()), profiles_))
             engine_->add(std::move(component));
         session_ = std::get<Connect::Reply>(ask(Connect{})).session;
         engine_->link_opened(session_, Link::stream, now_);

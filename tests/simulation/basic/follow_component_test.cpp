@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "simulation/basic/codebooks.hpp"
+#include "basic/base/codebooks.hpp"
 #include "simulation/component_stage.hpp"
 
 namespace rois::simulation::stage {

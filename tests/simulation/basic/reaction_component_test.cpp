@@ -3,8 +3,8 @@
 
 #include <set>
 
+#include "basic/components/reaction_types.hpp"
 #include "simulation/component_stage.hpp"
-#include "simulation/robot/reaction_types.hpp"
 
 namespace rois::simulation::stage {
 namespace {

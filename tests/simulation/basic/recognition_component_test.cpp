@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "basic/components/reaction_types.hpp"
+#include "basic/speech/grammar.hpp"
 #include "simulation/component_stage.hpp"
-#include "simulation/scenario/scenario.hpp"
-#include "simulation/speech/grammar.hpp"
 
 namespace rois::simulation::stage {
 namespace {

@@ -262,7 +262,7 @@ TEST(Drive, FollowsAPersonAtADistance) {
     Hall hall{plain_hall(), only(role), 1};
     run(hall, 6);
     PersonId const whom = hall.people()[0].id;
-    auto const follow = hall.drive(robot1).begin("follow", KeepDistance{whom, 1.2});
+    auto const follow = hall.drive(robot1).begin("follow", KeepDistance{entity_id(whom), 1.2});
     Metres nearest = 9;
     auto watch = [&](Seconds duration) {
         runs_until(hall, duration, [&] {
@@ -299,7 +299,7 @@ TEST(Drive, TwoRobotsMeetingHeadOnPassEachOther) {
 
 TEST(Drive, OneRobotFollowsTheOther) {
     Hall hall{hall_with_two_robots(), nobody(), 1};
-    hall.drive(robot2).begin("follow", KeepDistance{robot1, 1.5});
+    hall.drive(robot2).begin("follow", KeepDistance{entity_id(robot1), 1.5});
     hall.drive(robot1).begin("navigation", GoTo{{{Point{2, 1}, {}}}});
     run(hall, 25);
     EXPECT_NEAR(distance(hall.robot(robot1).pose.position, hall.robot(robot2).pose.position), 1.5, 0.27);

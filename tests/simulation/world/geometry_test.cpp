@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "basic/body/wire_units.hpp"
 #include "simulation/world/random.hpp"
-#include "simulation/world/wire_units.hpp"
 
 namespace rois::simulation {
+
+using namespace basic;
 namespace {
 
 TEST(Pose, AnglesAreWrappedIntoAHalfTurnToEitherSide) {

@@ -12,7 +12,7 @@ void set_to_work(Hall& hall) {
     for (Robot const& robot : hall.robots()) {
         hall.drive(robot.id).begin("navigation",
                                    GoTo{{{Point{9, 4}, {}}, {Point{12, 8}, {}}, {Point{4, 4}, {}}, {Point{9, 2}, {}}}});
-        hall.speak(robot.id, {"Welcome to the reception.", "en", 0.8, {}, {}, {}});
+        hall.speak(robot.id, said("Welcome to the reception.", 0.8));
     }
 }
 
@@ -148,7 +148,7 @@ TEST(ShippedDay, ARobotCanReceiveTanaka) {
     ASSERT_TRUE(runs_until(hall, 60, [&] { return over(state(hall, robot1, *go)); }));
     EXPECT_EQ(state(hall, robot1, *go), MotionState::arrived);
     ASSERT_TRUE(runs_until(hall, 5, [&] { return hall.find("tanaka").has_value(); })) << "identified";
-    hall.speak(robot1, {"Your meeting is in room 3.", "en", 0.5, {}, {}, {}});
+    hall.speak(robot1, said("Your meeting is in room 3."));
     auto thanked = [](Happening const& happening) {
         return happening.kind == Happening::Kind::speech_started && happening.text == "Thank you very much.";
     };
@@ -157,34 +157,34 @@ TEST(ShippedDay, ARobotCanReceiveTanaka) {
 
 TEST(Voice, AnUtteranceEndsByItselfInTheWorldsTime) {
     Hall hall{plain_hall(), nobody(), 1};
-    auto const said = hall.speak(robot1, {"Good morning.", "en", 0.5, 2.0, {}, {}});
+    auto const speech = hall.speak(robot1, said("Good morning.", 0.5, 2.0));
     EXPECT_TRUE(hall.robot(robot1).speaking);
     run(hall, 1.9);
-    EXPECT_EQ(hall.speech_state(robot1, said), SpeechState::speaking);
+    EXPECT_EQ(hall.speech_state(robot1, speech), SpeechState::speaking);
     run(hall, 0.1);
-    EXPECT_EQ(hall.speech_state(robot1, said), SpeechState::spoken);
+    EXPECT_EQ(hall.speech_state(robot1, speech), SpeechState::spoken);
     EXPECT_FALSE(hall.robot(robot1).speaking);
 }
 
 TEST(Voice, IsSilentWhileHeldAndSaysTheRestAfterwards) {
     Hall hall{plain_hall(), nobody(), 1};
-    auto const said = hall.speak(robot1, {"Good morning.", "en", 0.5, 2.0, {}, {}});
+    auto const speech = hall.speak(robot1, said("Good morning.", 0.5, 2.0));
     run(hall, 1);
-    hall.hold_speech(robot1, said);
+    hall.hold_speech(robot1, speech);
     EXPECT_FALSE(hall.robot(robot1).speaking);
     run(hall, 10);
-    EXPECT_EQ(hall.speech_state(robot1, said), SpeechState::held);
-    hall.go_on_speaking(robot1, said);
+    EXPECT_EQ(hall.speech_state(robot1, speech), SpeechState::held);
+    hall.go_on_speaking(robot1, speech);
     run(hall, 0.9);
-    EXPECT_EQ(hall.speech_state(robot1, said), SpeechState::speaking);
+    EXPECT_EQ(hall.speech_state(robot1, speech), SpeechState::speaking);
     run(hall, 0.2);
-    EXPECT_EQ(hall.speech_state(robot1, said), SpeechState::spoken);
+    EXPECT_EQ(hall.speech_state(robot1, speech), SpeechState::spoken);
 }
 
 TEST(Voice, ANewUtteranceBreaksTheOldOne) {
     Hall hall{plain_hall(), nobody(), 1};
-    auto const first = hall.speak(robot1, {"Good morning.", "en", 0.5, 2.0, {}, {}});
-    auto const second = hall.speak(robot1, {"Stop.", "en", 0.5, 1.0, {}, {}});
+    auto const first = hall.speak(robot1, said("Good morning.", 0.5, 2.0));
+    auto const second = hall.speak(robot1, said("Stop.", 0.5, 1.0));
     EXPECT_EQ(hall.speech_state(robot1, first), SpeechState::broken);
     hall.break_off(robot1, first);
     EXPECT_EQ(hall.speech_state(robot1, second), SpeechState::speaking);

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "basic/body/wire_units.hpp"
 #include "simulation/component_stage.hpp"
-#include "simulation/world/wire_units.hpp"
 
 namespace rois::simulation::stage {
 namespace {

@@ -118,7 +118,7 @@ TEST(PeopleRecognized, AreNearAndTurnedToTheRobot) {
     auto const near = hall_with(plain_hall(), staying(Point{4, 4}, {"robot1"}));
     auto const recognized = people_recognized(*near, robot1);
     ASSERT_EQ(recognized.size(), 1u);
-    EXPECT_EQ(recognized[0].ref, "tanaka");
+    EXPECT_EQ(recognized[0].id, "tanaka");
     EXPECT_EQ(recognized[0].track, "person-1");
     EXPECT_EQ(near->find("tanaka"), near->find("person-1"));
     auto const far = hall_with(plain_hall(), staying(Point{6, 4}, {"robot1"}));
@@ -133,8 +133,8 @@ TEST(PeopleRecognized, StrangersStayStrangers) {
     auto const hall = hall_with(plain_hall(), role);
     auto const recognized = people_recognized(*hall, robot1);
     ASSERT_EQ(recognized.size(), 1u);
-    EXPECT_FALSE(recognized[0].known);
-    EXPECT_EQ(recognized[0].ref, "person-1");
+    EXPECT_FALSE(recognized[0].id);
+    EXPECT_EQ(recognized[0].track, "person-1");
     EXPECT_FALSE(hall->find("tanaka"));
 }
 
@@ -156,11 +156,11 @@ TEST(SoundsHeard, AreCurrentSpeakersInRange) {
 
 TEST(SoundsHeard, IncludeOtherRobotsButNotTheRobotItself) {
     Hall hall{hall_with_two_robots(), nobody(), 1};
-    hall.speak(robot2, {"Hello.", "en", 0.5, {}, {}, {}});
+    hall.speak(robot2, said("Hello."));
     auto const heard = sounds_heard(hall, robot1);
     ASSERT_EQ(heard.size(), 1u);
     EXPECT_EQ(heard[0].ref, "sound-robot2");
-    EXPECT_EQ(heard[0].who, Entity{robot2});
+    EXPECT_EQ(heard[0].who, entity_id(robot2));
     EXPECT_TRUE(sounds_heard(hall, robot2).empty());
 }
 

@@ -59,13 +59,13 @@ TEST(Visitor, AnswersWhatTheRobotSays) {
               only(answering({{"NAME", "", "en", "I am Tanaka.", "", false}, {"*", "", "en", "Pardon?", "shake_head", true}})),
               1};
     run(hall, 10);
-    hall.speak(robot1, {"What is your name?", "en", 0.5, {}, {}, {}});
+    hall.speak(robot1, said("What is your name?"));
     EXPECT_TRUE(of_people(hall, Kind::speech_started).empty()) << "not before the end of the speech";
     run(hall, 4);
     ASSERT_EQ(of_people(hall, Kind::speech_started).size(), 1u);
     EXPECT_EQ(of_people(hall, Kind::speech_started)[0].second, "I am Tanaka.");
     for (int i = 0; i < 2; ++i) {
-        hall.speak(robot1, {"Nice weather.", "en", 0.5, {}, {}, {}});
+        hall.speak(robot1, said("Nice weather."));
         run(hall, 4);
     }
     ASSERT_EQ(of_people(hall, Kind::speech_started).size(), 2u) << "asks only once";
@@ -89,7 +89,7 @@ TEST(Visitor, AnswersSpeechAndTheBowThatFollowsAtOnce) {
     Hall hall{plain_hall(), only(answering({{"*", "", "en", "Thank you.", "", true}, {"", "9", "", "", "bow", true}})), 1};
     run(hall, 10);
     auto const greet = [&] {
-        hall.speak(robot1, {"Your meeting is in room 3.", "en", 0.5, 1.0, {}, {}});
+        hall.speak(robot1, said("Your meeting is in room 3.", 0.5, 1.0));
         run(hall, 1.02);
         hall.show(robot1, "9", 2);
         run(hall, 6);
@@ -107,7 +107,7 @@ TEST(Visitor, KeepsEightAnswersInMindAtMost) {
     Hall hall{plain_hall(), only(answering({{"*", "", "en", "I am sorry, I do not understand you at all.", "", false}})), 1};
     run(hall, 10);
     for (int i = 0; i < 20; ++i) {
-        hall.speak(robot1, {"Quick.", "en", 0.5, 0.1, {}, {}});
+        hall.speak(robot1, said("Quick.", 0.5, 0.1));
         run(hall, 0.12);
     }
     run(hall, 60);
@@ -118,11 +118,11 @@ TEST(Visitor, KeepsEightAnswersInMindAtMost) {
 TEST(Visitor, DoesNotAnswerALowVoiceOrOneThatIsBrokenOff) {
     Hall hall{plain_hall(), only(answering({{"*", "", "en", "Yes?", "", false}})), 1};
     run(hall, 10);
-    hall.speak(robot1, {"Hello.", "en", 0.02, {}, {}, {}});
+    hall.speak(robot1, said("Hello.", 0.02));
     run(hall, 4);
-    auto const said = hall.speak(robot1, {"Hello.", "en", 0.5, 5.0, {}, {}});
+    auto const speech = hall.speak(robot1, said("Hello.", 0.5, 5.0));
     run(hall, 1);
-    hall.break_off(robot1, said);
+    hall.break_off(robot1, speech);
     run(hall, 4);
     EXPECT_TRUE(of_people(hall, Kind::speech_started).empty());
 }
@@ -132,7 +132,7 @@ TEST(Visitor, DoesNotAnswerAnIgnoredRobot) {
     role.actions.insert(role.actions.begin() + 2, {Ignore{}, {}});
     Hall hall{plain_hall(), only(role), 1};
     run(hall, 10);
-    hall.speak(robot1, {"Hello.", "en", 0.5, {}, {}, {}});
+    hall.speak(robot1, said("Hello."));
     run(hall, 4);
     EXPECT_TRUE(of_people(hall, Kind::speech_started).empty());
 }
@@ -152,7 +152,7 @@ TEST(Visitor, WaitsOnTheWayForARobotThatComesUp) {
     Hall hall{plain_hall(), only(tanaka({{Wander{120}, {}}})), 3};
     run(hall, 4);
     PersonId const id = hall.people()[0].id;
-    auto const follow = hall.drive(robot1).begin("follow", KeepDistance{id, 1.0});
+    auto const follow = hall.drive(robot1).begin("follow", KeepDistance{entity_id(id), 1.0});
     EXPECT_TRUE(runs_until(hall, 60,
                            [&] {
                                Person const* person = hall.person(id);

@@ -1,0 +1,152 @@
+// Base classes of a robot's components: continuous functions run until they are stopped (detection, localization, recognition);
+// actions end by themselves (navigation, speech).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "basic/body/body.hpp"
+#include "basic/body/wire_units.hpp"
+#include "engine/component.hpp"
+#include "media/media.hpp"
+
+namespace rois::basic {
+
+// The robot that a component acts on, and its description.
+struct Context {
+    std::shared_ptr<Body> body;
+    ComponentDescription description;
+    std::shared_ptr<media::Media> media;  // null without a media server
+};
+
+// Declares that this parameter takes positions (decision 27).
+Context with_position_parameter(Context, std::string parameter);
+
+// Declares that this parameter takes identifiers from these codebooks. The first codebook is the default.
+Context with_identifier_parameter(Context, std::string parameter, std::vector<std::string_view> const& codebooks);
+
+// Declares that the component moves the robot or a part of it (decision 33).
+Context with_motion(Context);
+
+// Makes the context of the body's component with this ref.
+Context make_context(std::shared_ptr<Body>, std::shared_ptr<media::Media>, std::string ref,
+                     std::shared_ptr<ComponentProfile const>);
+
+// Observes its body. Its status is UNINITIALIZED before the first observation.
+class RobotComponent : public Component, private Observer {
+public:
+    explicit RobotComponent(Context);
+    ~RobotComponent() override;
+    RobotComponent(RobotComponent const&) = delete;
+    RobotComponent& operator=(RobotComponent const&) = delete;
+
+    ComponentDescription const& description() const final { return context_.description; }
+    void attach(ComponentPort&) final;
+    ComponentStatus status() const final;
+    std::optional<Located> location() const final;
+    std::optional<std::string> refusal(std::string_view command_type, ParameterList const&) const final;
+
+protected:
+    Body& body() const { return *context_.body; }
+    Perception const& perception() const { return body().perception(); }
+    media::Media& media() const { return *context_.media; }
+    ComponentPort& port() { return *port_; }
+    std::optional<Instant> const& last_step() const { return last_step_; }
+    WorldTime step_length() const { return step_length_; }  // world time between the last two observations
+
+    Located located_entity(std::string of, std::string ref, Pose const&, Metres height,
+                           std::optional<Covariance> const& covariance) const;
+    // Reads a position or the name of a place. Returns nothing if the text is neither.
+    std::optional<Target> target(std::string_view text) const;
+    // Returns an error if one of the values is not a valid target, else nothing.
+    std::optional<std::string> not_targets(Parameter const&) const;
+
+    // Called after every observation: first watch(), also while the component is inactive, then on_step().
+    virtual void watch(Instant) {}
+    virtual void on_step(Instant when) = 0;
+    void time_passed(Instant) override {}
+    // The status after the first step: READY or WARNING.
+    virtual ComponentStatus running_status() const { return ComponentStatus::ready; }
+
+    // Return an error for an invalid value, or for parameters with which `start` is impossible; nothing if valid. The values have
+    // been validated against their data types.
+    virtual std::optional<std::string> parameter_problem(ParameterList const&) const { return {}; }
+    virtual std::optional<std::string> start_problem(ParameterList const&) const { return {}; }
+    // Returns an error if a command of the profile is impossible with these arguments.
+    virtual std::optional<std::string> command_problem(std::string_view, ParameterList const&) const { return {}; }
+
+private:
+    void observe(Instant when) final;
+
+    Context context_;
+    ComponentPort* port_ = nullptr;
+    std::optional<Instant> last_step_;
+    WorldTime observed_{};  // the world time of the last observation
+    WorldTime step_length_{};
+};
+
+// Active from `start` until `stop`.
+class ContinuousFunction : public RobotComponent {
+public:
+    using RobotComponent::RobotComponent;
+
+    void start(CommandHandle, ParameterList const&, Instant now) final;
+    Halted halt(Instant now) final;
+    void suspend(Instant now) final;
+    void resume(Instant now) final;
+    void parameters_changed(ParameterList const&, Instant now) final;
+
+protected:
+    // Resets the reports: everything sensed from now on counts as new.
+    virtual void begin() = 0;
+    // Applies new parameters; called before begin(), and on changes while active.
+    virtual void apply(ParameterList const&) {}
+    // Called after each step while active and not suspended.
+    virtual void sense(Instant when) = 0;
+    virtual void suspended() {}
+    virtual void resumed() {}
+
+private:
+    void on_step(Instant when) final;
+
+    enum class State : std::uint8_t { idle, active, suspended } state_ = State::idle;
+};
+
+// Runs from `start` to its end. elapsed() counts world time, except while suspended. New parameters apply from the next start.
+class Action : public RobotComponent {
+public:
+    using RobotComponent::RobotComponent;
+
+    void start(CommandHandle, ParameterList const&, Instant now) final;
+    Halted halt(Instant now) final;
+    void suspend(Instant now) final;
+    void resume(Instant now) final;
+
+protected:
+    // May end the action at once.
+    virtual void begin(ParameterList const&) = 0;
+    // Called after each step while running and not suspended.
+    virtual void act() = 0;
+    // Ends the motion, suspends it, resumes it.
+    virtual void stop() = 0;
+    virtual void hold() = 0;
+    virtual void go_on() = 0;
+    // Whether all motion has ended after stop(). Only then is `halt` confirmed.
+    virtual bool has_stopped() const { return true; }
+
+    // Completes the command. The action must have been stopped or stop by itself. `reason` explains a status other than OK.
+    void end(CompletedStatus, std::string reason = {});
+    WorldTime elapsed() const { return elapsed_; }
+
+private:
+    void on_step(Instant when) final;
+
+    std::optional<CommandHandle> command_;
+    bool suspended_ = false;
+    bool halting_ = false;  // the engine waits for halted()
+    WorldTime elapsed_{};
+};
+
+}  // namespace rois::basic
