@@ -21,7 +21,8 @@ Identifier ref_of(std::string const& code) { return {code, {}, {}, {}}; }
 
 constexpr auto between_looks = std::chrono::seconds{1};  // interval of the checks of the session file
 
-// Returns the next update before `until`. Returns nothing also if other commands no longer find this process by the session file.
+// Returns the next update, or nothing after `until`, after a signal, when the connection has closed, or when the session file no
+// longer leads to this process.
 std::optional<Update> next(Context& context, Until until) {
     auto& session = context.session();
     if (!context.holds_session_file()) return session.next_update(until);

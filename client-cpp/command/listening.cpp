@@ -100,8 +100,8 @@ namespace {
 void end_in_time(Options const& options, std::size_t events) {
     if (options.count)
         throw Trouble{Exit::timeout, "only " + std::to_string(events) + " of " + std::to_string(*options.count) +
-                                         " events came in the time of --for"};
-    if (events == 0) remark("no event came in the time of --for");
+                                         " events arrived within the time of --for"};
+    if (events == 0) remark("no event arrived within the time of --for");
 }
 
 // Returns the sequence of the last notification of the shared session; 0 if there is none.

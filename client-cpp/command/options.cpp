@@ -344,7 +344,7 @@ void check_without_session(CLI::App const& app, Options const& options) {
         without_effect.emplace_back("--session-file");  // stop-all and clear find the gateway with it
     for (auto const& name : without_effect)
         if (app.get_option(name)->count() > 0)
-            throw Trouble{Exit::usage, options.command + " needs no session: " + name + " has no meaning; leave it out"};
+            throw Trouble{Exit::usage, options.command + " needs no session: " + name + " has no effect here; remove it"};
 }
 
 // Takes options that are not on the command line from variables. Unlike CLI11's envname, this does not change the counts of the
@@ -370,8 +370,10 @@ void check_empty(CLI::App const& app) {
 }
 
 void check(Options const& options, Raw const& raw) {
-    if (!options.where.empty() && !raw.condition.empty()) throw Trouble{Exit::usage, "the condition is given twice"};
-    if (!options.condition_file.empty() && !raw.condition.empty()) throw Trouble{Exit::usage, "the condition is given twice"};
+    if (!options.where.empty() && !raw.condition.empty())
+        throw Trouble{Exit::usage, "the condition is given twice: use either the argument or --where"};
+    if (!options.condition_file.empty() && !raw.condition.empty())
+        throw Trouble{Exit::usage, "the condition is given twice: use either the argument or --condition"};
     if (options.command == "release" && options.session.empty())
         throw Trouble{Exit::usage,
                       "release needs a session: --session (ROIS_SESSION) with the id that rois bind prints, or --session-file "

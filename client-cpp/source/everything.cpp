@@ -87,7 +87,8 @@ StopState post(Settings const& settings, std::string_view path, std::string cons
     if (!asked.answer) throw Error{ReturnCode::error, what + ": " + asked.trouble};
     auto const status = asked.answer->result_int();
     if (status != 200)
-        throw Error{ReturnCode::error, what + ": " + asked.target.authority + " answers with " + std::to_string(status)};
+        throw Error{ReturnCode::error,
+                    what + ": " + asked.target.authority + " answers with HTTP status " + std::to_string(status)};
     auto state = xml::AnswerReader{}.read_stop_state(asked.answer->body());
     if (!state)
         throw Error{ReturnCode::error, what + ": the answer of " + asked.target.authority + " is not a stop_state document"};

@@ -20,7 +20,7 @@ class Channel {
 public:
     explicit Channel(Content content) : content_{std::move(content)} {}
 
-    // --- Any thread ---
+    // --- Thread-safe ---
     Content const& content() const { return content_; }
     void hold() { held_ = true; }
     void go_on() { held_ = false; }

@@ -19,8 +19,8 @@ constexpr std::size_t negligible = 1024;  // bytes of a document; most requests 
 
 Fault beyond(std::uint64_t after, std::uint64_t last) {
     return {FaultCode::not_well_formed,
-            "the position " + std::to_string(after) +
-                " is above the last sequence that was given out in this session: expected " + std::to_string(last) + " at most",
+            "the position " + std::to_string(after) + " is higher than the last sequence of this session: expected at most " +
+                std::to_string(last),
             {},
             {}};
 }
@@ -138,7 +138,10 @@ Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std
     auto const& request = std::get<Request>(read);
     auto const* const resume = std::get_if<Resume>(&request.operation);
     if (resume && via == Via::http) {
-        refuse({FaultCode::not_allowed, "resume is for WebSockets; over HTTP read on with after=N or Last-Event-ID", {}, {}},
+        refuse({FaultCode::not_allowed,
+                "resume works only on a WebSocket; over HTTP, pass after=N or Last-Event-ID to /rois/notifications",
+                {},
+                {}},
                request.request_id);
         return answer;
     }
@@ -164,7 +167,10 @@ MemoryBudget::Room Gateway::room_for(std::string_view text) {
 Fault Gateway::fault_of(Refusal refusal) {
     switch (refusal) {
         case Refusal::too_many_sessions:
-            return {FaultCode::too_many, "too many sessions are open", {}, {}};
+            return {FaultCode::too_many,
+                    "too many sessions are open, and none is idle: try again later; the key max_sessions sets the limit",
+                    {},
+                    {}};
         case Refusal::no_memory:
             return {FaultCode::too_many, memory_.refuse("there is no memory for a new session"), {}, {}};
         case Refusal::shutting_down:
@@ -218,7 +224,7 @@ std::optional<Fault> Gateway::refusal_of(Opener const& opener) {
     return {};
 }
 
-// A session that was opened over HTTP has been heard from (decision 2).
+// Starts the idle time of a session that was just opened over HTTP: its `connect` counts as a sign of life (decision 2).
 void Gateway::heard_from_opened(std::variant<Reply, Refusal> const& handled, Instant now) {
     auto const* reply = std::get_if<Reply>(&handled);
     auto const* connected = reply == nullptr ? nullptr : std::get_if<Connect::Reply>(reply);

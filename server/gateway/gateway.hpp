@@ -87,8 +87,8 @@ Fault shutting_down();
 // The fault for a document that does not fit into memory.
 Fault no_memory_for_document(MemoryBudget&);
 
-// The document of a notification (wire.md). Only the sequence differs between sessions. The text before and behind it is encoded
-// once, shared by all receivers, and lives as long as the notification.
+// The document of a notification (docs/clients.md). Only the sequence differs between sessions. The text before and behind it is
+// encoded once, shared by all receivers, and lives as long as the notification.
 class NotificationDocument {
 public:
     explicit NotificationDocument(Numbered const&);

@@ -1,6 +1,6 @@
 // Names of hosts and origins of web pages, to reject the requests of other sites' pages. A browser on this machine or in its
 // network may show such a page. The page can send requests under a name of its own site that points to this machine (DNS
-// rebinding), or across sites with scripts, forms, frames and WebSockets. Any thread.
+// rebinding), or across sites with scripts, forms, frames and WebSockets. Thread-safe.
 #pragma once
 
 #include <optional>

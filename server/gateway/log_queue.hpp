@@ -18,7 +18,7 @@
 
 namespace rois {
 
-// A sink of spdlog. Any thread.
+// A sink of spdlog. Thread-safe.
 class LogQueue : public spdlog::sinks::sink {
 public:
     struct Limits {

@@ -7,7 +7,7 @@
 
 namespace rois {
 
-// Returns the bytes in physical memory, or 0 if the system does not report them. Any thread.
+// Returns the bytes in physical memory, or 0 if the system does not report them. Thread-safe.
 std::size_t resident_bytes();
 
 // The same, for the memory budget: 0 under a sanitizer, whose own memory is many times the program's.

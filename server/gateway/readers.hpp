@@ -22,10 +22,10 @@ public:
     Reader(Reader const&) = delete;
     Reader& operator=(Reader const&) = delete;
 
-    // Any thread may call these functions. They queue the reader for its own thread.
-    // There may be notifications, or another reader of the session has left. Does nothing while the reader is being destroyed.
+    // Thread-safe: both functions queue the reader on its own loop. They do nothing while the reader is being destroyed.
+    // Call `wake` when there may be notifications, or when another reader of the session has left.
     void wake() noexcept;
-    // Another WebSocket has taken over the session.
+    // Call `take_over` when another WebSocket has taken over the session.
     void take_over() noexcept;
 
 protected:

@@ -1,4 +1,4 @@
-// Random names and hashes. Any thread.
+// Random names and hashes. Thread-safe.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Counts events of the gateway for /metrics. Counting is lock-free; any thread.
+// Counts events of the gateway for /metrics. Counting is thread-safe and lock-free.
 #pragma once
 
 #include <algorithm>

@@ -13,7 +13,7 @@
 namespace rois {
 
 // Logs and counts exceptions. All exceptions within 0.1 s are one incident. At the third incident within a second it gives the
-// gateway up. Exceptions of one connection do not count as incidents: they end that connection. Any thread.
+// gateway up. Exceptions of one connection do not count as incidents: they end that connection. Thread-safe.
 class Troubles {
 public:
     using Where = Telemetry::Where;

@@ -17,17 +17,17 @@ class Reader;
 // Belongs to a loop, which outlives all of its readers.
 class Wakes {
 public:
-    // `request_turn` makes the loop call `serve` soon, on its own thread. Any thread calls it; it may throw.
+    // `request_turn` makes the loop call `serve` soon, on its own thread. It must be thread-safe, and may throw.
     Wakes(std::function<void()> request_turn, Troubles& troubles) : request_turn_{std::move(request_turn)}, troubles_{troubles} {}
 
     // Each reader calls these when it begins and ends, on the loop's thread. They reserve room, so that `add` cannot fail.
     void enter();
     void leave();
 
-    // The loop's thread will call `Reader::woken`. Any thread.
+    // Thread-safe. The loop's thread will call `Reader::woken`.
     void add(std::shared_ptr<Reader>) noexcept;
 
-    // Serves some of the readers, and requests another turn if more wait. The loop's thread.
+    // Serves some of the readers, and requests another turn if more wait. Call it on the loop's thread.
     void serve();
 
     // Requests again a turn that could not be requested because memory was missing. Call it regularly, on the loop's thread.

@@ -72,7 +72,8 @@ std::vector<std::unique_ptr<Component>> UserComponents::components(ProfileFile c
         for (auto const& component : made) {
             auto const& ref = component->description().ref.code;
             if (taken.insert(ref).second) continue;
-            spdlog::warn("profiles: {}: no component is made, because the ref {} is taken", file.name, ref);
+            spdlog::warn("profiles: {}: ref {} is used by another component; no component was made: choose another ref",
+                         file.name, ref);
             return {};
         }
         return made;

@@ -31,7 +31,7 @@ public:
 
     // Runs until `close`.
     Task<> accept();
-    // Any thread.
+    // Thread-safe.
     void close();
 
 private:

@@ -42,7 +42,7 @@ public:
     // Runs until `shut_down` was called and the last connection has ended. Survives every exception.
     void run();
 
-    // Any thread. Cuts the remaining connections after `within`.
+    // Thread-safe. Cuts the remaining connections after `within`.
     void shut_down(std::chrono::milliseconds within);
 
     // The loop's own thread calls the functions below.

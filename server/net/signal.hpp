@@ -15,7 +15,7 @@ class Signal : public Reader {
 public:
     Signal(Executor const& executor, Wakes& wakes) : Reader{wakes}, timer_{executor} {}
 
-    // The loop's thread calls these functions.
+    // Call these functions on the loop's thread.
     void raise() {
         raised_ = true;
         timer_.cancel();

@@ -128,7 +128,7 @@ Task<> Wire::linger(Steady until) {
 void Wire::sweep(Steady now) {
     probe(watching_ && watching_->is_proof(now));
     if (now >= output_due_) {
-        spdlog::warn("a connection was cut: its peer read nothing for {} s",
+        spdlog::warn("connection cut: the client has not read for {} s (write_timeout)",
                      std::chrono::duration<double>(write_timeout_).count());
         telemetry_.cut();
         cut();

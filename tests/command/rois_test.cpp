@@ -214,11 +214,12 @@ TEST_F(Rois, ListsTheAlternativesToAnUnknownName) {
 TEST_F(Rois, RemarksOnAnEmptyResult) {
     for (std::string const form : {"--json", "--xml"}) {
         expect(0, "no component meets the condition; the engine has ", {"search", form, "name = elevator"});
-        expect(0, "no event came in the time of --for", {"watch", form, "gesture_recognized", "--for", "0"});
+        expect(0, "no event arrived within the time of --for", {"watch", form, "gesture_recognized", "--for", "0"});
     }
     expect(4, "; person_detection has no parameters", {"get", "person_detection"});
-    expect(0, "no event came in the time of --for", {"watch", "gesture_recognized", "--for", "0"});
-    expect(6, "only 0 of 3 events came in the time of --for", {"watch", "gesture_recognized", "--count", "3", "--for", "0"});
+    expect(0, "no event arrived within the time of --for", {"watch", "gesture_recognized", "--for", "0"});
+    expect(6, "only 0 of 3 events arrived within the time of --for",
+           {"watch", "gesture_recognized", "--count", "3", "--for", "0"});
 }
 
 TEST_F(Rois, EndsItsSessionWhenTwoSignalsArriveAtOnce) {
@@ -315,6 +316,11 @@ TEST_F(Rois, RejectsEmptyValues) {
     EXPECT_EQ(run_rois({"search", "--token", ""}, {}, {{"ROIS_URL", shared_gateway().url()}, {"ROIS_TOKEN", "t"}}).exit_code, 0);
 }
 
+TEST_F(Rois, RejectsAConditionThatIsGivenTwice) {
+    expect(2, "use either the argument or --where", {"search", "type = Move", "--where", "type = Move"});
+    expect(2, "use either the argument or --condition", {"search", "type = Move", "--condition", "move.xml"});
+}
+
 TEST_F(Rois, SendsAnyDocumentAndUnderlinesItsError) {
     auto const good = file_with("good.xml", "<search " + std::string{messages} + "/>");
     EXPECT_THAT(run({"send", good}).out, AllOf(StartsWith("<search_response"), HasSubstr("\n    <component_ref ")));
@@ -356,11 +362,11 @@ TEST_F(Rois, ReportsWhetherTheEngineIsReady) {
 TEST_F(Rois, RefusesOptionsOfSessionsWhereItNeedsNone) {
     for (std::string const command : {"health", "stop-all", "clear"}) {
         auto const refusal = command + " needs no session: ";
-        expect(2, refusal + "--session has no meaning", {command, "--session", "s"});
-        expect(2, refusal + "--http has no meaning", {"--http", command});
-        expect(2, refusal + "--record has no meaning", {command, "--record", file_named("recording")});
+        expect(2, refusal + "--session has no effect here", {command, "--session", "s"});
+        expect(2, refusal + "--http has no effect here", {"--http", command});
+        expect(2, refusal + "--record has no effect here", {command, "--record", file_named("recording")});
     }
-    expect(2, "health needs no session: --session-file has no meaning", {"health", "--session-file", file_named("session")});
+    expect(2, "health needs no session: --session-file has no effect here", {"health", "--session-file", file_named("session")});
     Variables const of_others{
         {"ROIS_URL", shared_gateway().url()}, {"ROIS_SESSION", "s"}, {"ROIS_SESSION_FILE", file_named("session")}};
     EXPECT_EQ(run_rois({"health"}, {}, of_others).out, "healthy\n");

@@ -59,7 +59,7 @@ TEST_F(Rois, ReportsEachTransitionOfAScenario) {
 
 TEST_F(Rois, ChecksAScenarioAndItsVariables) {
     auto const file = scenario_with("<state name='a'/><end name='b'/>");
-    expect(2, file + ":4:1: nothing leads out of this state", {"scenario", "--check", file});
+    expect(2, file + ":4:1: this state has no trigger", {"scenario", "--check", file});
     EXPECT_EQ(run({"scenario", "--check", reception}).out, "scenario ok\n");
     expect(2, "no variable 'guests'", {"scenario", reception, "guests=2"});
     expect(2, "robot_scenario", {"scenario", ROIS_SOURCE_DIR "/tests/server/data/one_visitor.xml"});

@@ -38,16 +38,16 @@ std::string written(pugi::xml_node node) {
 }  // namespace
 
 Traffic::Traffic()
-    : rules_{{"documents_are_valid", "wire.md; schemas"},
-             {"answers_belong_to_their_requests", "wire.md: names, request_id"},
-             {"refusals_give_a_reason", "table 1; wire.md"},
+    : rules_{{"documents_are_valid", "docs/clients.md; schemas"},
+             {"answers_belong_to_their_requests", "docs/clients.md"},
+             {"refusals_give_a_reason", "table 1; docs/clients.md"},
              {"notifications_are_counted_without_gaps", "decision 22"},
              {"answers_come_before_what_they_cause", "figures 9, 10; decision 22"},
              {"commands_complete_once", "figure 10; decision 12"},
              {"events_are_those_that_were_subscribed", "figure 13; table 6"},
              {"an_event_id_names_one_event", "table 6; decisions 20, 21"},
              {"events_expire_in_the_future", "table 6; decision 21"},
-             {"located_elements_say_what_texts_say", "decision 27; wire.md"},
+             {"located_elements_say_what_texts_say", "decision 27; docs/frames.md"},
              {"times_are_utc", "table 6; decision 28"},
              {"nothing_is_sent_outside_of_a_session", "figure 6; decision 3"},
              {"errors_have_details", "figure 7; tables 6, 7; decision 24"}},

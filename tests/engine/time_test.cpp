@@ -1,4 +1,4 @@
-// If the clock jumps by a day, no deadline is early or late (bad-input.md), and documents have the new time.
+// If the clock jumps by a day, no deadline is early or late, and documents have the new time.
 #include "engine/world.hpp"
 
 namespace rois {

@@ -38,7 +38,7 @@ private:
     // Repeats the long poll until it returns a notification, or the patience is over.
     HttpReply poll() {
         using Clock = std::chrono::steady_clock;
-        constexpr std::chrono::seconds longest{30};  // long poll (wire.md, endpoints)
+        constexpr std::chrono::seconds longest{30};  // long poll (docs/clients.md)
         constexpr std::chrono::milliseconds imprecision{500};
         auto const patience = std::max(std::chrono::ceil<std::chrono::seconds>(patience_), std::chrono::seconds{1});
         auto const end = Clock::now() + patience;

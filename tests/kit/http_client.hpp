@@ -19,7 +19,7 @@ struct HttpReply {
     Headers headers;
     std::string body;
 
-    pugi::xml_node root() const;      // of the body's document, in the names of wire.md
+    pugi::xml_node root() const;      // of the body's document, with known prefixes (names.hpp)
     std::string fault() const;        // the code if the body is a fault, else empty
     std::string reason() const;       // of a fault or an answer
     std::string return_code() const;  // of an answer

@@ -21,7 +21,7 @@ std::string joined(std::string_view prefix, std::string_view name) {
     return prefix.empty() ? std::string{name} : std::string{prefix} + ":" + std::string{name};
 }
 
-// Returns a name like "r:name" with the prefix of wire.md.
+// Returns a name like "r:name" with the known prefix of its namespace.
 std::string known_name(std::string_view name, Scope const& scope) {
     auto const colon = name.find(':');
     auto const prefix = colon == name.npos ? std::string_view{} : name.substr(0, colon);

@@ -1,4 +1,4 @@
-// Reads documents of a gateway and writes documents of applications, with the names of wire.md.
+// Reads documents of a gateway and writes documents of applications, with known prefixes (names.hpp).
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@ namespace rois::kit {
 
 using Values = std::map<std::string, std::vector<std::string>>;  // of results or parameters, by name
 
-// An answer, a notification or a fault, with the names of wire.md.
+// An answer, a notification or a fault, with known prefixes (names.hpp).
 class Document {
 public:
     explicit Document(std::string const& text);

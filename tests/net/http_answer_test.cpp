@@ -57,7 +57,6 @@ TEST(HttpAnswer, ThatIsNotModifiedHasNeitherBodyNorLength) {
     EXPECT_THAT(text, EndsWith("\r\n\r\n"));
 }
 
-// wire.md lists the statuses.
 TEST(HttpAnswer, HasTheStatusOfItsFault) {
     auto const line = [](FaultCode code) {
         auto const text = written(answer_of({code, "why", {}, {}}));

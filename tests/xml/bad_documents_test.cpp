@@ -1,4 +1,4 @@
-// The documents of bad-input.md, one by one.
+// Invalid documents, one test for each kind.
 #include <gmock/gmock.h>
 
 #include <pugixml.hpp>

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <pugixml.hpp>
 #include <sstream>
 #include <variant>
@@ -39,7 +40,7 @@ void Printer::write(std::string const& text) {
     bool const written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
     if (written) return;
     if (errno == EPIPE) throw Trouble{Exit::interrupted, ""};  // the reader has ended, as in `rois watch | head -1`
-    throw Trouble{Exit::usage, "standard output cannot be written"};
+    throw Trouble{Exit::usage, std::string{"cannot write to standard output: "} + std::strerror(errno)};
 }
 
 void Printer::text(std::string_view text) { write(std::string{text}); }

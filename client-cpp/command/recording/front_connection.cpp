@@ -127,7 +127,7 @@ asio::awaitable<std::string> Front::Connection::answer_of(std::string document, 
     }
     auto const* const resume = request != nullptr ? std::get_if<Resume>(&request->operation) : nullptr;
     if (resume != nullptr && !on_websocket)
-        co_return xml::encode(Fault{FaultCode::not_allowed, "resume is for WebSockets", {}, request->request_id});
+        co_return xml::encode(Fault{FaultCode::not_allowed, "resume works only on a WebSocket", {}, request->request_id});
     if (resume != nullptr) {
         auto const found = host_.find(resume->session.text);
         if (!found) co_return xml::encode(no_such_session(request->request_id));

@@ -39,7 +39,7 @@ public:
         for (auto const& element : root.children()) {
             if (element.name() != "state" && element.name() != "end") continue;
             auto const name = element.token("name", "");
-            if (scenario_.states.contains(name)) throw element.complain("a second state " + rois::quoted(name));
+            if (scenario_.states.contains(name)) throw element.complain("duplicate state " + rois::quoted(name));
             scenario_.states.emplace(name, ScenarioState{});  // all names first, so that triggers can be checked
         }
         check_state(root, scenario_.start);
@@ -53,17 +53,18 @@ public:
 private:
     void component(xml::Element const& element) {
         ScenarioComponent read{element.token("name", ""), element.token("ref", ""), element.token("type", "")};
-        if (!read.ref.empty() && !read.type.empty()) throw element.complain("a component has one of 'ref' and 'type'");
+        if (!read.ref.empty() && !read.type.empty())
+            throw element.complain("a component has both 'ref' and 'type': give only one of them");
         if (read.ref.empty() && read.type.empty()) read.ref = read.name;
         if (std::ranges::find(scenario_.components, read.name, &ScenarioComponent::name) != scenario_.components.end())
-            throw element.complain("a second component " + rois::quoted(read.name));
+            throw element.complain("duplicate component " + rois::quoted(read.name));
         scenario_.components.push_back(std::move(read));
     }
 
     void variable(xml::Element const& element) {
         auto const name = element.token("name", "");
         if (!scenario_.variables.emplace(name, trimmed(element.text())).second)
-            throw element.complain("a second variable " + rois::quoted(name));
+            throw element.complain("duplicate variable " + rois::quoted(name));
     }
 
     ScenarioState state(xml::Element const& element) {
@@ -93,7 +94,7 @@ private:
     static void check_ways_out(xml::Element const& element, ScenarioState const& state) {
         if (state.is_end) return;
         if (state.triggers.empty())
-            throw element.complain("nothing leads out of this state: expected a trigger, or the element end");
+            throw element.complain("this state has no trigger: add one, or use the element 'end' instead of 'state'");
         for (auto const& trigger : state.triggers) {
             if (trigger.kind == Trigger::Kind::completed && state.commands.empty())
                 throw element.complain("this state waits for the end of its commands, and has none");
@@ -156,7 +157,7 @@ private:
                         element.number("apart", 0)};
         if (take.not_in.empty() && element.attribute("apart")) throw element.complain("'apart' needs 'not_in'");
         if (take.beside.empty() == element.attribute("is").has_value())
-            throw element.complain("'beside' and 'is' belong together");
+            throw element.complain("'beside' needs 'is', and 'is' needs 'beside'");
         return take;
     }
 
@@ -173,7 +174,7 @@ private:
         if (read.relation == in || read.relation == not_in) known_variable(element, read.operand);
         if (read.relation == empty && !is_true(read.operand)) read.relation = not_empty;
         if ((read.relation == near) != element.attribute("within").has_value())
-            throw element.complain("'near' and 'within' belong together");
+            throw element.complain("'near' needs 'within', and 'within' needs 'near'");
         read.within = element.number("within", 0);
         return read;
     }

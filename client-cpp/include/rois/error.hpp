@@ -10,7 +10,8 @@
 
 namespace rois {
 
-// Why a call has no answer. With `deadline`, `session_lost` and `link_lost`, the engine may have run the operation or not.
+// Why a call has no answer. With `deadline`, `session_lost` and `link_lost`, the engine may or may not have performed
+// the operation.
 struct NoAnswer {
     enum class Why : std::uint8_t {
         deadline,        // the deadline has passed

@@ -161,7 +161,7 @@ struct Line {
 // Drives along a circle until the heading has changed by `direction`.
 struct Curve {
     millimetres radius{};  // backwards when negative; 0 turns on the spot
-    degrees direction{};   // to the left, around a centre on the left, when positive
+    degrees direction{};   // positive: a left turn, with the centre on the left (on the right if `radius` is negative)
 };
 
 //     co_await move.set(MoveParameters().with_line(Line{1_m, 90_deg}).with_time(2s));

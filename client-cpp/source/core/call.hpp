@@ -14,7 +14,8 @@
 
 namespace rois::client {
 
-// The link broke after the request was sent, and the session was resumed: the engine may have run the operation or not.
+// The link broke after the request was sent, and the session was resumed: the engine may or may not have performed the
+// operation.
 struct Interrupted {};
 
 // The deadline of a call: its length and its end.

@@ -14,8 +14,8 @@ namespace {
 using Box2 = Eigen::AlignedBox2d;
 
 constexpr Metres cell_size = 0.125;
-constexpr Metres wall_room = 0.04;    // kept to walls if there is room
-constexpr Metres bend_room = 0.06;    // the same at the ends of walls and corners of desks, which paths pass in a bend
+constexpr Metres wall_room = 0.04;    // distance kept to walls if there is room
+constexpr Metres bend_room = 0.06;    // distance kept to wall ends and desk corners, where paths bend
 constexpr Metres start_search = 0.8;  // maximum distance of a free cell from a blocked start or end
 
 struct Direction {

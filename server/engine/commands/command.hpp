@@ -37,7 +37,7 @@ struct Command {
     std::string reason;  // why the status is not OK, for people; may be empty
     Steady ended_at;
 
-    // The steps of ending it. Each step is done once. A later tick repeats a step that failed.
+    // The steps that end the command, each done once. If one fails, a later tick repeats it.
     bool reported = false;  // the journal and the session were notified
     bool kept = false;      // the result is among the session's results
     bool finished = false;  // no step is left

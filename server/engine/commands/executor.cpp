@@ -135,11 +135,11 @@ void Executor::run_ready(Instant now) {
 void Executor::run(SharedCommand const& command, Instant now) {
     if (command->state != Command::State::waiting || command->given_up) return;
     if (command->binding_lost || command->component->bound_to != command->session)
-        return end(command, CompletedStatus::abort, "its component was released before its turn came", now);
+        return end(command, CompletedStatus::abort, "the component was released before the command's turn came", now);
     command->state = Command::State::running;
     journal_->command_begun(*command);
     if (command->component->moves() && begins_action(command->type) && !is_proven_alive(command->session, now))
-        return end(command, CompletedStatus::abort, "its application gave no sign of life before its turn came", now);
+        return end(command, CompletedStatus::abort, "the application gave no sign of life before the command's turn came", now);
     if (command->type == "set_parameter") return run_set_parameter(command, now);
     if (command->type == "start") return run_start(command, now);
     if (command->type == "stop") return run_stop(command, now);

@@ -22,8 +22,8 @@ public:
     // components, then the lowest code within its engine, then the lowest engine name.
     void order(std::vector<RegisteredComponent*>&) const;
 
-    // In a list that the condition has sorted, moves the components to the front whose engine has more components bound by the
-    // asker. The order is otherwise kept.
+    // Stable sort of a list that the condition has sorted: components of the engine with the most components bound by the asker
+    // come first.
     template <class List, class Projection = std::identity>
     void bring_forward(List& list, Projection component = {}) const {
         if (bound_.empty()) return;

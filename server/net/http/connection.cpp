@@ -308,7 +308,7 @@ void Connection::forget_out() {
 
 void Connection::cut_for_memory() {
     spdlog::warn("the connection of {} was cut: {}", wire_.peer(),
-                 loop_.shared().gateway.memory().refuse("there is no memory for a connection that waits"));
+                 loop_.shared().gateway.memory().refuse("no memory for a waiting connection"));
     loop_.shared().telemetry.cut();
     wire_.cut();
 }

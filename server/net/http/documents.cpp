@@ -7,6 +7,7 @@
 #include "net/http/http_answer.hpp"
 #include "net/http/http_head.hpp"
 #include "net/http/routes.hpp"
+#include "types/texts.hpp"
 
 namespace rois::net {
 
@@ -93,13 +94,13 @@ HttpAnswer Documents::engine_profile(RequestHead const& head) const {
 HttpAnswer Documents::component_profile(std::string const& ref, RequestHead const& head) const {
     auto const components = gateway_.components();
     auto const found = std::ranges::find(components, ref, &ComponentEntry::ref);
-    if (found == components.end()) return not_found("there is no such component; /rois/profile lists them");
+    if (found == components.end()) return not_found("unknown component " + quoted(ref) + "; /rois/profile lists the components");
     return versioned_xml(xml::encode(*found->profile, "profile." + ref), head);
 }
 
 HttpAnswer Documents::schema(std::string const& file, RequestHead const& head) const {
     auto const found = schemas_.find(file);
-    if (found == schemas_.end()) return not_found("there is no such schema; /rois/schemas lists them");
+    if (found == schemas_.end()) return not_found("unknown schema " + quoted(file) + "; /rois/schemas lists the schemas");
     return versioned_xml(std::string{found->second}, head);
 }
 
@@ -112,7 +113,8 @@ HttpAnswer Documents::floor_map(RequestHead const& head) const {
 HttpAnswer Documents::health() const {
     bool const ticks = telemetry_.age_of_last_tick(std::chrono::steady_clock::now()) <= longest_tick;
     return ticks ? plain(http::status::ok, "alive\n")
-                 : plain(http::status::service_unavailable, "the engine's clock stands still\n");
+                 : plain(http::status::service_unavailable,
+                         "the engine has not ticked for more than 0.5 s: a component blocks, or the process is overloaded\n");
 }
 
 HttpAnswer Documents::readiness() const {

@@ -1,4 +1,4 @@
-// GET /rois/notifications: server-sent events and long polls (wire.md).
+// GET /rois/notifications: server-sent events and long polls (docs/clients.md).
 #pragma once
 
 #include "gateway/gateway.hpp"

@@ -1,4 +1,4 @@
-// The endpoints, and the checks of a request before its body is read (wire.md).
+// The endpoints, and the checks of a request before its body is read (docs/clients.md).
 #pragma once
 
 #include <optional>

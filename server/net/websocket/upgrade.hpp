@@ -1,4 +1,4 @@
-// The opening handshake of a WebSocket (RFC 6455, 4.2), with the additional rules of wire.md.
+// The opening handshake of a WebSocket (RFC 6455, 4.2), with the additional rules of docs/clients.md.
 #pragma once
 
 #include "net/http/http_answer.hpp"

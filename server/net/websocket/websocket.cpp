@@ -276,7 +276,7 @@ void WebSocket::keep_unsent(std::string_view rest) {
     memory.took(rest.size());
     if (memory.full()) {
         spdlog::warn("the WebSocket of {} was cut: {}", wire_->peer(),
-                     memory.refuse("there is no memory for what it does not read"));
+                     memory.refuse("no memory for the data that the client does not read"));
         shared_.telemetry.cut();
         broken_ = true;
         wire_->cut();

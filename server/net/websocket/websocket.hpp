@@ -1,4 +1,4 @@
-// One WebSocket: requests, answers and notifications as text frames (wire.md). Belongs to one thread; always held by a
+// One WebSocket: requests, answers and notifications as text frames (docs/clients.md). Belongs to one thread; always held by a
 // shared_ptr.
 #pragma once
 

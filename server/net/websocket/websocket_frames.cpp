@@ -70,14 +70,14 @@ struct MessageReader::Head {
         if (bytes.size() < 2) return {};
         auto const at = [&](std::size_t i) { return static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[i])); };
         if (at(0) & 0x70) return error_of("a reserved bit is set");
-        if (!(at(1) & 0x80)) return error_of("a frame without a mask");
+        if (!(at(1) & 0x80)) return error_of("a frame of a client must be masked");
         auto const opcode = at(0) & 0x0F;
         if ((opcode > 2 && opcode < 8) || opcode > 10) return error_of("an unknown opcode");
         auto const length = at(1) & 0x7F;
         std::size_t const length_bytes = length == two_byte_length ? 2 : length == eight_byte_length ? 8 : 0;
         Head head{static_cast<Opcode>(opcode), (at(0) & 0x80) != 0, 2 + length_bytes + mask_size, length};
         if (head.is_control() && (!head.last || length_bytes > 0))
-            return error_of("a control frame in fragments or over 125 bytes");
+            return error_of("a control frame must have at most 125 bytes and must not be fragmented");
         if (bytes.size() < head.size) return {};
         if (length_bytes == 0) return head;
         head.payload = 0;
@@ -153,7 +153,7 @@ Received MessageReader::take_control(Head const& head, std::string_view payload)
     if (payload.empty()) return {Received::Kind::close, {}, CloseCode::normal};
     if (payload.size() == 1) return protocol_error("a close code of one byte");
     auto const code = static_cast<unsigned>(static_cast<unsigned char>(payload[0]) << 8 | static_cast<unsigned char>(payload[1]));
-    if (!may_be_sent(code)) return protocol_error("a close code that must not be sent");
+    if (!may_be_sent(code)) return protocol_error("this close code is not allowed in a close frame");
     if (!is_utf8(payload.substr(2))) return violation(CloseCode::invalid_payload, "not UTF-8");
     return {Received::Kind::close, {}, static_cast<CloseCode>(code)};
 }

@@ -1,4 +1,5 @@
-// The door of server/xml: encodes and decodes the messages of schemas/messages.xsd. Encoding is thread-safe; readers are not.
+// The main header of server/xml: encodes and decodes the messages of schemas/messages.xsd. Encoding is thread-safe; readers are
+// not.
 #pragma once
 
 #include <cstdint>

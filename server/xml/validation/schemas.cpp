@@ -107,7 +107,7 @@ void compile(NamedFiles const& files, xercesc::XMLGrammarPool& pool) {
         auto const source = given.source(name);
         complaints.compiling(name);
         if (reader.loadGrammar(*source, xercesc::Grammar::SchemaGrammarType, true) == nullptr) {
-            throw std::runtime_error(name + ": cannot be compiled");
+            throw std::runtime_error(name + ": the schema cannot be compiled, and xerces-c gave no reason");
         }
     };
     // Loads the files that no other file refers to; they load the others. Then loads files that refer to each other in a circle.

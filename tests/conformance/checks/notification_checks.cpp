@@ -1,4 +1,4 @@
-// How notifications reach an application over HTTP (wire.md, endpoints; decisions 22 and 23).
+// How notifications reach an application over HTTP (docs/clients.md; decisions 22 and 23).
 #include "conformance/stage.hpp"
 #include "kit/http_client.hpp"
 
@@ -110,12 +110,13 @@ void an_event_stream_gives_the_same(Stage& stage) {
 }  // namespace
 
 Clause notification_clause() {
-    return {"7.4.2.2 Service application base: notifications over HTTP",
-            {{"a_long_poll_gives_what_is_there", "table 6; decision 22; wire.md", a_long_poll_gives_what_is_there, Way::http},
-             {"reading_discards_nothing", "decision 23", reading_discards_nothing, Way::http},
-             {"a_long_poll_takes_numbers_only", "wire.md, endpoints", a_long_poll_takes_numbers_only, Way::http},
-             {"notifications_need_a_session", "figure 6; decision 1", notifications_need_a_session, Way::http},
-             {"an_event_stream_gives_the_same", "wire.md, endpoints", an_event_stream_gives_the_same, Way::http}}};
+    return {
+        "7.4.2.2 Service application base: notifications over HTTP",
+        {{"a_long_poll_gives_what_is_there", "table 6; decision 22; docs/clients.md", a_long_poll_gives_what_is_there, Way::http},
+         {"reading_discards_nothing", "decision 23", reading_discards_nothing, Way::http},
+         {"a_long_poll_takes_numbers_only", "docs/clients.md", a_long_poll_takes_numbers_only, Way::http},
+         {"notifications_need_a_session", "figure 6; decision 1", notifications_need_a_session, Way::http},
+         {"an_event_stream_gives_the_same", "docs/clients.md", an_event_stream_gives_the_same, Way::http}}};
 }
 
 }  // namespace rois::conformance

@@ -188,8 +188,8 @@ Clause profile_clause() {
              {"get_profile_chooses_by_condition", "table 2; decision 18", get_profile_chooses_by_condition},
              {"a_condition_that_cannot_be_read_is_refused", "tables 2 to 4; decisions 4, 18",
               a_condition_that_cannot_be_read_is_refused},
-             {"profiles_are_served_as_documents", "7.5; wire.md", profiles_are_served_as_documents, Way::http},
-             {"documents_are_told_apart_by_etag", "wire.md", documents_are_told_apart_by_etag, Way::http},
+             {"profiles_are_served_as_documents", "7.5; docs/clients.md", profiles_are_served_as_documents, Way::http},
+             {"documents_are_told_apart_by_etag", "docs/clients.md", documents_are_told_apart_by_etag, Way::http},
              {"profiles_name_data_types", "tables 24 to 28", profiles_name_data_types, Way::http},
              {"default_values_are_of_their_types", "tables 16, 27; decision 26", default_values_are_of_their_types, Way::http},
              {"details_of_an_unknown_error_are_refused", "figure 7; table 2", details_of_an_unknown_error_are_refused}}};

@@ -188,10 +188,10 @@ Clause session_clause() {
              {"disconnect_releases_components", "figure 6; decision 3", disconnect_releases_components},
              {"disconnect_stops_what_runs", "figure 6; decision 3", disconnect_stops_what_runs},
              {"nothing_is_heard_after_disconnect", "figure 6; decision 3", nothing_is_heard_after_disconnect},
-             {"an_unknown_session_is_refused", "decision 1; wire.md", an_unknown_session_is_refused, Way::http},
+             {"an_unknown_session_is_refused", "decision 1; docs/clients.md", an_unknown_session_is_refused, Way::http},
              {"connect_with_an_unknown_session_opens_a_new_one", "decision 3", connect_with_an_unknown_session_opens_a_new_one,
               Way::http},
-             {"resume_is_for_websockets", "wire.md", resume_is_for_websockets, Way::http},
+             {"resume_is_for_websockets", "docs/clients.md", resume_is_for_websockets, Way::http},
              {"a_session_can_be_resumed", "decision 2", a_session_can_be_resumed, Way::websocket},
              {"an_unknown_session_cannot_be_resumed", "decision 2", an_unknown_session_cannot_be_resumed, Way::websocket}}};
 }

@@ -1,4 +1,4 @@
-// The WebSocket as wire.md and RFC 6455 lay it down.
+// The rules of docs/clients.md and RFC 6455 for WebSockets.
 #include "conformance/stage.hpp"
 #include "kit/line.hpp"
 #include "kit/websocket_client.hpp"
@@ -105,17 +105,16 @@ void a_ping_is_answered(Stage& stage) {
 
 Clause websocket_clause() {
     auto const websocket = Way::websocket;
-    return {
-        "The wire: WebSocket",
-        {{"the_handshake_agrees_on_the_subprotocol", "wire.md, endpoints", the_handshake_agrees_on_the_subprotocol, websocket},
-         {"without_the_subprotocol_it_is_refused", "wire.md, endpoints", without_the_subprotocol_it_is_refused, websocket},
-         {"faults_leave_it_open", "wire.md, status codes", faults_leave_it_open, websocket},
-         {"requests_are_answered_in_order", "wire.md", requests_are_answered_in_order, websocket},
-         {"it_stays_open_after_disconnect", "decision 3", it_stays_open_after_disconnect, websocket},
-         {"its_session_can_be_used_over_http", "wire.md, endpoints", its_session_can_be_used_over_http, websocket},
-         {"resume_closes_the_older_one", "wire.md, endpoints", resume_closes_the_older_one, websocket},
-         {"protocol_errors_close_it", "wire.md, status codes", protocol_errors_close_it, websocket},
-         {"a_ping_is_answered", "RFC 6455", a_ping_is_answered, websocket}}};
+    return {"The wire: WebSocket",
+            {{"the_handshake_agrees_on_the_subprotocol", "docs/clients.md", the_handshake_agrees_on_the_subprotocol, websocket},
+             {"without_the_subprotocol_it_is_refused", "docs/clients.md", without_the_subprotocol_it_is_refused, websocket},
+             {"faults_leave_it_open", "docs/clients.md", faults_leave_it_open, websocket},
+             {"requests_are_answered_in_order", "docs/clients.md", requests_are_answered_in_order, websocket},
+             {"it_stays_open_after_disconnect", "decision 3", it_stays_open_after_disconnect, websocket},
+             {"its_session_can_be_used_over_http", "docs/clients.md", its_session_can_be_used_over_http, websocket},
+             {"resume_closes_the_older_one", "docs/clients.md", resume_closes_the_older_one, websocket},
+             {"protocol_errors_close_it", "docs/clients.md", protocol_errors_close_it, websocket},
+             {"a_ping_is_answered", "RFC 6455", a_ping_is_answered, websocket}}};
 }
 
 }  // namespace rois::conformance

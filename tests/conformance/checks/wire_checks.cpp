@@ -1,4 +1,4 @@
-// HTTP as in wire.md: status codes, faults and documents; documents that are not XML or invalid.
+// The rules of docs/clients.md for HTTP: status codes, faults and documents; documents that are not XML or invalid.
 #include "kit/http_client.hpp"
 
 #include <regex>
@@ -169,21 +169,21 @@ Clause wire_clause() {
     auto const http = Way::http;
     return {
         "The wire: HTTP",
-        {{"every_operation_is_answered_with_200", "wire.md, status codes", every_operation_is_answered_with_200, http},
-         {"documents_are_application_xml", "wire.md, endpoints", documents_are_application_xml, http},
-         {"what_is_not_well_formed_is_refused", "wire.md, status codes", what_is_not_well_formed_is_refused, http},
-         {"document_types_and_instructions_are_refused", "wire.md, faults", document_types_and_instructions_are_refused, http},
-         {"what_is_not_valid_is_refused_with_its_place", "wire.md, faults; schemas", what_is_not_valid_is_refused_with_its_place,
+        {{"every_operation_is_answered_with_200", "docs/clients.md", every_operation_is_answered_with_200, http},
+         {"documents_are_application_xml", "docs/clients.md", documents_are_application_xml, http},
+         {"what_is_not_well_formed_is_refused", "docs/clients.md", what_is_not_well_formed_is_refused, http},
+         {"document_types_and_instructions_are_refused", "docs/clients.md", document_types_and_instructions_are_refused, http},
+         {"what_is_not_valid_is_refused_with_its_place", "docs/clients.md; schemas", what_is_not_valid_is_refused_with_its_place,
           http},
-         {"a_fault_says_where", "wire.md, faults", a_fault_says_where, http},
-         {"other_content_types_are_refused", "wire.md, status codes", other_content_types_are_refused, http},
-         {"other_methods_are_refused", "wire.md, status codes", other_methods_are_refused, http},
-         {"unknown_paths_are_not_found", "wire.md, status codes", unknown_paths_are_not_found, http},
-         {"a_plain_get_is_asked_to_upgrade", "wire.md, endpoints", a_plain_get_is_asked_to_upgrade, http},
-         {"a_transfer_encoding_is_refused", "wire.md, status codes", a_transfer_encoding_is_refused, http},
-         {"broken_http_is_refused", "wire.md, status codes", broken_http_is_refused, http},
-         {"schemas_are_served", "wire.md, endpoints", schemas_are_served, http},
-         {"health_is_told", "wire.md, endpoints", health_is_told, http}}};
+         {"a_fault_says_where", "docs/clients.md", a_fault_says_where, http},
+         {"other_content_types_are_refused", "docs/clients.md", other_content_types_are_refused, http},
+         {"other_methods_are_refused", "docs/clients.md", other_methods_are_refused, http},
+         {"unknown_paths_are_not_found", "docs/clients.md", unknown_paths_are_not_found, http},
+         {"a_plain_get_is_asked_to_upgrade", "docs/clients.md", a_plain_get_is_asked_to_upgrade, http},
+         {"a_transfer_encoding_is_refused", "docs/clients.md", a_transfer_encoding_is_refused, http},
+         {"broken_http_is_refused", "docs/clients.md", broken_http_is_refused, http},
+         {"schemas_are_served", "docs/clients.md", schemas_are_served, http},
+         {"health_is_told", "docs/clients.md", health_is_told, http}}};
 }
 
 }  // namespace rois::conformance

@@ -1,4 +1,4 @@
-// Web pages of other sites must not use the gateway through a browser (wire.md: 421, 403).
+// Web pages of other sites must not use the gateway through a browser (docs/clients.md: 421, 403).
 #include "gateway/host_names.hpp"
 
 #include <gmock/gmock.h>

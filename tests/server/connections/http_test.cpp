@@ -1,4 +1,4 @@
-// HTTP: rejected requests, their status, and whether the connection stays open (wire.md, bad-input.md).
+// HTTP: rejected requests, their status, and whether the connection stays open (docs/clients.md).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -194,6 +194,8 @@ TEST(Http, AnswersUnknownPathsWith404) {
         EXPECT_EQ(reply.status, 404) << path;
         EXPECT_EQ(reply.fault(), "not_found") << path;
     }
+    EXPECT_EQ(client.get("/rois/profile/nobody").reason(), "unknown component 'nobody'; /rois/profile lists the components");
+    EXPECT_EQ(client.get("/rois/schemas/x%0ay.xsd").reason(), "unknown schema 'x y.xsd'; /rois/schemas lists the schemas");
 }
 
 TEST(Http, BoundsTheBody) {

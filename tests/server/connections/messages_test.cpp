@@ -1,4 +1,4 @@
-// Requests over HTTP: statuses of invalid and forbidden messages, and sessions (wire.md).
+// Requests over HTTP: statuses of invalid and forbidden messages, and sessions (docs/clients.md).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

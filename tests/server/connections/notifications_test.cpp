@@ -121,8 +121,8 @@ TEST(LongPoll, RefusesAPositionThatWasNeverGivenOut) {
     for (auto const* after : {"4", "1000000", "18446744073709551615"}) {
         auto const reply = client.get("/rois/notifications?wait=30&after=" + std::string{after});
         EXPECT_EQ(reply.status, 400) << after;
-        EXPECT_EQ(reply.reason(), "the position " + std::string{after} +
-                                      " is above the last sequence that was given out in this session: expected 3 at most");
+        EXPECT_EQ(reply.reason(),
+                  "the position " + std::string{after} + " is higher than the last sequence of this session: expected at most 3");
     }
     EXPECT_EQ(client.get("/rois/notifications?after=18446744073709551616").status, 400);
     complete(client, 1);

@@ -1,4 +1,4 @@
-// WebSockets: the handshake, the messages, and every reason to close (wire.md, bad-input.md).
+// WebSockets: the handshake, the messages, and every reason to close (docs/clients.md).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -32,7 +32,7 @@ async function post(url: string, what: string, { token, deadline = 10_000 }: Eve
   try {
     const answer = await fetch(to, { method: 'POST', headers, signal: AbortSignal.timeout(deadline) });
     if (answer.ok) return read_stop_state(await answer.text());
-    throw new RoisError('fault', `${to} answers with ${answer.status}`);
+    throw new RoisError('fault', `${to} answers with HTTP status ${answer.status}`);
   } catch (error) {
     throw error instanceof RoisError ? error : new RoisError('unreachable', `${to}: ${error}`);
   }

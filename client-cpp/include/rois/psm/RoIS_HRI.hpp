@@ -95,7 +95,8 @@ public:
     ReturnCode_t bind_any(Condition_t condition, RoIS_Identifier& component_ref);
     ReturnCode_t release(RoIS_Identifier component_ref);
 
-    // Both need the binding. set_parameter stores the parameters, and the next `start` uses them.
+    // get_parameter and set_parameter need a binding: ERROR otherwise. set_parameter stores the parameters; the next `start` uses
+    // them.
     ReturnCode_t get_parameter(RoIS_Identifier component_ref, ParameterList& parameters);
     ReturnCode_t set_parameter(RoIS_Identifier component_ref, ParameterList parameters, std::string& command_id);
 

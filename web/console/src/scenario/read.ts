@@ -119,21 +119,21 @@ class Reader {
     const read = { name: name(node, 'name'), ref: name(node, 'ref'), type: name(node, 'type'), node };
     if (read.ref !== '' && read.type !== '') this.complain(node, () => t.ref_or_type());
     if (read.ref === '' && read.type === '') read.ref = read.name;
-    if (this.components.has(read.name)) this.complain(node, () => t.second('component', read.name));
+    if (this.components.has(read.name)) this.complain(node, () => t.duplicate('component', read.name));
     this.components.add(read.name);
     return read;
   }
 
   private variable(node: Node): void {
     const own = name(node, 'name');
-    if (this.variables.has(own)) this.complain(node, () => t.second('variable', own));
+    if (this.variables.has(own)) this.complain(node, () => t.duplicate('variable', own));
     this.variables.set(own, node.element.text.trim());
   }
 
   // Collects all states before targets are checked.
   private announce(node: Node): void {
     const own = name(node, 'name');
-    if (this.states.has(own)) this.complain(node, () => t.second('state', own));
+    if (this.states.has(own)) this.complain(node, () => t.duplicate('state', own));
     this.states.set(own, { name: own, steps: [], commands: [], triggers: [], leaving: [], is_end: node.name === 'end', failed: false, node });
   }
 
@@ -215,7 +215,7 @@ class Reader {
   private take_result(node: Node, variable: string): Step {
     const has = (one: string) => node.element.attribute(one) !== undefined;
     if (has('apart') && !has('not_in')) this.complain(node, () => t.needs_list());
-    if (has('beside') !== has('is')) this.complain(node, () => t.belong_together('beside', 'is'));
+    if (has('beside') !== has('is')) this.complain(node, () => t.need_each_other('beside', 'is'));
     return {
       kind: 'take',
       variable,
@@ -234,7 +234,7 @@ class Reader {
     const operand = this.known_text(node, attribute(node, relation));
     if (relation === 'in' || relation === 'not_in') this.known_variable(node, operand);
     if (relation === 'empty' && !is_true(operand)) relation = 'not_empty';
-    if ((relation === 'near') !== (node.element.attribute('within') !== undefined)) this.complain(node, () => t.belong_together('near', 'within'));
+    if ((relation === 'near') !== (node.element.attribute('within') !== undefined)) this.complain(node, () => t.need_each_other('near', 'within'));
     return { kind: 'when', variable, relation, operand, within: number(node, 'within') };
   }
 

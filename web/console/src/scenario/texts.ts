@@ -125,14 +125,14 @@ export const not_a_scenario = text_of((name: string) => [
   `this is not a robot scenario: expected the element robot_scenario, not '${name}'`,
   `ロボットシナリオではありません: 要素 '${name}' ではなく robot_scenario が必要です`,
 ]);
-export const ref_or_type = text_of(() => ["a component has one of 'ref' and 'type'", "コンポーネントには 'ref' か 'type' の一方だけを書きます"]);
-export const second = text_of((what: string, name: string) => [`a second ${what} '${name}'`, `${kinds_ja[what] ?? what} '${name}' が重複しています`]);
-export const no_way_out = text_of(() => ['nothing leads out of this state: expected a trigger, or the element end', 'この状態から出られません: トリガーか、要素 end が必要です']);
+export const ref_or_type = text_of(() => ["a component has both 'ref' and 'type': give only one of them", "コンポーネントに 'ref' と 'type' の両方があります。一方だけを書いてください"]);
+export const duplicate = text_of((what: string, name: string) => [`duplicate ${what} '${name}'`, `${kinds_ja[what] ?? what} '${name}' が重複しています`]);
+export const no_way_out = text_of(() => ["this state has no trigger: add one, or use the element 'end' instead of 'state'", "この状態にはトリガーがありません。トリガーを加えるか、要素 'state' の代わりに 'end' を使ってください"]);
 export const no_commands = text_of(() => ['this state waits for the end of its commands, and has none', 'この状態はコマンドの終了を待ちますが、コマンドがありません']);
 export const no_query = text_of(() => ['this state waits for an answer, and has no query', 'この状態は応答を待ちますが、query がありません']);
 export const nothing_to_take = text_of(() => ['only events and answers have results to take', '結果を取り出せるのはイベントと応答だけです']);
 export const needs_list = text_of(() => ["'apart' needs 'not_in'", "'apart' には 'not_in' が必要です"]);
-export const belong_together = text_of((a: string, b: string) => [`'${a}' and '${b}' belong together`, `'${a}' と '${b}' は一緒に使います`]);
+export const need_each_other = text_of((a: string, b: string) => [`'${a}' needs '${b}', and '${b}' needs '${a}'`, `'${a}' と '${b}' は一緒に使います`]);
 export const one_relation = text_of((names: string) => [`a 'when' needs exactly one of ${names}`, `'when' には次のちょうど一つが必要です: ${names}`]);
 export const no_such = text_of((what: string, name: string, known: string[]) => [
   `no ${what} '${name}'; there are ${known.join(', ')}`,

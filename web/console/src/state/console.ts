@@ -67,7 +67,7 @@ const most_delay = 15_000; // ms, longest delay between retries; the user can re
 export class Console {
   /** ms since 1970; changes each second, for showing ages. */
   readonly now = signal(0);
-  /** Whether this page runs a scenario. Set by the scenario's desk. */
+  /** Whether this page runs a scenario. Set by the scenario panel. */
   readonly runs_scenario = signal(false);
   readonly notices: Notices;
   readonly link: LinkState;
@@ -121,7 +121,7 @@ export class Console {
     this.entities = new EntitiesState(
       environment,
       (event_type) => this.subscriptions.subscribe_own(event_type),
-      (event_type) => this.subscriptions.is_fed(event_type),
+      (event_type) => this.subscriptions.has_own_results(event_type),
       (event_type) => this.profile.with_event(event_type).length > 0,
       (ref) => this.profile.component(ref)?.engine ?? '',
     );

@@ -47,7 +47,7 @@ test('what has not confirmed is named only as long as that is so', async () => {
   world.pages.set('/readyz', moving('move'));
   await world.passes(1000);
   expect(everything.view.value).toEqual({ stopped: true, waiting: ['move'] });
-  world.pages.set('/readyz', { status: 503, text: "the engine's clock stands still\n" });
+  world.pages.set('/readyz', { status: 503, text: 'the engine has not ticked for more than 0.5 s: a component blocks, or the process is overloaded\n' });
   await world.passes(3000);
   expect(everything.view.value).toEqual({ stopped: true, waiting: ['move'] });
   world.pages.delete('/readyz');

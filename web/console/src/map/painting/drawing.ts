@@ -111,7 +111,7 @@ export class Drawing {
     if (view && target) this.session.interaction.value = { ...this.session.interaction.peek(), view: with_point(view, this.size, target, target_edge) };
   }
 
-  /** With reduced motion, things jump. */
+  /** If true (reduced motion), draws new positions at once, without animation. */
   set is_still(is_still: boolean) {
     this.glide.is_still = is_still;
   }

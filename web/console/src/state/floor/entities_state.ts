@@ -27,7 +27,7 @@ export class EntitiesState {
   constructor(
     private readonly environment: Environment,
     private readonly subscribe: (event_type: string) => Promise<Subscription>,
-    private readonly is_fed: (event_type: string) => boolean,
+    private readonly has_own_results: (event_type: string) => boolean,
     private readonly has_event: (event_type: string) => boolean,
     private readonly engine_of: (component: string) => string,
   ) {
@@ -77,8 +77,8 @@ export class EntitiesState {
 
   /** Whether positions are unknown: an event type has no subscription, or its events have no results. */
   is_blind(): boolean {
-    const is_unfed = (event_type: string) => this.has_event(event_type) && !this.is_fed(event_type);
-    return entity_events.some(is_unfed) || [...this.all.values()].some((one) => one.unknown_since !== undefined);
+    const lacks_results = (event_type: string) => this.has_event(event_type) && !this.has_own_results(event_type);
+    return entity_events.some(lacks_results) || [...this.all.values()].some((one) => one.unknown_since !== undefined);
   }
 
   forget(): void {

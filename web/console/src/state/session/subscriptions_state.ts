@@ -47,8 +47,8 @@ export class SubscriptionsState {
     return those.length > 0 && those.every(([, { is_own }]) => is_own);
   }
 
-  /** Whether events of a type arrive with results. */
-  is_fed(event_type: string): boolean {
+  /** Whether the console's own subscription to this type delivers results. */
+  has_own_results(event_type: string): boolean {
     return [...this.held].some(([one, { is_own }]) => is_own && one.wanted.event_type === event_type && this.all.value.get(one.subscribe_id)?.inline_results);
   }
 
