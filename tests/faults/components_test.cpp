@@ -5,7 +5,6 @@
 namespace rois {
 
 using testing::Contains;
-using testing::Not;
 
 namespace {
 
@@ -52,13 +51,6 @@ TEST_F(Misbehaving, AComponentThatThrowsInEveryCallIsHaltedUntilItCan) {
         world.advance(200ms);
         EXPECT_THAT(world.engine->not_halted(), IsEmpty());
     }
-}
-
-TEST_F(Misbehaving, AComponentThatFailsToStartIsHalted) {
-    robot.throws_in = {"start"};
-    desk.execute(go("go"));
-    EXPECT_EQ(robot.told.back(), "halt") << "it may move nevertheless";
-    EXPECT_EQ(desk.result_of("go"), "ERROR");
 }
 
 TEST_F(Misbehaving, ASilentComponentIsHaltedInTime) {

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { command, component_ref, connect, Navigation, PersonDetection } from 'rois-client';
+import { command, component_ref, connect, PersonDetection } from 'rois-client';
 
 import { Gateway } from '../kit/gateway.js';
 import { Proxy } from '../kit/proxy.js';
@@ -44,54 +44,6 @@ test('a lost session is reported, and the new one has its subscriptions, each on
   await engine.stop();
 });
 
-test('a new session binds again, and reports components that it cannot bind', async () => {
-  let engine = await Gateway.start(...flags);
-  const proxy = await Proxy.before(engine.port);
-  const client = await connect(proxy.url, quick);
-  const seen = watched(client);
-  const unbound: string[] = [];
-  client.on('unbound', ({ component_ref, error }) => unbound.push(`${component_ref}: ${error.return_code}`));
-  const navigation = await Navigation.bind_any(client);
-  for (const ref of ['speech_synthesis', 'move']) await client.bind(ref);
-  await client.release('move');
-  const restart = async (meanwhile: (url: string) => Promise<void>) => {
-    proxy.refuses = true;
-    await engine.stop('SIGKILL');
-    engine = await Gateway.start(...flags);
-    await meanwhile(engine.url);
-    const open = seen.until('open');
-    proxy.target = engine.port;
-    proxy.refuses = false;
-    await open;
-  };
-  let other = await connect(engine.url);
-  await restart(async (url) => {
-    await other.close({ deadline: 1 });
-    other = await connect(url);
-    await other.bind('speech_synthesis');
-  });
-  assert.equal(String(await navigation.go_to('4000, 5000')), 'OK');
-  assert.deepEqual(unbound, ['speech_synthesis: OUT_OF_RESOURCES']);
-  await other.bind('move');
-  await other.close();
-  await restart(async () => undefined);
-  assert.equal(String(await navigation.go_to('4000, 5000')), 'OK');
-  assert.deepEqual(unbound, ['speech_synthesis: OUT_OF_RESOURCES']);
-  assert.equal(seen.out.filter((name) => name === 'bind').length, 2 + 2 + 1, 'components that another session had are not requested again');
-  await client.close();
-  await proxy.stop();
-  await engine.stop();
-});
-
-test('with rebind false, the application binds again', async () => {
-  const client = await connect(gateway.url, { ...quick, rebind: false });
-  const navigation = await Navigation.bind_any(client);
-  await said_over_http(client, 'disconnect');
-  await assert.rejects(client.search(), { failure: 'session_lost' });
-  await assert.rejects(navigation.go_to('4000, 5000'), { failure: 'refused', return_code: 'ERROR' });
-  await client.close();
-});
-
 test('commands that the engine stops during shutdown end and are reported', async () => {
   const engine = await Gateway.start(...flags);
   const client = await connect(engine.url, quick);
@@ -115,14 +67,6 @@ test('a session that the engine ended on a live link is reported', async () => {
   await detection.start();
   assert.equal((await detected.next(5000))!.results.number('number'), 0);
   await client.close();
-});
-
-behind_a_proxy('a subscription that a new session refuses ends with the refusal', {}, async (client) => {
-  const narrow = await client.subscribe('reached_target');
-  (narrow.wanted as { event_type: string }).event_type = 'sunrise'; // as if its component were gone
-  await said_over_http(client, 'disconnect');
-  await assert.rejects(client.search(), { failure: 'session_lost' });
-  await assert.rejects(narrow.next(), { failure: 'refused', return_code: 'UNSUPPORTED' });
 });
 
 behind_a_proxy('a client that is closed during a broken link still ends its session', {}, async (client, proxy, seen) => {

@@ -420,22 +420,6 @@ scripted('all calls of a lost session fail, and only those', {}, async (client, 
   assert.deepEqual(await next, []);
 });
 
-scripted('a new session subscribes before all other calls', {}, async (client, gateway, clock) => {
-  const subscribing = client.subscribe('person_detected');
-  await gateway.socket.answer('<subscribe_id>s-1</subscribe_id>');
-  await subscribing;
-  await gateway.socket.end('cut');
-  await clock.pass(100);
-  await gateway.socket.open();
-  await gateway.socket.fault('no_session');
-  const found = client.search();
-  await gateway.socket.answer('<session>two</session>');
-  assert.deepEqual(gateway.socket.names, ['resume', 'connect', 'subscribe', 'search']);
-  await gateway.socket.answer('<subscribe_id>s-1</subscribe_id>');
-  await gateway.socket.answer();
-  await found;
-});
-
 // Its base64 has all characters that base64url replaces: fn5+Pj4+Pz8/w7s=
 scripted('a token is encoded as base64url', { token: '~~~>>>???û' }, async (_, gateway) => {
   assert.deepEqual(gateway.socket.subprotocols, ['rois.xml.v1', 'rois.bearer.fn5-Pj4-Pz8_w7s']);
