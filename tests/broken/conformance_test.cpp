@@ -24,8 +24,6 @@
 namespace rois::broken {
 namespace {
 
-using kit::GatewayProcess;
-
 std::string const common = "<rois:SubComponentProfile>urn:x-rois:def:component:OMG::RoISCommon</rois:SubComponentProfile>";
 
 TEST(Conformance, FindsNoBrokenRuleInOurGateway) {
@@ -38,6 +36,11 @@ TEST(Conformance, FindsNoBrokenRuleInOurGateway) {
     ASSERT_TRUE(report.load_file(file.c_str())) << file;
     EXPECT_GE(report.select_nodes("//testcase").size(), 200u);
     EXPECT_TRUE(report.select_nodes("//failure").empty());
+    // At this speed, an effect is observable only by chance (rules_test.cpp observes each in its world).
+    std::vector<std::string> skipped;
+    for (auto const& one : report.select_nodes("//testcase[skipped][not(starts-with(@classname, 'Effects'))]"))
+        skipped.emplace_back(one.node().attribute("name").value());
+    EXPECT_THAT(skipped, testing::ElementsAre("errors_have_details")) << "no component fails here";
     std::filesystem::remove(file);
 }
 

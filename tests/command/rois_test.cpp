@@ -16,8 +16,6 @@ namespace rois::test {
 namespace {
 
 using testing::AllOf;
-using testing::Contains;
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -44,7 +42,6 @@ TEST_F(Rois, ShowsProfiles) {
                 AllOf(HasSubstr("reached_target"), HasSubstr("time_limit       int       = 0")));
     EXPECT_EQ(objects({"profile", "reaction"})[0]["identifier"], "urn:x-rois:def:component:OMG::Reaction");
     EXPECT_THAT(run({"profile", "reaction", "--xml"}).out, StartsWith("<rois:HRIComponentProfile"));
-    expect(3, "unknown component 'elevator'; there are ", {"profile", "elevator"});
 }
 
 TEST_F(Rois, QueriesInThreeForms) {
@@ -65,9 +62,6 @@ TEST_F(Rois, SetsAndGetsParametersByTheirTypes) {
         << "the defaults again: a parameter keeps its value only as long as the binding";
     expect(2, "time_limit: 'soon' is not of the type int", {"set", "navigation", "time_limit=soon"});
     expect(2, "has no argument 'speed'; it has target_position", {"set", "navigation", "speed=1"});
-    expect(3, "no parameter 'speed'", {"get", "navigation", "speed"});
-    expect(3, "unknown component 'elevator'; there are ", {"get", "elevator"});
-    expect(3, "unknown component 'elevator'; there are ", {"query", "component_status", "--of", "elevator"});
 }
 
 TEST_F(Rois, StartsStopsAndExecutes) {
@@ -192,7 +186,6 @@ TEST_F(Rois, HoldsASessionForOtherCommands) {
     EXPECT_EQ(run({"start", "reaction", "reaction_ref=9"}).exit_code, 0);
     expect(2, "release needs a session", {"release", "reaction"});
     expect(2, "without --session", {"start", "reaction", "--no-wait"});
-    expect(9, "no_session", {"--session", "nobody", "release", "reaction"});
     holding.signal(SIGINT);
     EXPECT_EQ(holding.wait().exit_code, 0);
 }
@@ -248,7 +241,6 @@ TEST_F(Rois, ShowsEventsAtOnce) {
     EXPECT_THAT(subscribed.line(), StartsWith("s-"));
     RoisProcess starting{{"start", "person_detection", "--for", "60"}, at()};
     EXPECT_THAT(subscribed.line(), HasSubstr("person_detected  person_detection  timestamp="));
-    expect(4, "no component has an event 'rain'; there are ", {"watch", "rain"});
 }
 
 TEST_F(Rois, EndsQuietlyWhenItsReaderEnds) {

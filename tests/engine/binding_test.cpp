@@ -5,40 +5,12 @@
 
 namespace rois {
 
-TEST(Bind, KeepsAComponentForOneSession) {
-    World world{navigation};
-    auto desk = world.connect(), hall = world.connect();
-    EXPECT_EQ(desk.bind("navigation"), ReturnCode::ok);
-    EXPECT_EQ(desk.bind("navigation"), ReturnCode::ok);
-    EXPECT_EQ(hall.bind("navigation"), ReturnCode::out_of_resources);
-    desk.leave();
-    EXPECT_EQ(hall.bind("navigation"), ReturnCode::ok);
-}
-
 TEST(Bind, OfAnUnknownComponentIsABadParameter) {
     World world{navigation};
     auto desk = world.connect();
     auto const refused = desk.ask(Bind{Application::identifier("../\r\n<x>")});
     EXPECT_EQ(refused.return_code, ReturnCode::bad_parameter);
     EXPECT_EQ(refused.reason, "unknown component '../  <x>'");
-}
-
-TEST(Bind, FiftyThatRaceForOneComponentHaveOneWinner) {
-    World world{navigation};
-    std::vector<Application> racers;
-    for (int i = 0; i < 50; ++i) racers.push_back(world.connect());
-    std::map<ReturnCode, int> answers;
-    for (auto& racer : racers) ++answers[racer.bind("navigation")];
-    EXPECT_THAT(answers, ElementsAre(testing::Pair(ReturnCode::ok, 1), testing::Pair(ReturnCode::out_of_resources, 49)));
-}
-
-TEST(BindAny, TakesTheLowestFreeMatch) {
-    World world{named("speech_b", speech), named("speech_a", speech), navigation};
-    auto desk = world.connect(), hall = world.connect();
-    auto const speaks = equal("component_type", "urn:x-rois:def:component:OMG::SpeechSynthesis");
-    EXPECT_EQ(desk.bind_any(speaks), "speech_a");
-    EXPECT_EQ(hall.bind_any(speaks), "speech_b");
-    EXPECT_EQ(world.connect().bind_any(speaks), "OUT_OF_RESOURCES");
 }
 
 TEST(BindAny, KeepsToTheRobotThatTheSessionWorksWith) {
@@ -219,21 +191,13 @@ TEST(BindAny, InAnEngineWithoutComponentsIsUnsupported) {
     EXPECT_EQ(world.connect().bind_any(), "UNSUPPORTED");
 }
 
-TEST(Search, FindsInTheOrderOfRefs) {
-    World world{speech, navigation, in_engine("sub1", navigation)};
-    auto desk = world.connect();
-    EXPECT_THAT(desk.search(), ElementsAre("navigation", "speech", "sub1.navigation"));
-    EXPECT_THAT(desk.search(equal("engine", "sub1")), ElementsAre("sub1.navigation"));
-    EXPECT_THAT(desk.search(equal("component_ref", "gripper")), IsEmpty());
-    EXPECT_THAT(desk.search(not_understood("what is this")), ElementsAre("BAD_PARAMETER"));
-}
-
 TEST(Binding, IsRequiredForCommands) {
     World world{navigation};
     auto desk = world.connect(), hall = world.connect();
     hall.bind("navigation");
     hall.heard();
     EXPECT_EQ(desk.get_parameter("navigation").return_code, ReturnCode::error);
+    EXPECT_THAT(desk.get_parameter("navigation").reason, HasSubstr("is not bound by this session"));
     EXPECT_EQ(desk.set_parameter("navigation", {integer("time_limit", 7)}).return_code, ReturnCode::error);
     EXPECT_EQ(desk.execute(go("go")).return_code, ReturnCode::error);
     EXPECT_THAT(world["navigation"].told, IsEmpty());
@@ -256,16 +220,6 @@ TEST(Release, StopsTheRunningAction) {
     EXPECT_EQ(world.connect().bind("navigation"), ReturnCode::ok);
 }
 
-TEST(Release, StopsAnActiveFunction) {
-    World world{detection};
-    auto desk = world.connect();
-    desk.bind("detection");
-    desk.execute(named("look", start("detection")));
-    desk.release("detection");
-    EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed look OK"));
-}
-
 TEST(Release, StopsACommandOfTheComponentsOwn) {
     World world{navigation};
     auto desk = world.connect();
@@ -274,39 +228,6 @@ TEST(Release, StopsACommandOfTheComponentsOwn) {
     desk.release("navigation");
     EXPECT_THAT(world["navigation"].told, ElementsAre("dock", "halt"));
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock ABORT"));
-}
-
-TEST(Release, OfAComponentThatIsNotBoundHasNoEffect) {
-    World world{navigation};
-    auto desk = world.connect(), hall = world.connect();
-    hall.bind("navigation");
-    hall.execute(go("go"));
-    EXPECT_EQ(desk.release("navigation"), ReturnCode::ok);
-    EXPECT_EQ(hall.result_of("go"), "RUNNING");
-    EXPECT_EQ(desk.release("gripper"), ReturnCode::bad_parameter);
-}
-
-TEST(ComponentStatus, AnswersForTheAsker) {
-    World world{navigation};
-    auto desk = world.connect(), hall = world.connect();
-    EXPECT_EQ(desk.status_of("navigation"), "READY");
-    hall.bind("navigation");
-    hall.execute(go("go"));
-    EXPECT_EQ(desk.status_of("navigation"), "BUSY");
-    EXPECT_EQ(hall.status_of("navigation"), "READY") << "also while its own command runs";
-    EXPECT_THAT(desk.search(equal("status", "BUSY")), ElementsAre("navigation"));
-    EXPECT_THAT(hall.search(equal("status", "BUSY")), IsEmpty());
-}
-
-TEST(ComponentStatus, IsTheComponentsOwnUnlessBusy) {
-    World world{navigation};
-    auto desk = world.connect(), hall = world.connect();
-    for (auto status : {ComponentStatus::uninitialized, ComponentStatus::warning, ComponentStatus::error}) {
-        world["navigation"].status_now = status;
-        EXPECT_EQ(desk.status_of("navigation"), to_text(status));
-    }
-    hall.bind("navigation");
-    EXPECT_EQ(desk.status_of("navigation"), "BUSY");
 }
 
 TEST(Profile, ListsTheComponentsAndTheirEngines) {
@@ -347,19 +268,6 @@ TEST(Profile, IsThatOfTheMainEngineAlsoWhenOneRobotHasAll) {
         EXPECT_EQ(desk.ask(GetProfile{whole}).profile->object.name, "main");
     EXPECT_EQ(desk.ask(GetProfile{equal("engine", "robot1")}).profile->object.name, "robot1");
     EXPECT_THAT(desk.ask(GetProfile{}).profile->components, IsEmpty());
-}
-
-TEST(Profile, ListsTheChosenComponentsOnly) {
-    World world{navigation, speech};
-    auto desk = world.connect();
-    auto const reply = desk.ask(GetProfile{equal("name", "speech")});
-    ASSERT_EQ(reply.components.size(), 1U);
-    EXPECT_EQ(reply.components.front().ref, "speech");
-    EXPECT_EQ(desk.ask(GetProfile{equal("colour", "red")}).return_code, ReturnCode::bad_parameter);
-}
-
-TEST(Profile, OfTwoComponentsWithOneNameIsRefusedAtTheStart) {
-    EXPECT_THROW((World{navigation, navigation}), std::runtime_error);
 }
 
 // Decision 31: the other attributes of a component_ref must be those of the component.

@@ -281,11 +281,4 @@ TEST_F(ComingAndGoing, HappensWholeOrNotAtAll) {
     EXPECT_EQ(try_to({"speech"}, {speech}), "it was done");
 }
 
-TEST_F(ComingAndGoing, EndsWellInTheMiddleOfAll) {
-    desk.bind("navigation");
-    desk.execute(go("go"));
-    world.engine.reset();
-    SUCCEED() << "running commands are freed with the engine";
-}
-
 }  // namespace rois

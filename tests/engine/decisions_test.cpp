@@ -98,25 +98,18 @@ TEST(Decision03, TheEndOfASessionStopsReleasesAndCancels) {
     EXPECT_NE(desk.ask(Connect{}).session, desk.session) << "connect with an ended id opens another session";
 }
 
-TEST(Decision03, ASessionThatTheEngineEndsReceivesItsLastNotifications) {
-    World world{navigation};
-    auto desk = world.connect();
-    desk.bind("navigation");
-    desk.execute(go("go"));
-    world.engine->end(desk.session, world.now);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT"));
-    EXPECT_TRUE(desk.told_of_the_end());
-}
-
 TEST(Decision04, ABindingIsExclusive) {
     World world{named("robot_a", navigation), named("robot_b", navigation)};
     auto desk = world.connect(), hall = world.connect();
     EXPECT_EQ(desk.bind("robot_a"), ReturnCode::ok);
     EXPECT_EQ(desk.bind("robot_a"), ReturnCode::ok) << "it is bound already";
     EXPECT_EQ(hall.bind("robot_a"), ReturnCode::out_of_resources);
+    EXPECT_THAT(hall.ask(Bind{Application::identifier("robot_a")}).reason,
+                HasSubstr("'robot_a' is bound by another session, number 1"));
     EXPECT_EQ(hall.bind("robot_c"), ReturnCode::bad_parameter);
     EXPECT_EQ(hall.bind_any(equal("name", "robot_c")), "UNSUPPORTED");
     EXPECT_EQ(hall.bind_any(equal("name", "robot_a")), "OUT_OF_RESOURCES");
+    EXPECT_THAT(hall.ask(BindAny{equal("name", "robot_a")}).reason, HasSubstr("no component that matches the condition is free"));
     EXPECT_EQ(hall.bind_any(equal("colour", "red")), "BAD_PARAMETER");
     EXPECT_EQ(hall.bind_any(), "robot_b");
     EXPECT_THAT(hall.search(equal("name", "robot_c")), IsEmpty()) << "no match is not an error";
@@ -152,8 +145,9 @@ TEST(Decision06, ReleaseStopsTheCommandsOfTheSession) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed look OK", "2 completed go ABORT"));
     EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt"));
     hall.bind("robot_a");
+    hall.execute(go("on", "robot_a"));
     EXPECT_EQ(desk.release("robot_a"), ReturnCode::ok) << "known, and nothing to do";
-    EXPECT_EQ(hall.get_parameter("robot_a").return_code, ReturnCode::ok);
+    EXPECT_EQ(hall.result_of("on"), "RUNNING");
     EXPECT_EQ(desk.release("robot_c"), ReturnCode::bad_parameter);
 }
 
@@ -172,6 +166,8 @@ TEST(Decision07, TheStatusDependsOnTheSessionThatAsks) {
     hall.execute(go("go"));
     EXPECT_EQ(hall.status_of("navigation"), "READY") << "also while its own command runs";
     EXPECT_EQ(desk.status_of("navigation"), "BUSY");
+    EXPECT_THAT(desk.search(equal("status", "BUSY")), ElementsAre("navigation"));
+    EXPECT_THAT(hall.search(equal("status", "BUSY")), IsEmpty());
 }
 
 TEST(Decision08, ParametersAreStoredAndStartActs) {
@@ -211,6 +207,10 @@ TEST(Decision08, FollowEndsByStopOrByItsTimeLimit) {
     desk.execute(go("again", "follow"));
     world["follow"].finishes(CompletedStatus::timeout);
     EXPECT_THAT(desk.heard(), ElementsAre("4 completed again TIMEOUT"));
+    desk.execute(in_parallel({go("beside", "follow"), after(1s, named("now", stop("follow")))}), named("after", stop("follow")));
+    world.advance(1s);
+    EXPECT_THAT(desk.heard(), ElementsAre("5 completed beside OK", "6 completed now OK", "7 completed after OK"))
+        << "a stop in a parallel branch";
 }
 
 TEST(Decision09, StopEndsStartReplacesAndSuspendHolds) {

@@ -111,15 +111,6 @@ TEST_F(Errors, InTheOtherCommandsEndThemWithError) {
     EXPECT_THAT(desk.heard(), ElementsAre("10 completed on 2 OK")) << "it was still held";
 }
 
-TEST_F(Errors, InAHaltDoNotKeepACommandAlive) {
-    robot.throws_in = {"halt"};
-    desk.execute(go("go"));
-    desk.execute(named("stop", stop("navigation")));
-    EXPECT_THAT(desk.heard(),
-                ElementsAre("1 completed go ABORT", "2 completed stop ERROR", "3 COMPONENT_INTERNAL_ERROR navigation"));
-    EXPECT_THAT(desk.heard(), IsEmpty());
-}
-
 TEST_F(Errors, ThatAreThrownAsAnotherTypeAreErrorsToo) {
     robot.throws_no_exception = true;
     robot.throws_in = {"query"};
@@ -160,12 +151,6 @@ TEST_F(Errors, ThatAnyClientCanCauseAreReportedAgainAfterABinding) {
     hall.release("navigation");
     desk.bind("navigation");
     hall.query("route");
-    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
-}
-
-TEST_F(Errors, InAQueryAreItsAnswer) {
-    robot.throws_in = {"query"};
-    EXPECT_EQ(desk.query("route").return_code, ReturnCode::error);
     EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
 }
 

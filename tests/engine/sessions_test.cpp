@@ -133,22 +133,6 @@ TEST(Link, AClientThatBindsAndVanishesIsStoppedWithinTheWindow) {
     EXPECT_EQ(world.connect().bind("navigation"), ReturnCode::ok);
 }
 
-TEST(Link, ASessionThatIsResumedGoesOn) {
-    World world{navigation};
-    auto desk = world.connect_without_link();
-    world.engine->link_opened(desk.session, Link::websocket, world.now);
-    world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
-    world.advance(29s);
-    EXPECT_EQ(desk.ask(Resume{desk.session, 0}).return_code, ReturnCode::ok);
-    world.engine->link_opened(desk.session, Link::websocket, world.now);
-    world.advance(100s);
-    EXPECT_TRUE(lives(world, desk));
-    world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
-    world.advance(30s);
-    EXPECT_FALSE(lives(world, desk));
-    EXPECT_EQ(std::get<Refusal>(world.say({}, Resume{desk.session, 0})), Refusal::no_session);
-}
-
 TEST(Link, CannotBeResumedFromASequenceThatWasNeverSent) {
     World world{navigation};
     auto desk = world.connect_without_link();

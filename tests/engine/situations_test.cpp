@@ -88,24 +88,6 @@ TEST(ErrorsOfAComponent, WhoseProcessIsGoneAreNotResponding) {
     EXPECT_EQ(desk.execute(say("still well")).return_code, ReturnCode::ok);
 }
 
-TEST(Follow, IsNotStoppedByWhatFollowsItInItsSequence) {
-    auto follow = named("follow", navigation);
-    follow.status_when_stopped = CompletedStatus::ok;
-    World world{follow};
-    auto desk = world.connect();
-    desk.bind("follow");
-    desk.execute(go("follow", "follow"), named("never", stop("follow")));
-    world.advance(1h);
-    EXPECT_EQ(desk.result_of("never"), "WAITING");
-    desk.execute(named("enough", stop("follow")));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed follow OK", "2 completed enough OK", "3 completed never OK"))
-        << "from another execute";
-    desk.execute(in_parallel({go("again", "follow"), after(1s, named("now", stop("follow")))}), named("after", stop("follow")));
-    world.advance(1s);
-    EXPECT_THAT(desk.heard(), ElementsAre("4 completed again OK", "5 completed now OK", "6 completed after OK"))
-        << "from a parallel branch";
-}
-
 TEST(Settings, AreThoseOfTheDecisions) {
     EngineSettings const settings;
     EXPECT_EQ(settings.session_timeout, 60s);

@@ -1,4 +1,4 @@
-// Decisions 26, 27 and 29, as far as they concern documents.
+// Decisions 27 and 29, as far as they concern documents.
 #include <gmock/gmock.h>
 
 #include "xml/speaking.hpp"
@@ -7,30 +7,8 @@ namespace rois::xml {
 namespace {
 
 using testing::Contains;
-using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::StartsWith;
-
-constexpr std::string_view lamp = "<component_ref rois:code='lamp'/>";
-
-std::string parameter(std::string const& type, std::string const& values) {
-    return "<parameter rois:name='p'><rois:data_type_ref rois:code='" + type + "'/>" + values + "</parameter>";
-}
-
-std::vector<std::string> values(std::string const& type, std::string const& written) {
-    return operation<SetParameter>(
-               document("set_parameter", std::string{lamp} + "<parameters>" + parameter(type, written) + "</parameters>"))
-        .parameters.at(0)
-        .values;
-}
-
-TEST(Decision26, ListsAreOneValueOrOnePerItem) {
-    EXPECT_THAT(values("int", "<rois:value>7</rois:value>"), ElementsAre("7"));
-    EXPECT_THAT(values("int[]", "<rois:value>1 2 3</rois:value>"), ElementsAre("1 2 3"));
-    EXPECT_THAT(values("string[]", "<rois:value>one two</rois:value><rois:value/>"), ElementsAre("one two", ""));
-    EXPECT_THAT(values("string[]", ""), IsEmpty());
-}
 
 TEST(Decision27, LocatedDataHaveATextAndAStructure) {
     Located where{"position_data", "person-1", "urn:x-rois:def:crs:simulation::hall", {9500, 6000.5, 0}, {0, 0, 90}, {}};
@@ -97,29 +75,6 @@ TEST(Decision29, NamesOf2011AreRead) {
                                                   "<rois:component>lamp</rois:component><rois:component>door</rois:component>"
                                                   "</rois:HRI_Engine_Profile>");
     EXPECT_EQ(std::get<EngineProfile>(engine.profile).components, (std::vector<std::string>{"lamp", "door"}));
-}
-
-// The nested units of 2011 and the published forms of later versions.
-TEST(Decision29, SequencesOfAllVersionsAreRead) {
-    std::string const command =
-        "xsi:type='rois:CommandMessageType' rois:command_type='stop' rois:command_id='c'><rois:component_ref rois:code='lamp'/>";
-    auto const unit = [&](std::string const& name) { return "<rois:" + name + " " + command + "</rois:" + name + ">"; };
-    auto const sequence = [](std::string const& inside) {
-        return operation<Execute>(document("execute", "<rois:CommandUnitSequence>" + inside + "</rois:CommandUnitSequence>"))
-            .command_unit_list.command_unit_list.at(0)
-            .unit;
-    };
-    auto const of_type = [](std::string const& type, std::string const& inside) {
-        return "<rois:command_unit_list xsi:type='rois:" + type + "'>" + inside + "</rois:command_unit_list>";
-    };
-    EXPECT_TRUE(std::holds_alternative<ParallelCommandUnit>(
-        sequence(of_type("ParallelCommandUnitType",
-                         unit("command_unit_list") + of_type("SequentialCommandUnitType", unit("command_unit_list"))))));
-    auto const branches =
-        sequence(of_type("ConcurrentCommandsType", "<rois:branch_list>" + unit("command_list") + "</rois:branch_list>"));
-    EXPECT_EQ(std::get<ConcurrentCommands>(branches).form, ConcurrentCommands::Form::branch_list);
-    auto const flat = sequence(of_type("ConcurrentCommandsType", unit("command_list")));
-    EXPECT_EQ(std::get<ConcurrentCommands>(flat).form, ConcurrentCommands::Form::command_list);
 }
 
 TEST(Decision29, NotificationsHaveTheNamesOfTheSeed) {

@@ -16,31 +16,6 @@ struct Commands : testing::Test {
 
 }  // namespace
 
-TEST_F(Commands, AnActionCompletesWhenItIsOver) {
-    desk.execute(go("go"));
-    world.advance(1h);
-    EXPECT_THAT(desk.heard(), IsEmpty());
-    world["navigation"].finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go OK"));
-}
-
-TEST_F(Commands, AContinuousFunctionCompletesWhenItIsActive) {
-    desk.execute(named("look", start("detection")));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed look OK"));
-    desk.execute(named("enough", stop("detection")));
-    EXPECT_THAT(desk.heard(), ElementsAre("2 completed enough OK"));
-    EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt"));
-}
-
-TEST_F(Commands, EventsOfAnActionComeBeforeItsEnd) {
-    desk.subscribe("reached_target");
-    desk.execute(go("go"));
-    auto& robot = world["navigation"];
-    robot.fires("reached_target");
-    robot.finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("1 reached_target navigation", "2 completed go OK"));
-}
-
 TEST_F(Commands, AnActionMayFail) {
     desk.execute(go("go"));
     world["navigation"].finishes(CompletedStatus::timeout);
@@ -56,33 +31,10 @@ TEST_F(Commands, StopEndsTheRunningAction) {
     EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
 }
 
-TEST_F(Commands, StopWhenIdleIsFine) {
-    desk.execute(named("halt", stop("navigation")));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed halt OK"));
-    EXPECT_THAT(world["navigation"].told, ElementsAre("halt"));
-}
-
-TEST_F(Commands, ANewStartReplacesTheOld) {
-    desk.execute(go("here"));
-    desk.execute(go("there"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed here ABORT"));
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "start"));
-    world["navigation"].finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("2 completed there OK"));
-}
-
 TEST_F(Commands, AnActiveFunctionIsStartedAgainAfterAHalt) {
     desk.execute(named("look", start("detection")), named("again", start("detection")));
     EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt", "start"));
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed look OK", "2 completed again OK"));
-}
-
-TEST_F(Commands, SuspendHoldsAndResumeGoesOn) {
-    desk.execute(go("go"));
-    desk.execute(named("hold", suspend("navigation")), named("on", resume("navigation")));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed hold OK", "2 completed on OK"));
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "suspend", "resume"));
-    EXPECT_EQ(desk.result_of("go"), "RUNNING");
 }
 
 TEST_F(Commands, SuspendAndResumeInAWrongStateFail) {
@@ -220,18 +172,6 @@ TEST(Follow, EndsWithOkWhenItIsStopped) {
 
 // --- Starting in time (decision 16) ---
 
-TEST_F(Commands, MustBeginWithinTheTimeoutOfTheProfile) {
-    world["speech"].on_start = OnStart::stays_silent;
-    desk.execute(say("say"), go("go"));
-    world.advance(1950ms);
-    EXPECT_THAT(desk.heard(), IsEmpty());
-    world.advance(50ms);
-    EXPECT_THAT(desk.heard(),
-                ElementsAre("1 completed say TIMEOUT", "2 completed go ABORT", "3 COMPONENT_NOT_RESPONDING speech"));
-    EXPECT_THAT(world["speech"].told, ElementsAre("start", "halt"));
-    EXPECT_THAT(world["navigation"].told, IsEmpty());
-}
-
 TEST_F(Commands, ThatHaveBegunMayTakeAsLongAsTheyNeed) {
     world["speech"].on_start = OnStart::stays_silent;
     desk.execute(say("say"));
@@ -275,29 +215,12 @@ TEST_F(Commands, ReportWhyTheyDidNotEndWithOk) {
     EXPECT_EQ(desk.reason_of("second"), "another start replaced it");
 }
 
-TEST_F(Commands, AreKnownInTheirOwnSessionOnly) {
-    desk.execute(go("go"));
-    EXPECT_EQ(desk.result_of("come"), "BAD_PARAMETER");
-    EXPECT_EQ(world.connect().result_of("go"), "BAD_PARAMETER");
-}
-
 TEST_F(Commands, HaveResultsThatAConditionSelects) {
     desk.execute(named("dock", command("dock", "navigation")));
     world["navigation"].finishes(CompletedStatus::ok, {{integer("charge", 80)}, {}});
     EXPECT_EQ(desk.result_of("dock", equal("charge", "80")), "OK charge=80");
     EXPECT_EQ(desk.result_of("dock", equal("status", "ERROR")), "");
     EXPECT_EQ(desk.result_of("dock", equal("colour", "red")), "BAD_PARAMETER");
-}
-
-TEST_F(Commands, AreForgottenAfterTenMinutes) {
-    desk.execute(go("go"));
-    world.advance(11min);
-    EXPECT_EQ(desk.result_of("go"), "RUNNING") << "a running command is never forgotten";
-    world["navigation"].finishes();
-    world.advance(10min - 50ms);
-    EXPECT_EQ(desk.result_of("go"), "OK");
-    world.advance(50ms);
-    EXPECT_EQ(desk.result_of("go"), "BAD_PARAMETER");
 }
 
 TEST(Results, OfTheLastThousandAreKept) {

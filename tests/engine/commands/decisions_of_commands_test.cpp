@@ -90,6 +90,7 @@ TEST_F(Decision12, EveryCommandCompletesOnceWhateverHappens) {
     desk.execute(say("is left"));
     world.engine->end(desk.session, world.now);
     EXPECT_THAT(desk.heard(), ElementsAre("9 completed is left ABORT"));
+    EXPECT_TRUE(desk.told_of_the_end());
 }
 
 TEST_F(Decision13, ACommandThatIsNotOkEndsItsSequence) {
@@ -159,7 +160,9 @@ TEST_F(Decision16, ACommandMustHaveStartedWithinItsTimeout) {
     for (auto const* ref : {"speech", "navigation"}) world[ref].on_start = OnStart::stays_silent;
     desk.execute(in_parallel({say("two seconds"), go("five"), named("half", stop("detection"))}));
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed half OK"));
-    world.advance(2s);
+    world.advance(1'950ms);
+    EXPECT_THAT(desk.heard(), IsEmpty());
+    world.advance(50ms);
     EXPECT_THAT(desk.heard(), ElementsAre("2 completed two seconds TIMEOUT", "3 COMPONENT_NOT_RESPONDING speech"))
         << "the timeout of its profile";
     world.advance(2'950ms);
@@ -186,6 +189,7 @@ TEST_F(Decision17, ResultsSayHowFarACommandIs) {
     world["navigation"].finishes(CompletedStatus::ok, {{integer("charge", 80)}, {}});
     EXPECT_EQ(desk.result_of("dock"), "OK charge=80");
     EXPECT_EQ(desk.result_of("nothing"), "BAD_PARAMETER");
+    EXPECT_THAT(desk.ask(GetCommandResult{{"nothing"}, {}}).reason, HasSubstr("'nothing'"));
     world.advance(10min);
     EXPECT_EQ(desk.result_of("dock"), "BAD_PARAMETER") << "expired";
     EXPECT_EQ(desk.result_of("say"), "RUNNING");

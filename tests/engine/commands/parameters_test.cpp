@@ -4,8 +4,6 @@
 
 namespace rois {
 
-using testing::SizeIs;
-
 namespace {
 
 // An application that has bound the lamp.
@@ -32,8 +30,6 @@ Part detection_with_threshold() {
 
 }  // namespace
 
-TEST_F(Lamp, StartsWithItsDefaults) { EXPECT_EQ(stored(), "counts=1 2 labels=red|green"); }
-
 TEST_F(Lamp, KeepsWhatIsSetInTheOrderOfItsProfile) {
     auto const reply = desk.set_parameter("lamp", {text("label", "night"), integer("count", 7)});
     EXPECT_EQ(reply.return_code, ReturnCode::ok);
@@ -49,28 +45,6 @@ TEST_F(Lamp, TakesNamesAndTypesInAnyCase) {
     auto const parameters = desk.get_parameter("lamp").parameters;
     EXPECT_EQ(parameters.front().name, "count");
     EXPECT_EQ(parameters.front().data_type_ref.code, "int");
-}
-
-TEST_F(Lamp, TakesTheUrnFormsOfTypes) {
-    EXPECT_EQ(set(value("count", "urn:x-rois:def:DataType:ATR::Integer", {"7"})), "OK");
-    EXPECT_EQ(set(value("ratio", "double", {"0.5"})), "OK") << "the profile has the URN form here";
-    EXPECT_EQ(set(value("counts", "urn:x-rois:def:DataType:ATR::Integer[]", {"7 8"})), "OK");
-}
-
-TEST_F(Lamp, TakesOtherSpellings) {
-    EXPECT_EQ(set(value("grammer", "string", {"abc"})), "OK");
-    EXPECT_EQ(stored(), "counts=1 2 labels=red|green grammar=abc");
-}
-
-TEST_F(Lamp, TakesEveryType) {
-    EXPECT_EQ(set(value("ratio", "double", {"-1.5e3"})), "OK");
-    EXPECT_EQ(set(value("lit", "bool", {"true"})), "OK");
-    EXPECT_EQ(set(value("since", "DateTime", {"2026-11-20T12:00:00.123Z"})), "OK");
-    EXPECT_EQ(set(value("owner", "RoISIdentifier", {"visitor_1"})), "OK");
-    EXPECT_EQ(set(value("counts", "int[]", {"1 2 3"})), "OK");
-    EXPECT_EQ(set(value("labels", "string[]", {"one two", ""})), "OK");
-    EXPECT_EQ(set(value("owners", "RoISIdentifier[]", {})), "OK");
-    EXPECT_EQ(set(value("shade", "shade", {"anything"})), "OK");
 }
 
 TEST_F(Lamp, ReturnsTimesInUtc) {
@@ -186,18 +160,6 @@ TEST(Parameters, OfAForeignCodebookEndASequenceBeforeItBegins) {
     }
     EXPECT_THAT(desk.heard(), testing::IsEmpty());
     EXPECT_EQ(desk.execute(command("give", "lamp", {reference("owner", "tanaka")})).return_code, ReturnCode::ok);
-}
-
-TEST(Parameters, OfAStartAreStoredFirst) {
-    World world{speech};
-    auto desk = world.connect();
-    desk.bind("speech");
-    desk.execute(named("say", start("speech", {text("speech_text", "hello"), integer("volume", 70)})));
-    EXPECT_EQ(in_words(world["speech"].started_with), "speech_text=hello volume=70 language=en");
-    EXPECT_THAT(world["speech"].told, ElementsAre("start"));
-    world["speech"].finishes();
-    desk.execute(named("again", start("speech")));
-    EXPECT_EQ(in_words(world["speech"].started_with), "speech_text=hello volume=70 language=en");
 }
 
 TEST(Parameters, ThatAreMandatoryMustBeThereByTheStart) {

@@ -3,8 +3,6 @@
 
 namespace rois {
 
-using testing::StartsWith;
-
 namespace {
 
 struct Sequence : testing::Test {
@@ -32,18 +30,6 @@ CommandUnit bad() { return start("gripper"); }
 
 // --- The check before anything runs (decision 10) ---
 
-TEST_F(Sequence, IsRefusedWholeAndNothingRuns) {
-    auto const reply = desk.execute(go("go"), set("speech", {integer("volume", 1)}), start("gripper"));
-    EXPECT_EQ(reply.return_code, ReturnCode::bad_parameter);
-    EXPECT_EQ(reply.reason, "command_unit_list[3]: unknown component 'gripper'");
-    EXPECT_THAT(robot.told, IsEmpty());
-    EXPECT_THAT(voice.told, IsEmpty());
-    EXPECT_EQ(in_words(desk.query("get_parameter", equal("name", "speech")).results.parameters),
-              "synthesizable_languages=en|ja volume=50 language=en");
-    EXPECT_THAT(desk.heard(), IsEmpty());
-    EXPECT_EQ(desk.result_of("go"), "BAD_PARAMETER");
-}
-
 TEST_F(Sequence, NamesTheFirstBadUnitByItsPath) {
     EXPECT_EQ(bad_unit(bad()), "command_unit_list[1]");
     EXPECT_EQ(bad_unit(go("a"), bad(), bad()), "command_unit_list[2]");
@@ -54,19 +40,6 @@ TEST_F(Sequence, NamesTheFirstBadUnitByItsPath) {
               "command_unit_list[1]/command_unit_list[2]/command_unit_list[2]/command_unit_list[1]");
     EXPECT_EQ(bad_unit(go("a"), after(-1ms, go("b"))), "command_unit_list[2]");
     EXPECT_EQ(bad_unit(go("a"), pause(-5ms)), "command_unit_list[2]");
-}
-
-TEST_F(Sequence, IsCheckedKnownBoundTypeValuesInThisOrder) {
-    desk.release("detection");
-    auto const reply_to = [&](CommandUnit unit) { return desk.execute(std::move(unit)); };
-    auto const unbound = reply_to(command("fly", "detection", {integer("x", 1)}));
-    EXPECT_EQ(unbound.return_code, ReturnCode::error);
-    EXPECT_THAT(unbound.reason, HasSubstr("is not bound by this session"));
-    auto const unknown_type = reply_to(command("fly", "navigation", {integer("x", 1)}));
-    EXPECT_EQ(unknown_type.return_code, ReturnCode::bad_parameter);
-    EXPECT_THAT(unknown_type.reason, HasSubstr("has no command 'fly'"));
-    EXPECT_THAT(reply_to(start("navigation", {integer("x", 1)})).reason, HasSubstr("unknown parameter 'x'"));
-    EXPECT_THAT(reply_to(start("navigation", {text("time_limit", "1")})).reason, HasSubstr("its type is int"));
 }
 
 TEST_F(Sequence, WithAnInvalidDelayIsRefused) {
@@ -86,23 +59,6 @@ TEST_F(Sequence, WithoutUnitsIsRefused) {
 }
 
 // --- Ids (decision 11) ---
-
-TEST_F(Sequence, IsEchoedWithItsIdsFilledIn) {
-    auto const reply =
-        desk.execute(go("first"), in_parallel({go(""), in_sequence({say(""), pause(1s)})}), flat({say("last"), say("")}));
-    auto const& units = reply.command_unit_list.command_unit_list;
-    auto const ids = ids_of(units);
-    ASSERT_EQ(ids.size(), 5U);
-    EXPECT_EQ(ids[0], "first");
-    EXPECT_EQ(ids[3], "last");
-    std::set<std::string> const distinct{ids.begin(), ids.end()};
-    EXPECT_EQ(distinct.size(), 5U);
-    EXPECT_FALSE(distinct.contains(""));
-    for (auto const& id : ids) EXPECT_NE(desk.result_of(id), "BAD_PARAMETER");
-    EXPECT_EQ(units.size(), 3U);
-    EXPECT_EQ(std::get<ConcurrentCommands>(units[2].unit).form, ConcurrentCommands::Form::command_list);
-    EXPECT_EQ(std::get<CommandMessage>(units[0].unit).arguments.size(), 1U);
-}
 
 TEST_F(Sequence, FillsInNoIdThatTheApplicationGives) {
     auto const ids = ids_of(desk.execute(go(""), say("c-1"), say("c-2")).command_unit_list.command_unit_list);
@@ -124,25 +80,6 @@ TEST_F(Sequence, WithADuplicateCommandIdIsRefused) {
 
 // --- The order of things (decisions 13, 14) ---
 
-TEST_F(Sequence, RunsOneUnitAfterTheOther) {
-    desk.execute(go("go"), say("say"), named("look", start("detection")), go("back"));
-    EXPECT_THAT(voice.told, IsEmpty());
-    robot.finishes();
-    EXPECT_THAT(voice.told, ElementsAre("start"));
-    voice.finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go OK", "2 completed say OK", "3 completed look OK"));
-    EXPECT_EQ(desk.result_of("back"), "RUNNING");
-}
-
-TEST_F(Sequence, OfTheFlatFormHasEachCommandAsABranch) {
-    desk.execute(flat({go("go"), say("say"), named("look", start("detection"))}), go("back"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed look OK"));
-    voice.finishes();
-    EXPECT_EQ(desk.result_of("back"), "WAITING");
-    robot.finishes();
-    EXPECT_EQ(desk.result_of("back"), "RUNNING");
-}
-
 TEST_F(Sequence, EndsWithTheFirstCommandThatIsNotOk) {
     desk.execute(go("go"), in_parallel({say("a"), in_sequence({go("b"), pause(1s)})}), go("c"));
     robot.finishes(CompletedStatus::error);
@@ -150,18 +87,6 @@ TEST_F(Sequence, EndsWithTheFirstCommandThatIsNotOk) {
                 ElementsAre("1 completed go ERROR", "2 completed a ABORT", "3 completed b ABORT", "4 completed c ABORT"));
     world.advance(10s);
     EXPECT_THAT(desk.heard(), IsEmpty());
-}
-
-TEST_F(Sequence, LetsOtherBranchesRunOnWhenOneFails) {
-    desk.execute(branches({{go("go"), go("on")}, {say("a"), after(200ms, say("b"))}}), say("done"));
-    robot.finishes(CompletedStatus::timeout);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go TIMEOUT", "2 completed on ABORT"));
-    voice.finishes();
-    world.advance(200ms);
-    EXPECT_EQ(desk.result_of("b"), "RUNNING");
-    EXPECT_EQ(desk.result_of("done"), "WAITING");
-    voice.finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("3 completed a OK", "4 completed b OK", "5 completed done ABORT"));
 }
 
 TEST_F(Sequence, FailsUpwardsThroughEveryLevel) {

@@ -15,11 +15,6 @@ struct Conditions : testing::Test {
 
 }  // namespace
 
-TEST_F(Conditions, EqualHoldsInBothOrders) {
-    EXPECT_THAT(found(equal("component_ref", "speech")), ElementsAre("speech"));
-    EXPECT_THAT(found(equal_reversed("speech", "component_ref")), ElementsAre("speech"));
-}
-
 TEST_F(Conditions, EqualComparesTwoReferencesOrTwoLiterals) {
     auto const equal_sides = [](Expression left, Expression right) {
         return Condition{PropertyComparison{Comparator::equal, std::move(left), std::move(right)}};
@@ -29,42 +24,6 @@ TEST_F(Conditions, EqualComparesTwoReferencesOrTwoLiterals) {
     EXPECT_THAT(found(equal_sides({ValueReference{"component_ref"}}, {ValueReference{"engine"}})), IsEmpty());
     EXPECT_THAT(found(equal_sides({Literal{"a"}}, {Literal{"b"}})), IsEmpty());
     EXPECT_THAT(found(equal_sides({Literal{"a"}}, {Literal{" a "}})), testing::SizeIs(3));
-}
-
-TEST_F(Conditions, EqualIsCaseSensitiveForValuesButNotForReferences) {
-    EXPECT_THAT(found(equal(" Component_Ref ", " speech ")), ElementsAre("speech"));
-    EXPECT_THAT(found(equal("component_ref", "Speech")), IsEmpty());
-    EXPECT_THAT(found(alike("component_ref", "Speech")), ElementsAre("speech"));
-    EXPECT_THAT(found(alike("engine", "SUB1")), ElementsAre("sub1.speech"));
-}
-
-TEST_F(Conditions, TypesAreNotCaseSensitive) {
-    EXPECT_THAT(found(equal("component_type", "URN:x-rois:def:component:omg::navigation")), ElementsAre("navigation"));
-    EXPECT_THAT(found(equal_reversed("urn:x-rois:def:component:OMG::NAVIGATION", "component_type")), ElementsAre("navigation"));
-}
-
-TEST_F(Conditions, MayReferToStateThatChanges) {
-    world["speech"].status_now = ComponentStatus::warning;
-    desk.bind("navigation");
-    EXPECT_THAT(found(equal("status", "WARNING")), ElementsAre("speech"));
-    EXPECT_THAT(found(equal("bound", "true")), ElementsAre("navigation"));
-    EXPECT_THAT(found(equal("bound", "false")), ElementsAre("speech", "sub1.speech"));
-}
-
-TEST_F(Conditions, AndNeedsAll) {
-    auto const speaks = equal("component_type", "urn:x-rois:def:component:OMG::SpeechSynthesis");
-    EXPECT_THAT(found(both({speaks, equal("engine", "sub1")})), ElementsAre("sub1.speech"));
-    EXPECT_THAT(found(both({speaks, equal("engine", "sub1"), equal("bound", "true")})), IsEmpty());
-}
-
-TEST_F(Conditions, OrNeedsOne) {
-    EXPECT_THAT(found(either({equal("name", "navigation"), equal("engine", "sub1")})), ElementsAre("navigation", "sub1.speech"));
-    EXPECT_THAT(found(either({equal("name", "a"), equal("name", "b")})), IsEmpty());
-}
-
-TEST_F(Conditions, NestFreely) {
-    auto const one_of = either({equal("name", "navigation"), equal("name", "speech")});
-    EXPECT_THAT(found(both({one_of, either({equal("name", "speech"), equal("name", "sub1.speech")})})), ElementsAre("speech"));
 }
 
 TEST_F(Conditions, WithAnUnknownReferenceAreRefusedWithTheKnownOnes) {

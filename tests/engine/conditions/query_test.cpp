@@ -26,27 +26,6 @@ TEST(Query, PrefersAReadyComponentThenTheLowestRef) {
     EXPECT_EQ(desk.query("route").component_ref.code, "robot_a") << "when none is READY";
 }
 
-TEST(Query, GoesToTheComponentThatTheConditionSelects) {
-    World world{named("robot_a", navigation), named("robot_b", navigation), speech};
-    auto desk = world.connect();
-    EXPECT_EQ(desk.query("route", equal("component_ref", "robot_b")).component_ref.code, "robot_b");
-    EXPECT_EQ(desk.query("route", equal("component_ref", "speech")).return_code, ReturnCode::unsupported);
-    EXPECT_EQ(desk.query("route", equal("colour", "red")).return_code, ReturnCode::bad_parameter);
-    EXPECT_EQ(desk.query("route", not_understood("what is this")).reason, "what is this");
-}
-
-TEST(Query, FindsANamedComponentAmongMany) {
-    World world{named("a", navigation), named("b", navigation), named("c", navigation),
-                named("d", navigation), named("e", navigation), speech};
-    auto desk = world.connect(), hall = world.connect();
-    auto const names = either({equal("component_ref", "e"), equal("component_ref", "speech"), equal("component_ref", "d"),
-                               equal("component_ref", "e"), equal("component_ref", "nobody")});
-    EXPECT_EQ(desk.query("route", names).component_ref.code, "d");
-    hall.bind("d");
-    EXPECT_EQ(desk.query("route", names).component_ref.code, "e");
-    EXPECT_EQ(desk.query("route", equal("component_ref", "speech")).return_code, ReturnCode::unsupported);
-}
-
 namespace {
 
 Results route(std::string length, std::string to) {
@@ -146,20 +125,6 @@ TEST(Query, OfAnUnknownTypeIsUnsupported) {
     EXPECT_EQ(reply.return_code, ReturnCode::unsupported);
     EXPECT_THAT(reply.reason, HasSubstr("'weather'"));
     EXPECT_EQ(world.connect().query("dock").return_code, ReturnCode::unsupported) << "a command is not a query";
-}
-
-TEST(Query, ForParametersNeedsNoBinding) {
-    World world{speech};
-    auto desk = world.connect();
-    auto const reply = desk.query("get_parameter");
-    EXPECT_EQ(in_words(reply.results.parameters), "synthesizable_languages=en|ja volume=50 language=en");
-}
-
-TEST(Query, ForTheStatusIsAnsweredByTheEngine) {
-    World world{navigation};
-    auto const reply = world.connect().query("component_status");
-    EXPECT_EQ(reply.results.parameters.front(), status_of("status", ComponentStatus::ready));
-    EXPECT_EQ(reply.component_ref.code, "navigation");
 }
 
 TEST(Query, ThatCannotBeAnsweredNowIsAnError) {

@@ -38,12 +38,6 @@ TEST_F(References, MayReferToParameters) {
     EXPECT_THAT(found(equal("Property/labels", "green")), ElementsAre("lamp"));
 }
 
-TEST_F(References, UseThePresentValuesOfParameters) {
-    desk.bind("speech");
-    desk.set_parameter("speech", {value("volume", "int", {"80"})});
-    EXPECT_THAT(found(greater("volume", "60")), ElementsAre("speech"));
-}
-
 TEST_F(References, MayHavePrefixesAndAnyCase) {
     EXPECT_THAT(found(equal("rois:Property/rois:volume", "50")), ElementsAre("speech", "sub1.speech"));
     EXPECT_THAT(found(equal("PROPERTY / Volume", "50")), ElementsAre("speech", "sub1.speech"));

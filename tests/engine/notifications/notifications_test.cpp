@@ -13,17 +13,6 @@ EngineSettings few(std::size_t waiting) {
 
 }  // namespace
 
-TEST(Notifications, AreNumberedInEachSessionAlone) {
-    World world{navigation, detection};
-    auto desk = world.connect(), hall = world.connect();
-    desk.subscribe("person_detected");
-    world["detection"].fires("person_detected");
-    hall.subscribe("person_detected");
-    world["detection"].fires("person_detected");
-    EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection", "2 person_detected detection"));
-    EXPECT_THAT(hall.heard(), ElementsAre("1 person_detected detection"));
-}
-
 TEST(Notifications, NotifyTheOutbox) {
     World world{navigation};
     auto desk = world.connect(), hall = world.connect();
@@ -34,20 +23,6 @@ TEST(Notifications, NotifyTheOutbox) {
     desk.leave();
     EXPECT_EQ(world.notified[desk.session], 2) << "also for the end";
     EXPECT_EQ(world.notified[hall.session], 0);
-}
-
-TEST(Notifications, ThatAreEventsAreDroppedWhenTheSessionDoesNotRead) {
-    World world{{navigation, detection}, few(4)};
-    auto desk = world.connect();
-    desk.bind("navigation");
-    desk.subscribe("person_detected");
-    desk.execute(named("a", stop("navigation")));
-    for (int i = 0; i < 10; ++i) world["detection"].fires("person_detected");
-    desk.execute(named("b", stop("navigation")));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed a OK", "9 lost 8", "10 person_detected detection",
-                                          "11 person_detected detection", "12 completed b OK"));
-    EXPECT_EQ(world.engine->statistics().notifications, 12U);
-    EXPECT_EQ(world.engine->statistics().notifications_lost, 8U);
 }
 
 TEST(Notifications, ThatMustNotBeLostEndASessionThatNeverReads) {

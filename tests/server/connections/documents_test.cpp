@@ -21,24 +21,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(Document, OfTheEngineListsItsComponents) {
-    HttpClient client;
-    auto const reply = client.get("/rois/profile");
-    EXPECT_STREQ(reply.root().name(), "rois:HRIEngineProfile");
-    EXPECT_THAT(reply.body, HasSubstr("navigation"));
-}
-
-TEST(Document, OfEachComponentIsThere) {
-    HttpClient client;
-    for (auto const* name : {"system_information", "person_detection", "person_localization", "person_identification",
-                             "face_detection", "face_localization", "sound_detection", "sound_localization", "speech_recognition",
-                             "gesture_recognition", "speech_synthesis", "reaction", "navigation", "follow", "move"}) {
-        auto const reply = client.get("/rois/profile/" + std::string{name});
-        EXPECT_EQ(reply.status, 200) << name;
-        EXPECT_STREQ(reply.root().name(), "rois:HRIComponentProfile") << name;
-    }
-}
-
 TEST(Document, IsNotSentAgainToAClientThatHasIt) {
     HttpClient client;
     for (auto const* path :
@@ -153,12 +135,6 @@ TEST(Page, ReflectsNoMarkup) {
     auto const refused = HttpClient{}.say("GET / HTTP/1.1\r\nHost: <script>alert(1)</script>\r\n\r\n");
     EXPECT_EQ(refused.status, 400);
     EXPECT_THAT(refused.body, Not(HasSubstr("<script")));
-}
-
-TEST(Health, IsGood) {
-    HttpClient client;
-    EXPECT_EQ(client.get("/healthz").status, 200);
-    EXPECT_EQ(client.get("/readyz").status, 200);
 }
 
 TEST(Metrics, CountFullyCheckedDocuments) {

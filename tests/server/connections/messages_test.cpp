@@ -8,27 +8,6 @@
 namespace rois::test {
 namespace {
 
-TEST(Message, ThatIsNotXmlIsAnsweredWith400) {
-    HttpClient client;
-    using namespace std::string_literals;
-    for (auto const& body : {""s, " \n\t "s, "<connect"s, "<a></b>"s, request("connect") + "<again/>", "<a b='1' b='2'/>"s,
-                             "\xC3\x28"s, "<a>\0</a>"s, "<a>\x01</a>"s}) {
-        auto const reply = client.post(body);
-        EXPECT_EQ(reply.status, 400) << body;
-        EXPECT_EQ(reply.fault(), "not_well_formed") << body;
-    }
-}
-
-TEST(Message, WithForbiddenXmlIsAnsweredWith400) {
-    HttpClient client;
-    for (std::string const body : {"<!DOCTYPE a [<!ENTITY e SYSTEM 'file:///etc/passwd'>]><a>&e;</a>", "<?pi x?><connect/>",
-                                   "<?xml version='1.1'?><connect/>"}) {
-        auto const reply = client.post(body);
-        EXPECT_EQ(reply.status, 400) << body;
-        EXPECT_NE(reply.fault(), "") << body;
-    }
-}
-
 TEST(Message, ThatIsInvalidIsAnsweredWith422AndThePlace) {
     HttpClient client;
     auto const reply = client.post(request("bind", "\n<component/>", {{"request_id", "r7"}}));
@@ -81,36 +60,6 @@ TEST(Session, WithTwoHeadersIsInvalid) {
               "no_session");
 }
 
-TEST(Session, IsSharedByConnections) {
-    HttpClient desk, hall;
-    desk.call("connect");
-    hall.session = desk.session;
-    EXPECT_EQ(hall.call("bind", component_ref("move")).return_code(), "OK");
-    EXPECT_EQ(desk.call("get_parameter", component_ref("move")).return_code(), "OK");
-}
-
-TEST(Session, IsNotResumedOverHttp) {
-    HttpClient client;
-    client.call("connect");
-    auto const reply = client.call("resume", "", {{"session", client.session}, {"last_sequence", "0"}});
-    EXPECT_EQ(reply.status, 403);
-    EXPECT_EQ(reply.fault(), "not_allowed");
-}
-
-TEST(Session, AboveTheLimitIsRefused) {
-    GatewayProcess gateway{{"--max-sessions", "2"}};
-    HttpClient first{gateway}, second{gateway}, third{gateway};
-    first.call("connect");
-    first.call("bind", component_ref("navigation"));
-    second.call("connect");
-    second.call("bind", component_ref("follow"));
-    auto const reply = third.call("connect");
-    EXPECT_EQ(reply.status, 429);
-    EXPECT_EQ(reply.fault(), "too_many");
-    second.call("disconnect");
-    EXPECT_EQ(third.call("connect").return_code(), "OK");
-}
-
 TEST(Session, EndsAfterItsTimeoutWithoutRequests) {
     GatewayProcess gateway{{"--session-timeout", "0.2", "--resume-window", "0.1"}};
     HttpClient gone{gateway};
@@ -124,16 +73,6 @@ TEST(Session, EndsAfterItsTimeoutWithoutRequests) {
     } while (bound == "OUT_OF_RESOURCES");
     EXPECT_EQ(bound, "OK");
     EXPECT_EQ(gone.call("search").fault(), "no_session");
-}
-
-TEST(Operation, AnswersWith200WhateverItsReturnCode) {
-    HttpClient client;
-    client.call("connect");
-    auto const reply = client.call("bind", component_ref("nobody"), {{"request_id", "9"}});
-    EXPECT_EQ(reply.status, 200);
-    EXPECT_EQ(reply.return_code(), "BAD_PARAMETER");
-    EXPECT_STREQ(reply.root().attribute("request_id").value(), "9");
-    EXPECT_NE(reply.reason(), "");
 }
 
 TEST(Operation, BindOfFiftyConcurrentClientsSucceedsForOne) {

@@ -162,13 +162,6 @@ TEST(EventStream, BeginsAtTheBeginningAndGoesOn) {
     EXPECT_STREQ(event->document.document_element().name(), "completed");
 }
 
-TEST(EventStream, GoesOnAfterTheLastEvent) {
-    HttpClient client;
-    bind_and_complete(client, 3);
-    Stream stream{client.session, "Last-Event-ID: 2\r\n"};
-    EXPECT_EQ(stream.next()->id, "3");
-}
-
 TEST(EventStream, SendsCommentsWhileItIsIdle) {
     GatewayProcess gateway{{"--ping-interval", "0.1"}};
     HttpClient client{gateway};

@@ -120,16 +120,6 @@ TEST(WebSocket, LivesThroughFaults) {
     EXPECT_EQ(code_of(client.call("search")), "OK");
 }
 
-TEST(WebSocket, SharesItsSessionWithHttp) {
-    WebSocketClient client;
-    client.call("connect");
-    HttpClient http;
-    http.session = client.session();
-    EXPECT_EQ(http.call("bind", component_ref("follow")).return_code(), "OK");
-    EXPECT_EQ(http.call("set_parameter", component_ref("follow") + parameters("time_limit", 1'000)).return_code(), "OK");
-    EXPECT_EQ(name_of(client.next_document()), "completed");
-}
-
 TEST(WebSocket, StaysOpenAfterDisconnectForAnotherSession) {
     WebSocketClient client;
     client.call("connect");
@@ -204,17 +194,6 @@ TEST(Resume, GoesOnAfterTheLastSequence) {
     EXPECT_EQ(again.next_document().attribute("sequence").as_uint(), 3u);
     EXPECT_EQ(code_of(again.call("get_parameter", component_ref("navigation"))), "OK") << "the binding is still there";
     EXPECT_EQ(code_of(again.call("disconnect")), "OK");
-}
-
-TEST(Resume, ClosesTheOlderWebSocket) {
-    WebSocketClient older;
-    bind_and_complete(older, 1);
-    WebSocketClient newer;
-    EXPECT_EQ(resume(newer, older.session(), 1), "OK");
-    EXPECT_EQ(older.closes(), 1008);
-    EXPECT_EQ(code_of(newer.call("set_parameter", component_ref("navigation") + parameters("time_limit", 1'000))), "OK");
-    EXPECT_EQ(newer.next_document().attribute("sequence").as_uint(), 2u);
-    newer.call("disconnect");
 }
 
 TEST(Resume, OfItsOwnSessionReceivesTheNotificationsAgain) {
@@ -293,49 +272,12 @@ TEST(Close, IsAnsweredWithItsCode) {
     EXPECT_TRUE(client.line().ends());
 }
 
-TEST(Close, With1003ForBinary) {
-    WebSocketClient client;
-    client.send("x", Kind::binary);
-    EXPECT_EQ(client.closes(), 1003);
-}
-
-TEST(Close, With1007ForInvalidUtf8) {
-    WebSocketClient client;
-    client.send("<a>\xC3\x28</a>");
-    EXPECT_EQ(client.closes(), 1007);
-}
-
-TEST(Close, With1002ForBrokenFrames) {
-    auto const closes_after = [](auto speak) {
-        WebSocketClient client;
-        speak(client);
-        return client.closes();
-    };
-    EXPECT_EQ(closes_after([](auto& c) { c.send_raw(0xC1, "rsv"); }), 1002);
-    EXPECT_EQ(closes_after([](auto& c) { c.line().send("\x81\x02hi"); }), 1002) << "unmasked";
-    EXPECT_EQ(closes_after([](auto& c) { c.send(std::string(126, 'p'), Kind::ping); }), 1002);
-    EXPECT_EQ(closes_after([](auto& c) { c.send_raw(0x09, "part of a ping"); }), 1002);
-    EXPECT_EQ(closes_after([](auto& c) { c.send_raw(0x83, "reserved kind"); }), 1002);
-    EXPECT_EQ(closes_after([](auto& c) { c.send_raw(0x80, "of nothing"); }), 1002);
-    EXPECT_EQ(closes_after([](auto& c) { c.send_raw(0x01, "begun"), c.send("again"); }), 1002);
-    EXPECT_EQ(closes_after([](auto& c) { c.send("x", Kind::close); }), 1002) << "half a code";
-    EXPECT_EQ(closes_after([](auto& c) { c.send("\x03\xED", Kind::close); }), 1002) << "1005";
-    EXPECT_EQ(closes_after([](auto& c) { c.line().send(std::string("\x81\xFE\0\x05mask", 8)); }), 1002) << "a long length for 5";
-}
-
 TEST(Close, With1009ForAMessageThatIsTooLarge) {
     WebSocketClient client;
     auto const document = request("connect");
     client.send(document + std::string((1 << 20) - document.size(), ' '));
     EXPECT_EQ(code_of(client.next_document()), "OK");
     client.send(std::string((1 << 20) + 1, ' '));
-    EXPECT_EQ(client.closes(), 1009);
-}
-
-TEST(Close, With1009ForFragmentsThatAreTooLargeTogether) {
-    WebSocketClient client;
-    client.send_raw(0x01, std::string(600'000, ' '));
-    client.send_raw(0x80, std::string(600'000, ' '));
     EXPECT_EQ(client.closes(), 1009);
 }
 

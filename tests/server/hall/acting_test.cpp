@@ -8,9 +8,6 @@
 namespace rois::test {
 namespace {
 
-using testing::Pair;
-using testing::UnorderedElementsAre;
-
 struct Acting : Conversation {
     struct Pose {
         double x = 0, y = 0, th = 0;  // mm, degrees
@@ -54,38 +51,6 @@ TEST_P(Acting, MoveEndsWhereItsProfileSays) {
         EXPECT_NEAR(dy * std::cos(th) - dx * std::sin(th), motion.left, 100) << id;
         EXPECT_NEAR(std::remainder(after.th - before.th - motion.turned, 360), 0, 5) << id;
     }
-}
-
-TEST_P(Acting, AnUnknownCharacterIsRefusedWithTheListOfKnownOnes) {
-    desk.bind("speech_synthesis");
-    EXPECT_THAT(
-        desk.set_parameter("speech_synthesis", {{"character", "string", {"ghost"}}}),
-        IsRefused("BAD_PARAMETER", "'ghost' is not one of the synthesizable_characters: default, female, male, child, robot"));
-    EXPECT_THAT(desk.set_parameter("speech_synthesis", {{"character", "string", {"child"}}}), IsOk());
-}
-
-TEST_P(Acting, AFollowOfAnUnknownPersonFailsWithAReason) {
-    desk.bind("follow");
-    desk.execute(Command{.component = "follow",
-                         .id = "vain",
-                         .arguments = {{"target_object_ref", "RoISIdentifier", {"ghost"}}, {"distance", "int", {"1000"}}}});
-    EXPECT_EQ(desk.status_of("vain"), "ERROR");
-    EXPECT_THAT(desk.get_command_result("vain").values(),
-                UnorderedElementsAre(Pair("status", ElementsAre("ERROR")),
-                                     Pair("reason", ElementsAre(HasSubstr("'ghost' is unknown: no robot has this name")))));
-}
-
-TEST_P(Acting, AFollowThatTimesOutReportsThatItsTargetIsMissing) {
-    desk.bind("follow");
-    desk.execute(Command{
-        .component = "follow",
-        .id = "vain",
-        .arguments = {
-            {"target_object_ref", "RoISIdentifier", {"ghost"}}, {"distance", "int", {"1000"}}, {"time_limit", "int", {"2000"}}}});
-    EXPECT_EQ(desk.status_of("vain"), "TIMEOUT");
-    EXPECT_THAT(desk.get_command_result("vain").values(),
-                UnorderedElementsAre(Pair("status", ElementsAre("TIMEOUT")),
-                                     Pair("reason", ElementsAre("'ghost' has not been seen within time_limit, 2000 ms"))));
 }
 
 }  // namespace

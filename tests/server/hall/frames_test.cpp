@@ -91,11 +91,5 @@ TEST_P(FramesOfRobots, AreTakenFromApplications) {
     EXPECT_EQ(desk.status_of("back"), "OK");
 }
 
-TEST_P(FramesOfRobots, MustBeKnown) {
-    auto const answer = drive_to("1, 2", "urn:street");
-    EXPECT_THAT(answer, IsRefused("BAD_PARAMETER",
-                                  "the frame 'urn:street' is not known here; expected one of " + hall_frame + ", " + map_frame));
-}
-
 }  // namespace
 }  // namespace rois::test

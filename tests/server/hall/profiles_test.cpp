@@ -161,30 +161,6 @@ TEST_P(ProfilesOfUsers, MakeComponentsThatAScenarioLetsFail) {
     EXPECT_THAT(without.error, HasSubstr("day.scenario:2:1: unknown component 'fan'"));
 }
 
-TEST_P(ProfilesOfUsers, MayListenWithAGrammar) {
-    GatewayProcess gateway{{"--profiles", ROIS_SOURCE_DIR "/components/simulation/profiles", "--scenario",
-                            ROIS_SOURCE_DIR "/tests/server/data/greeting.xml", "--sim-speed", "20"}};
-    Application desk{GetParam(), gateway};
-    desk.connect();
-    desk.bind("srgs_speech_recognition");
-    desk.subscribe("speech_recognized", where(equal("component_ref", "srgs_speech_recognition")), true);
-    auto const start = [&](std::string const& rule) {
-        return desk.execute(Command{"srgs_speech_recognition",
-                                    "start",
-                                    "",
-                                    {{"grammar",
-                                      "string",
-                                      {"<grammar xmlns='http://www.w3.org/2001/06/grammar' version='1.0' xml:lang='en' "
-                                       "root='" +
-                                       rule + "'><rule id='hello'>hello<tag>greeting</tag></rule></grammar>"}}}});
-    };
-    EXPECT_THAT(start("bye").reason(), HasSubstr("grammar:1:1: unknown root rule 'bye'"));
-    EXPECT_EQ(start("hello").return_code(), "OK");
-    auto const values = desk.hear_event("speech_recognized").values();
-    EXPECT_THAT(values.at("nbest"), ElementsAre("1.000 en hello"));
-    EXPECT_THAT(values.at("meaning"), ElementsAre("greeting"));
-}
-
 TEST_P(ProfilesOfUsers, AreReadAgainAfterAHangUp) {
     folder_.put("lamp.xml", lamp("red"));
     GatewayProcess gateway{{"--profiles", folder_.name()}};

@@ -93,15 +93,6 @@ TEST_P(StillHall, TheRobotAvoidsSteeredVisitors) {
     EXPECT_THAT(desk.query("visitors").values()["visitor_ref"], IsEmpty());
 }
 
-TEST_P(StillHall, ReportsWhyACommandFailed) {
-    EXPECT_THAT(desk.execute(steer("walk", {who("bob"), target_position({"desk"})}, "w")), IsOk());
-    EXPECT_EQ(desk.status_of("w"), "ERROR");
-    EXPECT_EQ(desk.get_command_result("w").values()["reason"].front(), "visitor bob is not in the hall");
-    EXPECT_THAT(desk.execute(walk("bob", "nowhere")), IsRefused("BAD_PARAMETER", "'nowhere' is not a valid target"));
-    EXPECT_THAT(desk.execute(let_pass(30)), IsRefused("BAD_PARAMETER", "a multiple of 20"));
-    EXPECT_THAT(desk.execute(steer("enter", {})), IsRefused("BAD_PARAMETER", "visitor_ref"));
-}
-
 TEST_P(StillHall, StandsStillWhenTheSessionEnds) {
     run({enter("anna")}, 20);
     EXPECT_THAT(desk.execute(walk("anna", "cloakroom")), IsOk());

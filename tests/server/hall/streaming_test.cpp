@@ -6,9 +6,6 @@ namespace rois::test {
 namespace {
 
 using testing::AllOf;
-using testing::Contains;
-using testing::Pair;
-using testing::SizeIs;
 using testing::StartsWith;
 
 std::string one(Values const& values, std::string const& name) {
@@ -174,52 +171,6 @@ TEST_P(Streaming, TheHallIsSeenFromAbove) {
     set("video_streaming", "", "");
 }
 
-TEST_P(Streaming, PicturesMayBeFetchedOneByOne) {
-    listen("video_streaming");
-    set("video_streaming", "image/jpeg;size=200", "http");
-    auto const stream = connect("video_streaming");
-    EXPECT_EQ(decoded_jpeg(Receiving{stream.transport}.line().rest()).width, 200u);
-    EXPECT_EQ(outcome("video_streaming", "suspend_stream", stream.id), "OK");
-    EXPECT_THAT(Receiving{stream.transport}.head(), StartsWith("HTTP/1.1 503 "));
-    set("video_streaming", "", "");
-}
-
-TEST_P(Streaming, ParametersListTheStreams) {
-    auto const values = desk.query("get_parameter", where(equal("name", "audio_streaming"))).values();
-    EXPECT_THAT(values, Contains(Pair("available_encodings", ElementsAre("audio/wav, audio/L16"))));
-    EXPECT_THAT(values, Contains(Pair("available_transports", ElementsAre("http, rtp"))));
-}
-
-TEST_P(Streaming, InvalidParametersAreRefused) {
-    listen("audio_streaming");
-    EXPECT_THAT(desk.set_parameter("audio_streaming", {{"encoding_parameters", "string", {"audio/opus"}}}),
-                IsRefused("BAD_PARAMETER", "'audio/opus' is not supported; expected one of audio/wav, audio/L16"));
-    EXPECT_THAT(desk.set_parameter("audio_streaming", {{"transport_parameters", "string", {"rtp://192.0.2.1:5004"}}}),
-                IsRefused("BAD_PARAMETER", "loopback"));
-    EXPECT_THAT(order("audio_streaming", "suspend_stream", "moon"),
-                IsRefused("BAD_PARAMETER", "command_unit_list[1]: argument 'stream_id': stream 'moon' is not connected"));
-    EXPECT_THAT(desk.execute(Command{.component = "audio_streaming", .type = "disconnect_stream"}),
-                IsRefused("BAD_PARAMETER", "'stream_id' is missing"));
-    EXPECT_THAT(desk.query("get_stream_status", where(equal("stream_id", "moon"))),
-                IsRefused("UNSUPPORTED", "no component that matches the condition answers query 'get_stream_status'"));
-}
-
-TEST_P(Streaming, TheCommonCommandsAreAboutAllStreams) {
-    listen("audio_streaming");
-    auto const first = connect("audio_streaming"), second = connect("audio_streaming");
-    auto const all = [&](std::string const& type) {
-        return desk.status_of(command_ids(desk.execute(Command{.component = "audio_streaming", .type = type})).front());
-    };
-    EXPECT_EQ(all("suspend"), "OK");
-    EXPECT_EQ(status(first.id), "STREAMING_SUSPENDED");
-    EXPECT_EQ(status(second.id), "STREAMING_SUSPENDED");
-    EXPECT_EQ(all("resume"), "OK");
-    EXPECT_EQ(all("stop"), "OK");
-    EXPECT_EQ(status(first.id), "STREAMING_NOT_CONNECTED");
-    EXPECT_EQ(status(second.id), "STREAMING_NOT_CONNECTED");
-    EXPECT_EQ(all("suspend"), "ERROR") << "nothing is connected";
-}
-
 TEST_P(Streaming, EndsWithTheBinding) {
     listen("audio_streaming");
     auto const stream = connect("audio_streaming");
@@ -275,10 +226,6 @@ TEST_P(Streaming, IsNotForPagesOfOtherSites) {
         EXPECT_EQ(status(target, "Host: localhost\r\nOrigin: null\r\n"), "403");
         EXPECT_EQ(status(target, "Host: localhost\r\nHost: evil.example\r\n"), "400");
     }
-}
-
-TEST_P(Streaming, ComponentsAreAddedToTheFifteen) {
-    EXPECT_THAT(desk.search(), AllOf(SizeIs(17), Contains("audio_streaming"), Contains("video_streaming")));
 }
 
 TEST(StreamingAddress, MustBeFree) {

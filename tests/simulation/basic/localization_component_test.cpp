@@ -90,15 +90,6 @@ TEST(Localization, ReportsAWalkingPersonAFewTimesASecond) {
     EXPECT_THAT(events.size(), AllOf(Ge(10U), Le(21U)));
 }
 
-TEST(Localization, ObeysMinimumInterval) {
-    Stage stage{{visitor("guest", {does(Walk{at(4, 4)}), does(Wait{1000})})}};
-    stage["person_localization"].start({integer("minimum_interval", 1000)});
-    stage.run(6);
-    auto const events = stage["person_localization"].events("person_localized");
-    ASSERT_THAT(events.size(), AllOf(Ge(4U), Le(7U)));
-    for (std::size_t i = 1; i < events.size(); ++i) EXPECT_GE(events[i].at - events[i - 1].at, WorldTime{1000});
-}
-
 // The shortest time between two events about a person who approaches and talks at length.
 WorldTime shortest_gap(std::string const& kind, std::int64_t minimum_interval) {
     std::string words;

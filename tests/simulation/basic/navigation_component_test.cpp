@@ -64,7 +64,7 @@ TEST(Navigation, RefusesOtherPoliciesAndLimits) {
 
 TEST(Navigation, FailsWhenATargetIsOutsideOfTheHall) {
     Stage stage;
-    for (auto target : {"-1000, 4000", "5000, 90000", "1e300, 0"}) {
+    for (auto target : {"-1000, 4000", "5000, 90000", "1e300, 0", "8000, 7000"}) {
         stage["navigation"].start({to({"desk", target})});
         EXPECT_EQ(stage.outcome("navigation", 1), "ERROR") << target;
         EXPECT_EQ(stage["navigation"].reason(),
@@ -79,12 +79,6 @@ TEST(Navigation, FailsWhenWallsLeaveNoWay) {
     EXPECT_EQ(stage.outcome("navigation"), "ERROR");
     EXPECT_THAT(stage["navigation"].words(), ElementsAre("started", "reached_target", "completed ERROR"));
     EXPECT_EQ(stage["navigation"].reason(), "no way leads to '10000, 7000'");
-}
-
-TEST(Navigation, FailsWhenTheTargetIsWithinAWall) {
-    Stage stage;
-    stage["navigation"].start({to({"8000, 7000"})});
-    EXPECT_EQ(stage.outcome("navigation"), "ERROR");
 }
 
 TEST(Navigation, FailsWhenAPersonStaysInTheWay) {

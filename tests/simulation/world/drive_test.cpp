@@ -10,25 +10,6 @@ namespace {
 // A person who stands at a point for a long time.
 Role standing_at(Point const& p) { return tanaka({{Walk{{p}}, {}}, {Wait{3'600}, {}}}); }
 
-TEST(Drive, GoesToAPositionAndTurnsAsWanted) {
-    Hall hall{plain_hall(), nobody(), 1};
-    auto const go = hall.drive(robot1).begin("navigation", GoTo{{{Point{6, 2}, from_degrees(90)}}});
-    ASSERT_TRUE(go);
-    EXPECT_EQ(state(hall, robot1, *go), MotionState::moving);
-    ASSERT_TRUE(runs_until(hall, 30, [&] { return over(state(hall, robot1, *go)); }));
-    EXPECT_EQ(state(hall, robot1, *go), MotionState::arrived);
-    EXPECT_LT(distance(hall.robot(robot1).pose.position, Point{6, 2}), 0.05);
-    EXPECT_NEAR(hall.robot(robot1).pose.heading, from_degrees(90), from_degrees(2));
-}
-
-TEST(Drive, CountsTheTargetsThatItReaches) {
-    Hall hall{plain_hall(), nobody(), 1};
-    auto const go = hall.drive(robot1).begin("navigation", GoTo{{{Point{4, 4}, {}}, {Point{4, 2}, {}}, {Point{2, 2}, {}}}});
-    for (std::size_t reached = 1; reached <= 3; ++reached)
-        ASSERT_TRUE(runs_until(hall, 30, [&] { return hall.drive(robot1).progress(*go).targets_reached == reached; }));
-    ASSERT_TRUE(runs_until(hall, 5, [&] { return state(hall, robot1, *go) == MotionState::arrived; }));
-}
-
 TEST(Drive, KeepsItsLimits) {
     Hall hall{divided_hall(), nobody(), 1};
     Drive& drive = hall.drive(robot1);
@@ -128,22 +109,6 @@ TEST(Drive, AMotionThatBeginsWhileTheRobotIsStoppingWaitsUntilItStands) {
     ASSERT_TRUE(runs_until(hall, 10, [&] { return state(hall, robot1, *next) == MotionState::arrived; }));
 }
 
-TEST(Drive, HoldsAndGoesOn) {
-    Hall hall{plain_hall(), nobody(), 1};
-    Drive& drive = hall.drive(robot1);
-    auto const line = drive.begin("move", Line{3, 0});
-    run(hall, 1.5);
-    drive.hold(*line);
-    EXPECT_EQ(state(hall, robot1, *line), MotionState::held);
-    run(hall, 5);
-    Point const held = drive.pose().position;
-    EXPECT_EQ(drive.twist().linear, 0);
-    EXPECT_LT(held.x(), 4);
-    drive.go_on(*line);
-    ASSERT_TRUE(runs_until(hall, 10, [&] { return state(hall, robot1, *line) == MotionState::arrived; }));
-    EXPECT_NEAR(drive.pose().position.x(), 5, 0.02);
-}
-
 TEST(Drive, ALineIsATurnAndThenADistance) {
     Hall hall{plain_hall(), nobody(), 1};
     auto const line = hall.drive(robot1).begin("move", Line{-1, from_degrees(-270)});
@@ -159,65 +124,12 @@ TEST(Drive, ALineIsATurnAndThenADistance) {
     EXPECT_NEAR(to_degrees(turned), -270, 0.5);
 }
 
-TEST(Drive, ALineIntoAWallIsNotBegun) {
-    Hall hall{plain_hall(), nobody(), 1};
-    auto const line = hall.drive(robot1).begin("move", Line{-1.8, 0});
-    run(hall, 1);
-    EXPECT_EQ(state(hall, robot1, *line), MotionState::unreachable);
-    EXPECT_EQ(hall.robot(robot1).pose.position, Point(2, 4));
-}
-
-struct CurveCase {
-    Curve curve;
-    Pose end;
-};
-class Curves : public testing::TestWithParam<CurveCase> {};
-TEST_P(Curves, EndWhereTheCircleSays) {
-    Hall hall{plain_hall(), nobody(), 1};
-    auto const curve = hall.drive(robot1).begin("move", GetParam().curve);
-    ASSERT_TRUE(runs_until(hall, 30, [&] { return over(state(hall, robot1, *curve)); }));
-    EXPECT_EQ(state(hall, robot1, *curve), MotionState::arrived);
-    Pose const pose = hall.robot(robot1).pose;
-    EXPECT_LT(distance(pose.position, GetParam().end.position), 0.001) << pose.position.transpose();
-    EXPECT_NEAR(wrapped(pose.heading - GetParam().end.heading), 0, from_degrees(0.2));
-}
-INSTANTIATE_TEST_SUITE_P(All, Curves,
-                         testing::Values(CurveCase{{1, from_degrees(90), {}}, {Point{3, 5}, from_degrees(90)}},
-                                         CurveCase{{1, from_degrees(-90), {}}, {Point{3, 3}, from_degrees(-90)}},
-                                         CurveCase{{-1, from_degrees(90), {}}, {Point{1, 3}, from_degrees(90)}},
-                                         CurveCase{{-1, from_degrees(-90), {}}, {Point{1, 5}, from_degrees(-90)}},
-                                         CurveCase{{0, from_degrees(120), {}}, {Point{2, 4}, from_degrees(120)}},
-                                         CurveCase{{1, from_degrees(720), {}}, {Point{2, 4}, 0}}));
-INSTANTIATE_TEST_SUITE_P(Small, Curves,
-                         testing::Values(CurveCase{{0.005, from_degrees(90), {}}, {Point{2.005, 4.005}, from_degrees(90)}},
-                                         CurveCase{{-0.005, from_degrees(90), {}}, {Point{1.995, 3.995}, from_degrees(90)}},
-                                         CurveCase{{0.01, from_degrees(-90), {}}, {Point{2.01, 3.99}, from_degrees(-90)}},
-                                         CurveCase{{0.01, from_degrees(720), {}}, {Point{2, 4}, 0}},
-                                         CurveCase{{1, from_degrees(1), {}}, {Point{2.01745, 4.00015}, from_degrees(1)}},
-                                         CurveCase{{0.01, from_degrees(90), 10.0}, {Point{2.01, 4.01}, from_degrees(90)}}));
-
 TEST(Drive, ACurveThroughAWallIsNotBegun) {
     Hall hall{plain_hall(), nobody(), 1};
     auto const curve = hall.drive(robot1).begin("move", Curve{4, from_degrees(180)});
     run(hall, 1);
     EXPECT_EQ(state(hall, robot1, *curve), MotionState::unreachable);
     EXPECT_EQ(hall.robot(robot1).pose.position, Point(2, 4));
-}
-
-TEST(Drive, MotionsTakeTheRequestedTime) {
-    for (Motion const& motion : {Motion{Line{2, from_degrees(90), 12.0}}, Motion{Line{0, from_degrees(90), 8.0}},
-                                 Motion{Curve{1, from_degrees(90), 10.0}}, Motion{Curve{0, from_degrees(90), 6.0}}}) {
-        Hall hall{plain_hall(), nobody(), 1};
-        auto const id = hall.drive(robot1).begin("move", motion);
-        ASSERT_TRUE(runs_until(hall, 60, [&] { return over(state(hall, robot1, *id)); }));
-        Seconds const wanted = std::visit(
-            [](auto const& kind) {
-                if constexpr (requires { kind.duration; }) return *kind.duration;
-                return 0.0;
-            },
-            motion);
-        EXPECT_NEAR(in_seconds(hall.now()), wanted, wanted * 0.1 + 0.3) << motion.index();
-    }
 }
 
 TEST(Drive, StopsBeforeAPersonAndDrivesOnWhenTheyHaveLeft) {
@@ -295,14 +207,6 @@ TEST(Drive, TwoRobotsMeetingHeadOnPassEachOther) {
     EXPECT_EQ(state(hall, robot1, *to_right), MotionState::arrived);
     EXPECT_EQ(state(hall, robot2, *to_left), MotionState::arrived);
     EXPECT_GT(nearest, 0.56);
-}
-
-TEST(Drive, OneRobotFollowsTheOther) {
-    Hall hall{hall_with_two_robots(), nobody(), 1};
-    hall.drive(robot2).begin("follow", KeepDistance{entity_id(robot1), 1.5});
-    hall.drive(robot1).begin("navigation", GoTo{{{Point{2, 1}, {}}}});
-    run(hall, 25);
-    EXPECT_NEAR(distance(hall.robot(robot1).pose.position, hall.robot(robot2).pose.position), 1.5, 0.27);
 }
 
 }  // namespace

@@ -103,17 +103,6 @@ TEST(Tracks, APermanentIdIsKnownForAsLongAsTheTemporaryName) {
     EXPECT_FALSE(hall.find("tanaka")) << "no sensor has seen them for long";
 }
 
-TEST(FacesSeen, AreTurnedToTheRobot) {
-    auto const facing = hall_with(plain_hall(), staying(Point{5, 4}, {"robot1"}));
-    auto const faces = faces_seen(*facing, robot1);
-    ASSERT_EQ(faces.size(), 1u);
-    EXPECT_EQ(faces[0].ref, "face-1");
-    EXPECT_NEAR(faces[0].height, 1.56, 0.001);
-    auto const turned_away = hall_with(plain_hall(), staying(Point{5, 4}, {Point{8, 4}}));
-    EXPECT_TRUE(faces_seen(*turned_away, robot1).empty());
-    EXPECT_EQ(people_seen(*turned_away, robot1).size(), 1u);
-}
-
 TEST(PeopleRecognized, AreNearAndTurnedToTheRobot) {
     auto const near = hall_with(plain_hall(), staying(Point{4, 4}, {"robot1"}));
     auto const recognized = people_recognized(*near, robot1);
@@ -136,22 +125,6 @@ TEST(PeopleRecognized, StrangersStayStrangers) {
     EXPECT_FALSE(recognized[0].id);
     EXPECT_EQ(recognized[0].track, "person-1");
     EXPECT_FALSE(hall->find("tanaka"));
-}
-
-TEST(SoundsHeard, AreCurrentSpeakersInRange) {
-    Role role = tanaka({{Walk{{Point{7, 4}}}, {}},
-                        {Say{"en", "A long speech about the weather in this town, which is fine."}, 10.0},
-                        {Wait{99}, {}}});
-    Hall hall{plain_hall(), only(role), 1};
-    run(hall, 9.9);
-    EXPECT_TRUE(sounds_heard(hall, robot1).empty());
-    run(hall, 1);
-    auto const heard = sounds_heard(hall, robot1);
-    ASSERT_EQ(heard.size(), 1u);
-    EXPECT_EQ(heard[0].ref, "sound-1");
-    EXPECT_NEAR(heard[0].pose.position.x(), 7, 1.2);
-    run(hall, 6);
-    EXPECT_TRUE(sounds_heard(hall, robot1).empty());
 }
 
 TEST(SoundsHeard, IncludeOtherRobotsButNotTheRobotItself) {

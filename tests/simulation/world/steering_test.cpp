@@ -63,15 +63,6 @@ TEST_F(Steered, GoesFromOneTargetToTheNext) {
     EXPECT_NEAR(anna().pose.heading, from_degrees(-90), 0.01);
 }
 
-TEST_F(Steered, ANewWayTakesThePlaceOfTheOneBefore) {
-    auto const first = hall.steer("anna", to({2, 7}));
-    run(hall, 1);
-    auto const second = hall.steer("anna", to({9, 7}));
-    EXPECT_EQ(first->state, State::dropped);
-    ASSERT_TRUE(ends(hall, second));
-    EXPECT_LT(distance(anna().pose.position, {9, 7}), 0.1);
-}
-
 TEST_F(Steered, SpeaksAndGesturesWhileGoing) {
     auto const goes = hall.steer("anna", to({2, 7}));
     auto const first = hall.steer("anna", Say{"", "Guten Tag."}), second = hall.steer("anna", Say{"en", "Good day."});
