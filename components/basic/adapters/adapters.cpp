@@ -65,6 +65,7 @@ std::vector<std::unique_ptr<Component>> Adapters::components(ComponentProfile co
     auto const whole = flattened(profile, known);
     auto const shared = std::make_shared<ComponentProfile const>(profile);
     std::vector<std::unique_ptr<Component>> made;
+    made.reserve(robots_.bodies.size());
     for (auto const& body : robots_.bodies)
         made.push_back(robots_.component(body, component_name(profile), shared,
                                          [&](Context context) { return make(std::move(context), whole); }));

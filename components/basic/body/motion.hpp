@@ -29,7 +29,7 @@ inline constexpr Metres polite_distance = 1.0;  // between centres
 // Approaches `whom`, and stays at `distance` (centre to centre, without touching), facing them. Never drives backwards. Never
 // ends by itself.
 struct KeepDistance {
-    EntityId whom;
+    EntityId whom{};
     Metres distance = polite_distance;
 };
 

@@ -103,6 +103,7 @@ bool collides(FloorPlan const& plan, Disc const& body, Point const& to, std::spa
 
 std::vector<std::string> robot_names(FloorPlan const& plan) {
     std::vector<std::string> names;
+    names.reserve(plan.robots.size());
     for (RobotPlan const& robot : plan.robots) names.push_back(robot.name);
     return names;
 }
