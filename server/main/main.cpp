@@ -18,13 +18,13 @@
 #include "gateway/secrets.hpp"
 #include "main/command_line.hpp"
 #include "main/configuration_file.hpp"
+#include "main/health_check.hpp"
 #include "main/keys.hpp"
 #include "main/logging.hpp"
 #include "main/profile_folder.hpp"
 #include "main/speech_log.hpp"
 #include "main/user_components.hpp"
 #include "media/server.hpp"
-#include "net/health_check.hpp"
 #include "net/http/documents.hpp"
 #include "net/server.hpp"
 #include "simulation/adapters/robots.hpp"
@@ -239,7 +239,7 @@ int serve(CommandLine const& command) {
 }
 
 int check_health(Settings const& settings) {
-    auto const trouble = net::check_health(settings.net.host, settings.net.port);
+    auto const trouble = rois::check_health(settings.net.host, settings.net.port);
     if (trouble.empty()) return done;
     std::fprintf(stderr, "rois-gateway: not healthy: %s\n", trouble.c_str());
     return could_not_start;

@@ -18,6 +18,7 @@ Headers const pugixml{"pugixml.hpp", "pugiconfig.hpp"};
 Headers const boost{"boost/"};
 Headers const boost_geometry{"boost/geometry/"};
 Headers const boost_address{"boost/asio/ip/address.hpp"};  // a value, no socket
+Headers const boost_tcp{"boost/asio/ip/tcp.hpp"};          // for the health check
 Headers const boost_container{"boost/container/"};
 Headers const openssl{"openssl/"};
 Headers const prometheus{"prometheus/"};
@@ -56,7 +57,7 @@ std::vector<Layer> const layers{
     {"server/main/",
      {"main/", "net/", "gateway/", "engine/", "xml/", "types/", "files/", "basic/", "simulation/", "media/server.hpp",
       "media/settings.hpp"},
-     {cli11, json, spdlog, posix},
+     {boost_tcp, cli11, json, spdlog, posix},
      Time::read},
     {"components/media/", {"media/"}, {boost, jpeg}, Time::read},
     {"components/basic/",

@@ -13,9 +13,10 @@ namespace rois::net {
 
 namespace {
 
-constexpr unsigned most_in_a_row = 4;              // pipelined requests before other connections have their turn
-constexpr std::size_t most_to_gather = 64 * 1024;  // bytes of answers to pipelined requests
-constexpr std::size_t most_to_keep = 16 * 1024;    // bytes of memory that an empty buffer of answers may keep
+constexpr unsigned most_in_a_row = 4;               // pipelined requests before other connections have their turn
+constexpr std::size_t most_to_gather = 64 * 1024;   // bytes of answers to pipelined requests
+constexpr std::size_t most_to_keep = 16 * 1024;     // bytes of memory that an empty buffer of answers may keep
+constexpr std::size_t most_to_keep_of_head = 1024;  // bytes, likewise of a head between requests
 constexpr auto longest_linger = std::chrono::seconds{2};
 constexpr auto longest_wait_without_memory = std::chrono::milliseconds{100};  // for a request while the system has no memory
 
@@ -86,7 +87,7 @@ Task<Connection::Then> Connection::serve() {
         }
         request_due_ = idle_due_ = Steady::max();
         bool const whole = std::exchange(has_head_, false);
-        bool const is_request = head_.message.method() == http::verb::post && route_.endpoint == Endpoint::rois;
+        bool const is_request = head_.verb == http::verb::post && route_.endpoint == Endpoint::rois;
         if (whole && !is_request) then = co_await serve_other();
         if (whole && is_request) {
             auto const body = wire_.text().substr(0, head_.content_length);
@@ -118,7 +119,7 @@ Connection::Then Connection::take_request() {
         if (then != Then::next) return then;
         auto const judged = judge_head();
         if (!has_head_) return judged;
-        if (wire_.received().size() < head_.content_length && !head_.is_http_1_0() && head_.lists("Expect", "100-continue"))
+        if (wire_.received().size() < head_.content_length && !head_.is_http_1_0 && head_.lists("Expect", "100-continue"))
             out_.append("HTTP/1.1 100 Continue\r\n\r\n");
     }
     if (wire_.received().size() >= head_.content_length) return Then::next;
@@ -164,7 +165,7 @@ Task<Connection::Then> Connection::receive() {
     idle_ = !has_head_ && wire_.received().empty();
     if (idle_ && loop_.draining()) co_return Then::end;
     if (idle_) request_due_ = Steady::max();
-    if (idle_) head_ = {};
+    if (idle_ && head_.text.capacity() > most_to_keep_of_head) head_ = {};
     if (!idle_ && request_due_ == Steady::max()) request_due_ = now() + settings.request_timeout;
     auto const expected = has_head_ ? head_.content_length - wire_.received().size() : 0;
     if (idle_ && idle_due_ == Steady::max()) idle_due_ = now() + settings.idle_timeout;
@@ -242,7 +243,7 @@ Task<Connection::Then> Connection::serve_notifications() {
     if (shared.gateway.shutting_down()) co_return reply(answer_of(shutting_down()));
     auto wanted = std::get<NotificationsWanted>(read);
     co_await flush();
-    if (wanted.as == NotificationsWanted::As::stream && head_.message.method() == http::verb::get) {
+    if (wanted.as == NotificationsWanted::As::stream && head_.verb == http::verb::get) {
         counted_.emplace(shared.telemetry, Telemetry::Kind::stream);
         auto const refused = co_await stream(wire_, loop_, session_, wanted);
         if (!refused) co_return Then::linger;
@@ -259,7 +260,7 @@ Connection::Then Connection::reply(HttpAnswer const& answer, Framed framed) {
         log(*answer.fault, request_line());
     }
     bool const close = framed == Framed::last || !head_.keep_alive() || loop_.draining();
-    auto const body = head_.message.method() == http::verb::head ? Framing::Body::omitted : Framing::Body::sent;
+    auto const body = head_.verb == http::verb::head ? Framing::Body::omitted : Framing::Body::sent;
     append(out_, answer, {body, close});
     return close ? Then::linger : Then::next;
 }
@@ -269,7 +270,7 @@ Connection::Then Connection::reply(HttpAnswer const& answer, Framed framed) {
 Connection::Then Connection::refuse(Fault const& fault) {
     loop_.shared().telemetry.faulted(fault.code);
     log(fault, has_head_ ? request_line() : wire_.text().substr(0, wire_.text().find_first_of("\r\n")));
-    bool const asks_for_head = has_head_ ? head_.message.method() == http::verb::head : wire_.text().starts_with("HEAD ");
+    bool const asks_for_head = has_head_ ? head_.verb == http::verb::head : wire_.text().starts_with("HEAD ");
     auto answer = answer_of(fault);
     if (fault.code == FaultCode::too_many) answer.fields.set(http::field::retry_after, "1");
     append(out_, answer, {asks_for_head ? Framing::Body::omitted : Framing::Body::sent, true});
@@ -281,7 +282,7 @@ void Connection::log(Fault const& fault, std::string_view request) {
 }
 
 // Returns the method and the path of the current request, without its query.
-std::string Connection::request_line() const { return std::string{head_.method()}.append(" ").append(head_.path); }
+std::string Connection::request_line() const { return std::string{head_.method}.append(" ").append(head_.path); }
 
 bool Connection::flush_at_once() {
     out_.erase(0, wire_.send_now(out_));

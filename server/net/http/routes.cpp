@@ -100,14 +100,14 @@ Route route_of(std::string_view path) {
 
 std::optional<HttpAnswer> refusal(RequestHead const& head, Route const& route, Settings const& settings) {
     if (auto refused = refusal_of_other_sites(head, settings)) return refused;
-    if (route.endpoint == Endpoint::unknown && is_known_method(head.method()))
+    if (route.endpoint == Endpoint::unknown && is_known_method(head.method))
         return answer_of({FaultCode::not_found, "there is nothing at " + quoted(head.path), {}, {}});
-    if (!takes(route, head.method())) return method_not_allowed(route);
+    if (!takes(route, head.method)) return method_not_allowed(route);
     if (head.content_length > settings.document.bytes) {
         return answer_of(
             {FaultCode::too_large, "the body may have " + std::to_string(settings.document.bytes) + " bytes", {}, {}});
     }
-    if (head.message.method() != http::verb::post || route.endpoint != Endpoint::rois) return {};
+    if (head.verb != http::verb::post || route.endpoint != Endpoint::rois) return {};
     if (!xml::is_xml_media_type(head.field("Content-Type").value_or(""))) {
         return answer_of({FaultCode::unsupported_media_type,
                           "send one request document with the header Content-Type: application/xml (charset utf-8)",

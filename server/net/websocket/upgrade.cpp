@@ -36,7 +36,7 @@ bool is_websocket_key(std::string_view text) {
 }  // namespace
 
 HttpAnswer upgrade(RequestHead const& head) {
-    if (head.message.method() != http::verb::get || head.is_http_1_0() || !head.lists("Upgrade", "websocket") ||
+    if (head.verb != http::verb::get || head.is_http_1_0 || !head.lists("Upgrade", "websocket") ||
         !head.lists("Connection", "upgrade")) {
         return wants_upgrade("POST a request document here, or open a WebSocket");
     }

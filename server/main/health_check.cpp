@@ -1,10 +1,10 @@
-#include "net/health_check.hpp"
+#include "main/health_check.hpp"
 
 #include <boost/asio/ip/tcp.hpp>
 #include <chrono>
 #include <string>
 
-namespace rois::net {
+namespace rois {
 
 namespace {
 
@@ -31,4 +31,4 @@ std::string check_health(std::string const& host, std::uint16_t port) {
     return status.starts_with("HTTP/1.1 200 ") ? "" : "unexpected answer";
 }
 
-}  // namespace rois::net
+}  // namespace rois
