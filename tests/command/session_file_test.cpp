@@ -202,7 +202,8 @@ TEST_F(RoisWithASessionFile, CountsTheEventsOfItsOwnSubscriptionFromNowOn) {
     auto const ended = subscribed.wait();
     EXPECT_EQ(ended.exit_code, 0) << ended.error;
     EXPECT_THAT(ended.out, HasSubstr("person_detected  person_detection  timestamp="));
-    expect(6, "only 0 of 2 events arrived", {"subscribe", "reached_target", "--count", "2", "--for", "0", "--session-file", file});
+    expect(6, "only 0 of 2 events arrived",
+           {"subscribe", "reached_target", "--count", "2", "--for", "0", "--session-file", file});
     EXPECT_EQ(run({"release", "--session-file", file}).exit_code, 0);
 }
 
