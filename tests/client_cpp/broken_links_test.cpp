@@ -17,7 +17,7 @@ class TheLink : public BothWays {
 protected:
     // A gateway that ends lost sessions at once.
     static GatewayProcess forgetful() {
-        return GatewayProcess{{"--listen", "127.0.0.1:0", "--session-timeout", "0.1", "--resume-window", "0"}};
+        return GatewayProcess{{"--listen", "127.0.0.1:0", "--session-timeout", "0.5", "--resume-window", "0"}};
     }
 };
 ROIS_BOTH_WAYS(TheLink);

@@ -20,7 +20,7 @@ HttpAnswer answer_to(std::map<std::string, std::string> const& changed = {},
     for (auto const& [name, value] : changed) fields[name] = value;
     auto request = request_line + "\r\n";
     for (auto const& [name, value] : fields)
-        if (!value.empty()) request += name + ": " + value + "\r\n";
+        if (!value.empty()) request.append(name).append(": ").append(value).append("\r\n");
     RequestHead head;
     EXPECT_FALSE(read_head(request + "\r\n", Settings{}, head));
     return upgrade(head);

@@ -20,7 +20,7 @@ using Fields = std::vector<std::pair<std::string, std::string>>;
 
 HttpAnswer get(std::string_view path, Fields const& fields = {}) {
     std::string request = "GET / HTTP/1.1\r\nHost: robot.example:8080\r\n";
-    for (auto const& [name, value] : fields) request += name + ": " + value + "\r\n";
+    for (auto const& [name, value] : fields) request.append(name).append(": ").append(value).append("\r\n");
     RequestHead head;
     EXPECT_FALSE(read_head(request + "\r\n", Settings{}, head));
     return small.answer(path, head);
