@@ -125,7 +125,7 @@ TEST_F(StreamsOfABody, HaveTheSoundOfTheVoice) {
 
 TEST_F(StreamsOfABody, HaveThePicturesOfTheCamera) {
     auto& video = (*this)["video_streaming"];
-    EXPECT_EQ(body->eye->captures, 0) << "nobody watches";
+    EXPECT_EQ(body->eye->captures, 0) << "no stream is open";
     video.perform("connect_stream", {});
     EXPECT_EQ(body->eye->captures, 1);
     EXPECT_EQ(std::get<media::Film>(media->all.at(0)->content).draw().value().width, 640);

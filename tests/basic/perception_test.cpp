@@ -112,7 +112,7 @@ TEST_F(RecognitionOfABody, IdentifiesAPersonOnceWhileTheyAreTracked) {
     body->senses.names["person-4"] = EntityId{3};
     body->senses.people = {{.who = EntityId{3}, .track = "person-4", .id = "tanaka"}};
     step();
-    EXPECT_THAT(identification.events("person_identified"), SizeIs(2)) << "tracked anew";
+    EXPECT_THAT(identification.events("person_identified"), SizeIs(2)) << "a new track";
 }
 
 TEST_F(RecognitionOfABody, ReportsGesturesInView) {

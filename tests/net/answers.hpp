@@ -14,7 +14,7 @@ inline std::string written(HttpAnswer const& answer, Framing framing = {}) {
     return out;
 }
 
-// Returns the value of a header field as it is sent, or an empty text if there is none.
+// Returns the value that is sent in this header field, or an empty text if there is none.
 inline std::string field(HttpAnswer const& answer, std::string_view name) {
     auto const text = written(answer);
     auto const line = "\r\n" + std::string{name} + ": ";

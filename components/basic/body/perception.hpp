@@ -57,7 +57,8 @@ struct SpeechEvent {
 };
 
 // The measurements are the same for all calls between two notifications of the body's observers. Speech and gestures are kept for
-// some time. Each component reads them at its own pace: it remembers last_sequence(), and asks later for what came after it.
+// some time. Each component reads them at its own pace: it remembers last_sequence(), and asks later for newer
+// speech and gestures.
 class Perception {
 public:
     virtual ~Perception() = default;
@@ -72,10 +73,10 @@ public:
 
     // Returns the person or robot that a reference of a service application means: a robot's name, a temporary name, or the
     // permanent id of an identified person. `codebook` limits the kinds of names (codebooks.hpp); empty: all names. Returns
-    // nothing if nobody of that name is perceived now.
+    // nothing if the robot perceives no person or robot of that name now.
     virtual std::optional<EntityId> find(std::string_view ref, std::string_view codebook) const = 0;
 
-    // Whether a reference means somebody now, has meant somebody, or may do so later.
+    // Returns whether a reference means a person or robot now, did so before, or may do so later.
     virtual bool knows(std::string_view ref) const = 0;
 
     // The greatest sequence number so far; 0 at first. Sequence numbers increase, perhaps with gaps.

@@ -66,7 +66,7 @@ using boost::beast::error_code;
 using boost::beast::string_view;
 
 // Beast's parser. It stores the head as views: Beast's own `fields` copy each field, which makes a query 3 % more expensive
-// and misses the goal (docs/performance.md).
+// and misses a goal (docs/performance.md).
 class HeadParser : public http::basic_parser<true> {
 public:
     explicit HeadParser(RequestHead& head) : head_{head} {}

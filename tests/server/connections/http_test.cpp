@@ -188,13 +188,13 @@ TEST(Http, ChecksInTheOrderOfTheContract) {
 
 TEST(Http, AnswersUnknownPathsWith404) {
     HttpClient client;
-    for (auto const* path : {"/nowhere", "/rois/", "/rois/profile/", "/rois/profile/nobody", "/rois/schemas/../x",
+    for (auto const* path : {"/nowhere", "/rois/", "/rois/profile/", "/rois/profile/unknown", "/rois/schemas/../x",
                              "/rois/schemas/%2e%2e%2fx", "/rois/profile/%0d%0aX:%20y", "/rois/profile/%zz"}) {
         auto const reply = client.get(path);
         EXPECT_EQ(reply.status, 404) << path;
         EXPECT_EQ(reply.fault(), "not_found") << path;
     }
-    EXPECT_EQ(client.get("/rois/profile/nobody").reason(), "unknown component 'nobody'; /rois/profile lists the components");
+    EXPECT_EQ(client.get("/rois/profile/unknown").reason(), "unknown component 'unknown'; /rois/profile lists the components");
     EXPECT_EQ(client.get("/rois/schemas/x%0ay.xsd").reason(), "unknown schema 'x y.xsd'; /rois/schemas lists the schemas");
 }
 
