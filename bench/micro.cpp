@@ -19,7 +19,7 @@
 #include "engine/conditions/filter.hpp"
 #include "engine/engine.hpp"
 #include "files/files.hpp"
-#include "gateway/memory.hpp"
+#include "gateway/process/memory.hpp"
 #include "net/http/routes.hpp"
 #include "probe.hpp"
 #include "types/identifier_length.hpp"

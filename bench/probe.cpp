@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::bench {
 

@@ -123,7 +123,7 @@ def goals(rounds):
     stops = [value for row in middle for name, value in middle[row].items() if name in floods.STOPS]
     return [
         at_most("1 query 0.6 kB, HTTP: CPU, compared with bare Beast", ratio(rounds, requests.HTTP, requests.BARE_HTTP), 1.45, "times"),
-        at_least("1 gSOAP's CPU, compared with the query's", ratio(rounds, requests.GSOAP, requests.FREE), 3.5, "times"),
+        at_least("1 gSOAP's CPU, compared with the query's", ratio(rounds, requests.GSOAP, requests.FREE), 3.0, "times"),
         at_least("1 xmlrpc.server's CPU, compared with the query's", ratio(rounds, requests.XMLRPC, requests.FREE), 12, "times"),
         at_most(
             "1 query 0.6 kB, WebSocket: CPU, compared with a bare echo",

@@ -7,8 +7,8 @@
 
 #include "engine/engine.hpp"
 #include "files/files.hpp"
+#include "gateway/access/secrets.hpp"
 #include "gateway/gateway.hpp"
-#include "gateway/secrets.hpp"
 #include "net/http/documents.hpp"
 #include "net/server.hpp"
 #include "probe.hpp"

@@ -11,7 +11,7 @@
 #include "command/output/terminal.hpp"
 #include "command/sequences.hpp"
 #include "rois/condition.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::command {
 

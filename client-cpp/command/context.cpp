@@ -11,8 +11,8 @@
 #include "command/input/request_file.hpp"
 #include "command/output/terminal.hpp"
 #include "files/files.hpp"
-#include "types/listing.hpp"
-#include "types/texts.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/decoding.hpp"
 
 namespace rois::command {

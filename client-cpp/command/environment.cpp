@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "command/context.hpp"
-#include "types/environment.hpp"
-#include "types/texts.hpp"
+#include "types/text/environment.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::command {
 

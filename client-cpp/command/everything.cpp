@@ -8,8 +8,8 @@
 #include "command/context.hpp"
 #include "command/http.hpp"
 #include "command/output/terminal.hpp"
-#include "types/listing.hpp"
-#include "types/texts.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/codec.hpp"
 
 namespace rois::command {

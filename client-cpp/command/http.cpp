@@ -10,7 +10,7 @@
 #include <regex>
 
 #include "command/exit.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::command {
 

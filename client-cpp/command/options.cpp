@@ -13,7 +13,7 @@
 #include "command/http.hpp"
 #include "command/session/session_file.hpp"
 #include "rois/settings.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::command {
 

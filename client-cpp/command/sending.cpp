@@ -5,7 +5,7 @@
 #include "command/input/input.hpp"
 #include "command/output/pretty.hpp"
 #include "command/output/terminal.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/codec.hpp"
 #include "xml/codec/decoding.hpp"
 

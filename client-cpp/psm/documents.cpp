@@ -4,7 +4,7 @@
 #include <pugixml.hpp>
 #include <sstream>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/names.hpp"
 #include "xml/codec/writer.hpp"
 

@@ -8,7 +8,7 @@
 #include "psm/documents.hpp"
 #include "rois/psm/alive.hpp"
 #include "rois/psm/reason.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::psm {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::psm {
 

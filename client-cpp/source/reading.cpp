@@ -1,6 +1,6 @@
 #include "reading.hpp"
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::client {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/writer.hpp"
 
 namespace rois {

@@ -4,7 +4,7 @@
 
 #include "engine/commands/sequence_check.hpp"
 #include "engine/core.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/core.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

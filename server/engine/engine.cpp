@@ -7,7 +7,7 @@
 
 #include "engine/core.hpp"
 #include "types/identifier_length.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

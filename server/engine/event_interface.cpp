@@ -3,7 +3,7 @@
 
 #include "engine/core.hpp"
 #include "types/prefetch.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

@@ -8,7 +8,7 @@
 #include "engine/commands/preference.hpp"
 #include "engine/core.hpp"
 #include "types/data_type.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

@@ -7,8 +7,8 @@
 #include "engine/commands/parameters.hpp"
 #include "engine/session.hpp"
 #include "types/data_type.hpp"
-#include "types/listing.hpp"
-#include "types/texts.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

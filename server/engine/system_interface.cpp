@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "engine/core.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

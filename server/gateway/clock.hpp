@@ -7,7 +7,7 @@
 #include <functional>
 #include <thread>
 
-#include "gateway/troubles.hpp"
+#include "gateway/process/troubles.hpp"
 
 namespace rois {
 

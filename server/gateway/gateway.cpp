@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/attempts.hpp"
-#include "gateway/memory.hpp"
+#include "gateway/process/memory.hpp"
 
 namespace rois {
 

@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "engine/engine.hpp"
-#include "gateway/log.hpp"
+#include "gateway/access/session_quota.hpp"
+#include "gateway/process/log.hpp"
+#include "gateway/process/telemetry.hpp"
 #include "gateway/readers.hpp"
-#include "gateway/session_quota.hpp"
-#include "gateway/telemetry.hpp"
 #include "xml/codec/codec.hpp"
 
 namespace rois {

@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "gateway/gateway.hpp"
-#include "gateway/telemetry.hpp"
+#include "gateway/process/telemetry.hpp"
 #include "types/instant.hpp"
 
 namespace rois {

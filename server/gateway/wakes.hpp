@@ -8,7 +8,7 @@
 #include <mutex>
 #include <vector>
 
-#include "gateway/troubles.hpp"
+#include "gateway/process/troubles.hpp"
 
 namespace rois {
 

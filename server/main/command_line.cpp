@@ -9,8 +9,8 @@
 
 #include "main/configuration_file.hpp"
 #include "main/keys.hpp"
-#include "types/environment.hpp"
-#include "types/texts.hpp"
+#include "types/text/environment.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

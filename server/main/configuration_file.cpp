@@ -11,7 +11,7 @@
 #include <set>
 
 #include "main/keys.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <thread>
 
-#include "gateway/host_names.hpp"
-#include "types/address.hpp"
-#include "types/texts.hpp"
+#include "gateway/access/host_names.hpp"
+#include "types/text/address.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

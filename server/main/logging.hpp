@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "gateway/log_queue.hpp"
+#include "gateway/process/log_queue.hpp"
 #include "main/settings.hpp"
 
 namespace rois {

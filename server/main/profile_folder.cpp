@@ -12,7 +12,7 @@
 #include "basic/base/component_names.hpp"
 #include "main/configuration_file.hpp"
 #include "main/settings.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/profiles/profile_document.hpp"
 
 namespace rois {

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "basic/speech/voice_characters.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

@@ -6,7 +6,7 @@
 #include <exception>
 #include <utility>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

@@ -3,7 +3,7 @@
 
 #include <boost/asio/basic_socket_acceptor.hpp>
 
-#include "gateway/admission.hpp"
+#include "gateway/access/admission.hpp"
 #include "net/asio.hpp"
 
 namespace rois::net {

@@ -6,10 +6,10 @@
 #include <memory>
 #include <vector>
 
-#include "gateway/admission.hpp"
+#include "gateway/access/admission.hpp"
 #include "gateway/gateway.hpp"
-#include "gateway/telemetry.hpp"
-#include "gateway/troubles.hpp"
+#include "gateway/process/telemetry.hpp"
+#include "gateway/process/troubles.hpp"
 #include "gateway/wakes.hpp"
 #include "net/asio.hpp"
 #include "net/http/documents.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "gateway/gateway.hpp"
-#include "gateway/telemetry.hpp"
+#include "gateway/process/telemetry.hpp"
 #include "net/http/documents.hpp"
 #include "net/settings.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "gateway/addresses.hpp"
+#include "gateway/access/addresses.hpp"
 #include "xml/codec/codec.hpp"
 
 namespace rois::net {
@@ -32,7 +32,7 @@ struct Settings {
     xml::Validation validation = xml::Validation::fast;
     std::size_t max_fragments = 1'024;         // of a WebSocket message
     std::size_t max_requests_in_flight = 16;   // of one connection; with more unsent answers, nothing is read
-    std::vector<std::string> hosts;            // names of the gateway, in the form of host_name (gateway/host_names.hpp)
+    std::vector<std::string> hosts;            // names of the gateway, in the form of host_name (gateway/access/host_names.hpp)
     std::vector<std::string> allowed_origins;  // of web pages, besides those of the gateway: "https://console.example"
 
     std::chrono::milliseconds request_timeout = std::chrono::seconds{30};  // for a request to arrive completely

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "gateway/telemetry.hpp"
+#include "gateway/process/telemetry.hpp"
 #include "net/asio.hpp"
 #include "types/instant.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "types/identifier_length.hpp"
 #include "types/instant.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

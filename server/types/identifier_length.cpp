@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

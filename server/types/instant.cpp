@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

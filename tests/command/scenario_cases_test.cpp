@@ -16,7 +16,7 @@
 #include "command/scenario/scenario_file.hpp"
 #include "command/sequences.hpp"
 #include "files/files.hpp"
-#include "types/listing.hpp"
+#include "types/text/listing.hpp"
 #include "xml/codec/codec.hpp"
 #include "xml/profiles/document.hpp"
 #include "xml/validation/schemas.hpp"

@@ -9,7 +9,7 @@
 
 #include "conformance/play.hpp"
 #include "kit/line.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/validation/schemas.hpp"
 
 namespace {

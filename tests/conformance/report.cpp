@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <pugixml.hpp>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/characters.hpp"
 
 namespace rois::conformance {

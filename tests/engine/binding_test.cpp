@@ -1,7 +1,7 @@
 // Decisions 4 to 7: binding, and the commands that need it.
 #include "engine/conditions/conditions.hpp"
 #include "engine/world.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

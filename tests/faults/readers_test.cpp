@@ -1,8 +1,8 @@
 // A reader that is being destroyed, like a WebSocket after an exception.
 #include "engine/world.hpp"
 #include "files/files.hpp"
+#include "gateway/access/secrets.hpp"
 #include "gateway/gateway.hpp"
-#include "gateway/secrets.hpp"
 #include "gateway/wakes.hpp"
 #include "xml/validation/schemas.hpp"
 

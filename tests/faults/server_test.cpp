@@ -8,7 +8,7 @@
 #include "faults/driving_component.hpp"
 #include "faults/faults.hpp"
 #include "files/files.hpp"
-#include "gateway/secrets.hpp"
+#include "gateway/access/secrets.hpp"
 #include "kit/vocabulary.hpp"
 #include "kit/websocket_client.hpp"
 #include "net/server.hpp"

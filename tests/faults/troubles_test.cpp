@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "gateway/troubles.hpp"
+#include "gateway/process/troubles.hpp"
 
 namespace rois {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "types/text_encoding.hpp"
+#include "types/text/text_encoding.hpp"
 
 namespace rois::net {
 namespace {

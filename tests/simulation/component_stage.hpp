@@ -12,7 +12,7 @@
 #include "basic/fake_media.hpp"
 #include "basic/operated.hpp"
 #include "simulation/adapters/robots.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::simulation::stage {
 

@@ -1,4 +1,4 @@
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 #include <gtest/gtest.h>
 

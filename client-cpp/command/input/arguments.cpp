@@ -4,8 +4,8 @@
 
 #include "command/exit.hpp"
 #include "types/data_type.hpp"
-#include "types/listing.hpp"
-#include "types/texts.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::command {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "rois/condition.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::command {
 

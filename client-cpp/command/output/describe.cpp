@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "command/output/terminal.hpp"
-#include "types/listing.hpp"
+#include "types/text/listing.hpp"
 
 namespace rois::command {
 

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "types/data_type.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::command {
 

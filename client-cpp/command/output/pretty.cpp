@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "command/output/terminal.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::command {
 

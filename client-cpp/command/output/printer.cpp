@@ -12,7 +12,7 @@
 #include "command/output/describe.hpp"
 #include "command/output/pretty.hpp"
 #include "command/output/terminal.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/codec.hpp"
 
 namespace rois::command {

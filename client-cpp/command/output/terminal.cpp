@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::command {
 

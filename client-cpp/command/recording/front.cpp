@@ -2,8 +2,8 @@
 
 #include "command/exit.hpp"
 #include "command/recording/front_connection.hpp"
-#include "types/address.hpp"
-#include "types/texts.hpp"
+#include "types/text/address.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::command {
 

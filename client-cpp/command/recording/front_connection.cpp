@@ -5,7 +5,7 @@
 #include <charconv>
 #include <optional>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::command {
 

@@ -13,8 +13,8 @@
 #include "command/scenario/variables.hpp"
 #include "command/sequences.hpp"
 #include "rois/condition.hpp"
-#include "types/listing.hpp"
-#include "types/texts.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 #include "xml/profiles/document.hpp"
 
 namespace rois::command {

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "command/scenario/variables.hpp"
-#include "types/listing.hpp"
-#include "types/texts.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 #include "xml/profiles/document.hpp"
 
 namespace rois::command {

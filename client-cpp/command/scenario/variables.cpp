@@ -5,8 +5,8 @@
 
 #include "command/exit.hpp"
 #include "rois/units.hpp"
-#include "types/listing.hpp"
-#include "types/texts.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::command {
 

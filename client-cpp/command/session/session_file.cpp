@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "command/output/json.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::command {
 

@@ -12,7 +12,7 @@
 
 #include "links/target.hpp"
 #include "rois/settings.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::client {
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

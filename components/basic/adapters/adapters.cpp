@@ -8,8 +8,8 @@
 
 #include "basic/adapters/example_components.hpp"
 #include "basic/base/component_names.hpp"
-#include "types/listing.hpp"
-#include "types/texts.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::basic {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "basic/base/component_names.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::basic {
 namespace {

@@ -9,8 +9,8 @@
 #include "basic/body/wire_units.hpp"
 #include "basic/speech/languages.hpp"
 #include "basic/speech/srgs_grammar.hpp"
-#include "types/text_encoding.hpp"
-#include "types/texts.hpp"
+#include "types/text/text_encoding.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::basic {
 namespace {

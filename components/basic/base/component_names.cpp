@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::basic {
 

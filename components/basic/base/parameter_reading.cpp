@@ -3,8 +3,8 @@
 #include <limits>
 #include <string>
 
-#include "types/listing.hpp"
-#include "types/texts.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::basic {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::basic {
 namespace {

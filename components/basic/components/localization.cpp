@@ -8,7 +8,7 @@
 #include "basic/base/movement.hpp"
 #include "basic/base/parameter_reading.hpp"
 #include "basic/components/basic_components.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::basic {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "basic/base/parameter_reading.hpp"
 #include "basic/components/basic_components.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::basic {
 namespace {

@@ -5,7 +5,7 @@
 #include "basic/base/parameter_reading.hpp"
 #include "basic/components/basic_components.hpp"
 #include "basic/components/reaction_types.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::basic {
 namespace {

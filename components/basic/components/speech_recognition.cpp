@@ -7,7 +7,7 @@
 #include "basic/components/basic_components.hpp"
 #include "basic/speech/grammar.hpp"
 #include "basic/speech/languages.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::basic {
 namespace {

@@ -6,8 +6,8 @@
 #include "basic/speech/languages.hpp"
 #include "basic/speech/ssml.hpp"
 #include "basic/speech/voice_characters.hpp"
-#include "types/listing.hpp"
-#include "types/texts.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::basic {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "basic/speech/spoken_words.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::basic {
 namespace {

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
-#include "types/text_encoding.hpp"
-#include "types/texts.hpp"
+#include "types/text/text_encoding.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::basic {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "basic/speech/languages.hpp"
 #include "basic/speech/spoken_words.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/profiles/document.hpp"
 
 namespace rois::basic {

@@ -6,7 +6,7 @@
 
 #include "basic/speech/languages.hpp"
 #include "basic/speech/ssml_meaning.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/profiles/document.hpp"
 
 namespace rois::basic {

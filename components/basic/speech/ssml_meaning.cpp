@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "basic/speech/languages.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::basic {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "types/listing.hpp"
-#include "types/texts.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::basic {
 

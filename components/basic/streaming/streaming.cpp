@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "basic/base/parameter_reading.hpp"
-#include "types/listing.hpp"
-#include "types/texts.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::basic {
 

@@ -13,8 +13,8 @@
 #include "basic/speech/languages.hpp"
 #include "simulation/scenario/steering.hpp"
 #include "simulation/world/units.hpp"
-#include "types/listing.hpp"
-#include "types/texts.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::simulation {
 namespace {

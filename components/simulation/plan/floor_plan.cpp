@@ -5,7 +5,7 @@
 #include <set>
 
 #include "simulation/world/person.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::simulation {
 namespace {

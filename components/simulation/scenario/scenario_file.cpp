@@ -7,8 +7,8 @@
 #include "basic/components/reaction_types.hpp"
 #include "simulation/world/person.hpp"
 #include "simulation/world/units.hpp"
-#include "types/listing.hpp"
-#include "types/texts.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::simulation {
 

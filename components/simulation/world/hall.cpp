@@ -4,7 +4,7 @@
 
 #include "basic/base/codebooks.hpp"
 #include "simulation/world/world.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::simulation {
 namespace {

@@ -1,6 +1,6 @@
 #include "simulation/world/tracks.hpp"
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::simulation {
 

@@ -7,7 +7,7 @@
 
 #include "engine/commands/parameters.hpp"
 #include "engine/commands/sequence_check.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

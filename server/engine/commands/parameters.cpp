@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "types/data_type.hpp"
-#include "types/listing.hpp"
-#include "types/texts.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

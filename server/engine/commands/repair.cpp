@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "engine/commands/executor.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "engine/commands/parameters.hpp"
-#include "types/listing.hpp"
-#include "types/texts.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

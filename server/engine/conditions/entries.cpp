@@ -12,7 +12,7 @@
 #include "engine/conditions/filter_compiler.hpp"
 #include "engine/conditions/referred.hpp"
 #include "types/data_type.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

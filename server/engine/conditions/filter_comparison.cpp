@@ -7,7 +7,7 @@
 
 #include "engine/conditions/filter_compiler.hpp"
 #include "engine/frames/space.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

@@ -5,8 +5,8 @@
 #include "engine/conditions/referred.hpp"
 #include "engine/frames/shapes.hpp"
 #include "engine/frames/space.hpp"
-#include "types/listing.hpp"
-#include "types/texts.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

@@ -3,7 +3,7 @@
 
 #include "engine/conditions/filter_compiler.hpp"
 #include "types/identifier_length.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

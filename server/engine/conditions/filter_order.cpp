@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "engine/conditions/filter_compiler.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

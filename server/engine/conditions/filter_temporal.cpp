@@ -3,7 +3,7 @@
 #include <variant>
 
 #include "engine/conditions/filter_compiler.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

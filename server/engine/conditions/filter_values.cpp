@@ -5,7 +5,7 @@
 #include "engine/conditions/filter_compiler.hpp"
 #include "engine/conditions/like_pattern.hpp"
 #include "types/identifier_length.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

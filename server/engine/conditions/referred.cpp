@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "engine/frames/space.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

@@ -8,7 +8,7 @@
 #include "engine/commands/parameters.hpp"
 #include "engine/conditions/value_path.hpp"
 #include "types/data_type.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

@@ -9,8 +9,8 @@
 
 #include "engine/frames/frame_step.hpp"
 #include "engine/frames/space.hpp"
-#include "types/listing.hpp"
-#include "types/texts.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "engine/frames/shapes.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "gateway/access/secrets.hpp"
 #include "gateway/pages.hpp"
-#include "gateway/secrets.hpp"
 #include "net/http/http_answer.hpp"
 #include "net/http/http_head.hpp"
 #include "net/http/routes.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::net {
 

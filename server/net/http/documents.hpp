@@ -5,7 +5,7 @@
 #include <string>
 
 #include "gateway/gateway.hpp"
-#include "gateway/telemetry.hpp"
+#include "gateway/process/telemetry.hpp"
 #include "net/http/web_files.hpp"
 #include "xml/validation/schemas.hpp"
 

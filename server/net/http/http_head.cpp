@@ -6,7 +6,7 @@
 #include <boost/none.hpp>
 #include <utility>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::net {
 

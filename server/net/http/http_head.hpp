@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/host_names.hpp"
+#include "gateway/access/host_names.hpp"
 #include "net/settings.hpp"
 #include "types/messages.hpp"
 

@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "gateway/host_names.hpp"
-#include "types/text_encoding.hpp"
-#include "types/texts.hpp"
+#include "gateway/access/host_names.hpp"
+#include "types/text/text_encoding.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/media_type.hpp"
 
 namespace rois::net {

@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-#include "gateway/secrets.hpp"
+#include "gateway/access/secrets.hpp"
 #include "net/http/http_answer.hpp"
 #include "net/http/http_head.hpp"
 

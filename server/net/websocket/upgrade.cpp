@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "gateway/secrets.hpp"
+#include "gateway/access/secrets.hpp"
 
 namespace rois::net {
 

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <utility>
 
-#include "types/text_encoding.hpp"
+#include "types/text/text_encoding.hpp"
 
 namespace rois::net {
 

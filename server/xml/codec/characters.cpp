@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "types/text_encoding.hpp"
+#include "types/text/text_encoding.hpp"
 
 namespace rois::xml {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/names.hpp"
 
 namespace rois::xml {

@@ -1,4 +1,4 @@
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/decoding.hpp"
 
 namespace rois::xml {

@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/decoding.hpp"
 
 namespace rois::xml {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "types/condition.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/decoding.hpp"
 #include "xml/codec/writer.hpp"
 

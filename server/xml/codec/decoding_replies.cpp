@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/decoding.hpp"
 #include "xml/codec/names.hpp"
 

@@ -1,6 +1,6 @@
 #include "xml/codec/message_tree.hpp"
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/names.hpp"
 #include "xml/codec/tree.hpp"
 

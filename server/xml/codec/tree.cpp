@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/names.hpp"
 
 namespace rois::xml {

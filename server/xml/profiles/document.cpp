@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/names.hpp"
 #include "xml/codec/tree.hpp"
 #include "xml/validation/checked_reader.hpp"

@@ -1,7 +1,7 @@
 #include <charconv>
 #include <xercesc/util/XMLChar.hpp>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/codec.hpp"
 #include "xml/codec/encoding.hpp"
 #include "xml/codec/names.hpp"

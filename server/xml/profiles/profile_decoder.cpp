@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "types/data_type.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/decoding.hpp"
 #include "xml/codec/place.hpp"
 #include "xml/codec/tree.hpp"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <variant>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/encoding.hpp"
 #include "xml/codec/names.hpp"
 #include "xml/codec/tree.hpp"

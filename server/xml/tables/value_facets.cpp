@@ -7,7 +7,7 @@
 #include <utility>
 #include <xercesc/framework/psvi/XSFacet.hpp>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/validation/xerces_text.hpp"
 
 namespace rois::xml {

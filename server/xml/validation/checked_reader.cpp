@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/place.hpp"
 #include "xml/codec/tree.hpp"
 #include "xml/validation/explanation.hpp"

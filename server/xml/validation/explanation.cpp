@@ -8,7 +8,7 @@
 #include <xercesc/validators/schema/SchemaAttDef.hpp>
 #include <xercesc/validators/schema/SchemaGrammar.hpp>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/names.hpp"
 #include "xml/codec/tree.hpp"
 #include "xml/validation/content_model.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "types/identifier_length.hpp"
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/characters.hpp"
 #include "xml/codec/names.hpp"
 #include "xml/tables/start_tag.hpp"

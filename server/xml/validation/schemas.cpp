@@ -18,7 +18,7 @@
 #include <xercesc/validators/datatype/DatatypeValidatorFactory.hpp>
 #include <xercesc/validators/schema/SchemaGrammar.hpp>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/names.hpp"
 #include "xml/validation/grammars.hpp"
 #include "xml/validation/xerces_text.hpp"

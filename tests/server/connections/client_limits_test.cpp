@@ -15,9 +15,9 @@
 #include <optional>
 #include <vector>
 
-#include "gateway/addresses.hpp"
-#include "gateway/admission.hpp"
-#include "gateway/session_quota.hpp"
+#include "gateway/access/addresses.hpp"
+#include "gateway/access/admission.hpp"
+#include "gateway/access/session_quota.hpp"
 #include "server/websocket_client.hpp"
 
 namespace rois::test {

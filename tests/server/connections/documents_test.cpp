@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "gateway/secrets.hpp"
+#include "gateway/access/secrets.hpp"
 #include "net/http/documents.hpp"
 #include "net/http/http_answer.hpp"
 #include "net/http/http_head.hpp"

@@ -1,5 +1,5 @@
 // Web pages of other sites must not use the gateway through a browser (docs/clients.md: 421, 403).
-#include "gateway/host_names.hpp"
+#include "gateway/access/host_names.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 
 #include <thread>
 
-#include "gateway/log_queue.hpp"
+#include "gateway/process/log_queue.hpp"
 #include "kit/gateway_process.hpp"
 #include "kit/http_client.hpp"
 #include "kit/socket.hpp"

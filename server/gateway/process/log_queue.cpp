@@ -1,4 +1,4 @@
-#include "gateway/log_queue.hpp"
+#include "gateway/process/log_queue.hpp"
 
 #include <poll.h>
 #include <spdlog/pattern_formatter.h>

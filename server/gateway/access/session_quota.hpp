@@ -7,7 +7,7 @@
 #include <memory>
 #include <unordered_map>
 
-#include "gateway/addresses.hpp"
+#include "gateway/access/addresses.hpp"
 
 namespace rois {
 

@@ -1,10 +1,10 @@
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "types/text_encoding.hpp"
+#include "types/text/text_encoding.hpp"
 
 namespace rois {
 

@@ -1,4 +1,4 @@
-#include "gateway/host_names.hpp"
+#include "gateway/access/host_names.hpp"
 
 #include <unistd.h>
 
@@ -8,7 +8,7 @@
 #include <charconv>
 #include <cstdint>
 
-#include "types/texts.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

@@ -1,4 +1,4 @@
-#include "gateway/troubles.hpp"
+#include "gateway/process/troubles.hpp"
 
 #include <spdlog/spdlog.h>
 

@@ -1,4 +1,4 @@
-#include "types/text_encoding.hpp"
+#include "types/text/text_encoding.hpp"
 
 #include <charconv>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "gateway/addresses.hpp"
+#include "gateway/access/addresses.hpp"
 
 #include <algorithm>
 #include <boost/asio/ip/address.hpp>

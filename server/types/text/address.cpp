@@ -1,4 +1,4 @@
-#include "types/address.hpp"
+#include "types/text/address.hpp"
 
 #include <charconv>
 

@@ -1,4 +1,4 @@
-#include "gateway/log.hpp"
+#include "gateway/process/log.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -7,8 +7,8 @@
 #include "engine/commands/command.hpp"
 #include "engine/registry.hpp"
 #include "engine/session.hpp"
-#include "gateway/telemetry.hpp"
-#include "types/texts.hpp"
+#include "gateway/process/telemetry.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 

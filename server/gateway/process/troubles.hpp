@@ -7,7 +7,7 @@
 #include <mutex>
 #include <string_view>
 
-#include "gateway/telemetry.hpp"
+#include "gateway/process/telemetry.hpp"
 #include "types/instant.hpp"
 
 namespace rois {

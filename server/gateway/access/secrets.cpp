@@ -1,4 +1,4 @@
-#include "gateway/secrets.hpp"
+#include "gateway/access/secrets.hpp"
 
 #include <openssl/evp.h>
 #include <openssl/rand.h>

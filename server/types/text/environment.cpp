@@ -1,4 +1,4 @@
-#include "types/environment.hpp"
+#include "types/text/environment.hpp"
 
 #include <algorithm>
 #include <array>

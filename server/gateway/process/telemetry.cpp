@@ -1,4 +1,4 @@
-#include "gateway/telemetry.hpp"
+#include "gateway/process/telemetry.hpp"
 
 #include <dirent.h>
 #include <prometheus/text_serializer.h>
@@ -8,8 +8,8 @@
 #include <functional>
 #include <sstream>
 
-#include "gateway/log_queue.hpp"
-#include "gateway/memory.hpp"
+#include "gateway/process/log_queue.hpp"
+#include "gateway/process/memory.hpp"
 
 namespace rois {
 

@@ -1,4 +1,4 @@
-#include "gateway/memory.hpp"
+#include "gateway/process/memory.hpp"
 
 #include <fcntl.h>
 #include <malloc.h>

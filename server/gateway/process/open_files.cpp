@@ -1,4 +1,4 @@
-#include "gateway/open_files.hpp"
+#include "gateway/process/open_files.hpp"
 
 #include <sys/resource.h>
 

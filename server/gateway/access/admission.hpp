@@ -8,7 +8,7 @@
 #include <utility>
 #include <variant>
 
-#include "gateway/addresses.hpp"
+#include "gateway/access/addresses.hpp"
 
 namespace rois {
 
