@@ -186,7 +186,7 @@ near() { awk -v a="$1" -v b="$2" -v most="$3" 'BEGIN { split(a, p, ","); split(b
     exit ((p[1] - q[1]) ^ 2 + (p[2] - q[2]) ^ 2 > most ^ 2) }'; }
 
 # find_standing [PERSON]: waits until this person, or any person who was not received yet, stands: two measurements a second apart
-# give the same place. Sets $person and $position. Fails if nobody stands for some time, or if the person is out of sight.
+# give the same place. Sets $person and $position. Fails if no person stands still in time, or if the person is out of sight.
 find_standing() {
     looks=0
     look

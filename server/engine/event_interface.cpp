@@ -135,7 +135,8 @@ void Engine::Core::publish(EventOccurred const& event, Instant now, Attempts& de
         begun = true;
         auto const& subscribers = subscription.subscribers;
         for (std::size_t i = 0; i < subscribers.size(); ++i) {
-            // With many sessions, each queue and its readers are cache misses (docs/performance.md).
+            // Prefetches the queues and readers of later subscribers: with many sessions, each is a cache miss
+            // (docs/performance.md).
             auto const queue_at = [&](std::size_t place) {
                 return place < subscribers.size() ? subscribers[place].queue : nullptr;
             };

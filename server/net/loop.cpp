@@ -16,7 +16,7 @@ namespace rois::net {
 namespace {
 
 constexpr auto between_sweeps = std::chrono::milliseconds{50};
-constexpr auto shortest_idle = std::chrono::milliseconds{100};  // of a connection to be cut: a request may be on its way
+constexpr auto shortest_idle = std::chrono::milliseconds{100};  // a connection idle for less is not cut: a request may come
 constexpr auto between_tries = std::chrono::milliseconds{10};
 
 // Returns the number of sweeps that check all connections: 1 if a deadline is short, 5 by default. So a deadline is missed by at

@@ -87,7 +87,7 @@ TEST_F(NavigationOfABody, RefusesBadParameters) {
     EXPECT_THAT(refusal("navigation", "start", {}), HasSubstr("'target_position' is mandatory"));
     EXPECT_THAT(refusal("navigation", "start", {positions("target_position", {"attic"}, "")}), HasSubstr("desk, door"));
     EXPECT_THAT(refusal("navigation", "set_parameter", {text("routing_policy", "beauty")}), HasSubstr("'beauty'"));
-    EXPECT_THAT(refusal("navigation", "set_parameter", {integer("time_limit", -1)}), HasSubstr("must not be negative"));
+    EXPECT_THAT(refusal("navigation", "set_parameter", {integer("time_limit", -1)}), HasSubstr("must be 0 or more, not -1"));
     EXPECT_EQ(refusal("navigation", "start", {positions("target_position", {"1, 2, 3"}, "")}), "accepted");
 }
 

@@ -1,5 +1,5 @@
 // The new session after one that has ended: what the connection restores, and what it must not. The sessions end with their
-// gateway; the next gateway gives the same ids to other things.
+// gateway; the next gateway uses the same ids again, for other objects.
 #include "client_cpp/rig.hpp"
 
 namespace rois::test {

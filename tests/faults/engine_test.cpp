@@ -136,7 +136,7 @@ struct Hall {
         for (auto* application : {&desk, &guest})
             if (*application) lose_links((*application)->session);
     }
-    // Drops those of earlier rounds, too.
+    // Drops the applications of all rounds.
     void end_all() {
         for (int i = 1; i <= most_sessions; ++i) lose_links({"secret-" + std::to_string(i)});
     }

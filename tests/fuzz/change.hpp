@@ -34,8 +34,8 @@ private:
     void put(Range range, std::string_view instead) { text_.replace(range.begin, range.size(), instead); }
     void put(std::size_t at, std::string_view what) { text_.insert(std::min(at, text_.size()), what); }
 
-    std::size_t any_start_tag();  // an index; the number of tags when there is none
-    // One of these local names, or any when there is none of them.
+    std::size_t any_start_tag();  // an index; the number of tags if no start tag exists
+    // Chooses a tag with one of these local names, or any tag if no tag has one of them.
     template <class Names>
     std::size_t any_start_tag_of(Names const& names);
     std::pair<std::size_t, Range> any_attribute();  // its tag, the number of tags when there is none

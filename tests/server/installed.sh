@@ -10,7 +10,7 @@ fail() {
     echo "installed.sh: $*"
     exit 1
 }
-prefix="$work/some where"  # blanks in names do no harm
+prefix="$work/some where"  # a path with a space must work
 program="$prefix/bin/rois-gateway"
 sample="$prefix/share/doc/rois-gateway/rois-gateway.json"
 

@@ -51,7 +51,7 @@ std::optional<std::string> not_between(ParameterList const& parameters, std::str
 std::optional<std::string> negative(ParameterList const& parameters, std::string_view name) {
     auto const number = integer_of(parameters, name);
     if (!number || *number >= 0) return {};
-    return "parameter '" + std::string{name} + "' must not be negative";
+    return "parameter '" + std::string{name} + "' must be 0 or more, not " + std::to_string(*number);
 }
 
 std::optional<std::string> not_targets(Parameter const& targets, std::vector<NamedPlace> const& places,

@@ -75,9 +75,12 @@ void Streaming::perform(CommandHandle command, std::string_view command_type, Pa
     auto* const stream = find(text_of(arguments, "stream_id"));
     // The stream may have changed since the command was accepted.
     bool const held = stream != nullptr && stream->status == StreamStatus::suspended;
-    if (stream == nullptr || (command_type == "suspend_stream" && held) || (command_type == "resume_stream" && !held))
-        return port().completed(command, CompletedStatus::error, {}, Afterwards::as_before,
-                                stream == nullptr ? "the stream has been closed" : "the stream is in that state already");
+    auto const failed = [&](std::string reason) {
+        port().completed(command, CompletedStatus::error, {}, Afterwards::as_before, std::move(reason));
+    };
+    if (stream == nullptr) return failed("the stream has been closed");
+    if (command_type == "suspend_stream" && held) return failed("the stream is already suspended");
+    if (command_type == "resume_stream" && !held) return failed("the stream is not suspended");
     if (command_type == "suspend_stream") {
         hold(*stream, now);
     } else if (command_type == "resume_stream") {

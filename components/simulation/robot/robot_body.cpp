@@ -18,7 +18,7 @@ constexpr Radians own_heading_sigma = from_degrees(0.5);
 // Separates the random numbers of the own position from those of the sensors.
 constexpr std::uint64_t own_position = 0x6f776e;
 
-// Returns the gesture that others see; empty if it is none.
+// Returns the gesture that others see; empty if they see none.
 std::string_view gesture_in(Happening const& happening) {
     if (happening.kind == Happening::Kind::gesture_made) return happening.text;
     return happening.kind == Happening::Kind::reaction_shown ? basic::gesture_of(happening.text) : std::string_view{};

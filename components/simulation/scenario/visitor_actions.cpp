@@ -25,7 +25,7 @@ std::optional<Point> Visitor::whereabouts(Whereabouts const& where, VisitorSurro
     return robot == around.robots.end() ? std::nullopt : std::optional{robot->pose.position};
 }
 
-// Visitors stand in front of a robot, and beside the occupant of an occupied place.
+// Returns a point in front of the robot, or the place itself; if the place is occupied, a point beside its occupant.
 std::optional<Point> Visitor::standing_place(Whereabouts const& where, VisitorSurroundings const& around) {
     auto wanted = whereabouts(where, around);
     if (!wanted) return std::nullopt;

@@ -54,7 +54,7 @@ private:
         std::shared_ptr<OrderStatus> status;
     };
 
-    // The floor that robots take up: now, or until they have stopped.
+    // The floor that each robot occupies: its body, or also the room that it needs to stop.
     enum class Room : std::uint8_t { of_bodies, to_stop };
     std::vector<Disc> others(Entity self, Room) const;
 

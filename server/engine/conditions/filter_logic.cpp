@@ -104,7 +104,7 @@ Condition const* innermost(Condition const* condition) {
     return condition;
 }
 
-// The operands, with nested ones of the same operator merged in.
+// Compiles the operands of an And or Or. Merges the operands of a nested And (Or) into those of the outer one.
 template <class Operator>
 class Flattened {
 public:

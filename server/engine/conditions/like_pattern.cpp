@@ -26,8 +26,12 @@ std::variant<LikePattern, std::string> LikePattern::compile(std::string_view pat
     auto const wild = only_character(characters.wild_card);
     auto const single = only_character(characters.single_char);
     auto const escape = only_character(characters.escape_char);
-    for (auto const& [name, character] : {std::pair{"wildCard", wild}, {"singleChar", single}, {"escapeChar", escape}})
-        if (!character) return std::string{name} + " of PropertyIsLike is not one character";
+    auto const not_one = [](std::string_view name, std::string const& value) {
+        return std::string{name} + " of PropertyIsLike is " + quoted(value) + ": expected one character";
+    };
+    if (!wild) return not_one("wildCard", characters.wild_card);
+    if (!single) return not_one("singleChar", characters.single_char);
+    if (!escape) return not_one("escapeChar", characters.escape_char);
     if (wild == single || wild == escape || single == escape)
         return std::string{"wildCard, singleChar and escapeChar of PropertyIsLike are not three different characters"};
     LikePattern made;
@@ -73,7 +77,7 @@ void LikePattern::set_bits() {
     takers_.shrink_to_fit();
 }
 
-// A bit for each element that may come next, and one for the end.
+// `next` has one bit for each element that may match the next character, and one for the end of the pattern.
 bool LikePattern::matches(std::string_view text) const {
     Bits next(loops_.size());
     put(next, 0);

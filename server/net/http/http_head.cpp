@@ -79,8 +79,9 @@ public:
             return Fault{
                 FaultCode::header_too_large, "more than " + std::to_string(settings.max_fields) + " header fields", {}, {}};
         }
-        if (text.find("\r\n ") != text.npos || text.find("\r\n\t") != text.npos) return broken("a folded header line");
-        if (hosts_ > 1 || (hosts_ == 0 && !head_.is_http_1_0)) return broken("exactly one Host header is needed");
+        if (text.find("\r\n ") != text.npos || text.find("\r\n\t") != text.npos)
+            return broken("a folded header line: send each header field in one line");
+        if (hosts_ > 1 || (hosts_ == 0 && !head_.is_http_1_0)) return broken("expected exactly one Host header");
         if (!may_be_authority(head_.field("Host").value_or("")))
             return broken("Host is not a name or an address with an optional port");
         if (!may_be_authority(head_.target_authority))

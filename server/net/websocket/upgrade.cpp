@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gateway/access/secrets.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::net {
 
@@ -40,8 +41,9 @@ HttpAnswer upgrade(RequestHead const& head) {
         !head.lists("Connection", "upgrade")) {
         return wants_upgrade("POST a request document here, or open a WebSocket");
     }
-    if (head.count("Sec-WebSocket-Version") != 1) return broken("exactly one Sec-WebSocket-Version is needed");
-    if (head.field("Sec-WebSocket-Version") != "13") return wants_upgrade("the version of WebSocket spoken here is 13");
+    if (head.count("Sec-WebSocket-Version") != 1) return broken("expected exactly one Sec-WebSocket-Version header");
+    if (auto const version = head.field("Sec-WebSocket-Version").value_or(""); version != "13")
+        return wants_upgrade("unsupported Sec-WebSocket-Version " + quoted(version) + ": expected 13");
     auto const key = head.field("Sec-WebSocket-Key");
     if (!key || !is_websocket_key(*key)) return broken("Sec-WebSocket-Key is not one text of 16 bytes in base64");
     if (!head.lists("Sec-WebSocket-Protocol", subprotocol, RequestHead::Case::kept))

@@ -181,7 +181,7 @@ Expression decode_position(Node node) {
     auto const text = node.text();
     if (auto const period = to_period(text)) return {*period};
     return {NotUnderstood{"the condition has the time " + quoted(text) +
-                          ": expected a time as 2026-11-20T12:00:00Z, a day, a month or a year"}};
+                          ": expected a time such as 2026-11-20T12:00:00Z, a day, a month or a year"}};
 }
 
 Expression decode_period(Node node) {

@@ -259,7 +259,7 @@ std::vector<Repair> repair_namespaces(std::span<char> document, std::span<std::s
         auto* const begin = document.data() + (written.data() - document.data());
         if (spaced) {
             // Moves the quotes inwards, so that the white space is outside of the value.
-            repairs.push_back({offset, "the namespace " + quoted(written) + " has white space around it: ignored"});
+            repairs.push_back({offset, "the namespace " + quoted(written) + " has white space around it, which is ignored"});
             char const quote = begin[-1];
             std::string moved(static_cast<std::size_t>(name.data() - written.data()), ' ');
             moved.append(1, quote).append(name).append(1, quote).append(written.size() + 2 - moved.size(), ' ');

@@ -285,7 +285,7 @@ std::string request_id_of(std::string_view document) {
     auto step = root.next();
     while (step == StartTag::Step::attribute) step = root.next();
     if (step == StartTag::Step::broken) return {};
-    // The root's start tag, closed, is a document of its own. Parsing it resolves the references in the attribute.
+    // Copies the root's start tag as an empty element, and parses that: this resolves the references in the attribute.
     std::string alone{document.substr(at, root.offset() - at)};
     if (first_bad_character(alone)) return {};
     if (step == StartTag::Step::end) alone.insert(alone.size() - 1, 1, '/');

@@ -32,7 +32,7 @@ constexpr std::array words_of_built_in{
     Words{"unsignedInt", "a whole number, 0 or more, of 32 bits"},
     Words{"nonNegativeInteger", "a whole number, 0 or more"},
     Words{"positiveInteger", "a whole number, 1 or more"},
-    Words{"dateTime", "a time as 2026-11-20T12:00:00Z"},
+    Words{"dateTime", "a time such as 2026-11-20T12:00:00Z"},
     Words{"ID", "a name without colons and spaces, used once in the document"},
     Words{"NCName", "a name without colons and spaces"},
     Words{"QName", "a name without a prefix, or with a declared one"},

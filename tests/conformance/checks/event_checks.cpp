@@ -149,7 +149,7 @@ void what_was_not_subscribed_is_not_heard(Stage& stage) {
     require(other.heard_events(watch.type()) == 0, "an event came to an application that has not subscribed");
 }
 
-// Between the end of what silences it and that of a command for which it waits a while.
+// After `suspend`, `stop` and `release`, a component sends no events for at least `a_while`.
 void what_does_not_run_is_silent(Stage& stage) {
     constexpr int a_while = 200;  // ms
     Watch watch{stage};

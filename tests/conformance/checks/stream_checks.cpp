@@ -96,7 +96,7 @@ void a_stream_that_there_is_not_is_refused(Stage& stage) {
     refused(broadcast.owner.query("get_stream_status", kit::where(kit::equal("stream_id", unique_name()))), "UNSUPPORTED");
 }
 
-// Nothing is known of what flows but that it does.
+// The format of the stream is unknown here: checks only that bytes arrive.
 void a_stream_is_where_it_is_said_to_be(Stage& stage) {
     Broadcast broadcast{stage};
     if (!broadcast.address.starts_with("http://")) throw NotPlayed{"the stream is at " + broadcast.address + ", not at http://"};

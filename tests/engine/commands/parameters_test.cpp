@@ -140,7 +140,8 @@ TEST(Parameters, KnowTheCodebookThatTheProfileDeclares) {
                 HasSubstr("expected one of urn:x-test:staff, urn:x-test:visitors, urn:x-test:robots"));
 }
 
-// For arguments of `start` and of the component's own commands, in execute. No command of the sequence runs.
+// The rule applies to all commands with parameters: `start`, set_parameter and the component's own. No command of the sequence
+// runs.
 TEST(Parameters, OfAForeignCodebookEndASequenceBeforeItBegins) {
     auto part = desk_lamp;
     part.profile.messages.push_back({.kind = MessageKind::command,

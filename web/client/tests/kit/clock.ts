@@ -16,7 +16,7 @@ export class Clock {
 
   /** Replaces the global timers until `remove`. */
   constructor() {
-    // As with real timers, a delay above the limit fires at once.
+    // Like the real timers, treats a delay of 2^31 ms or more as 1 ms.
     const taken = (milliseconds: number) => (milliseconds < 2 ** 31 ? milliseconds : 1);
     const wait = (happen: () => void, milliseconds: number, every?: number) => {
       const one = { at: this.time + taken(milliseconds), every: every && taken(every), happen };

@@ -12,9 +12,9 @@ import { condition_of, written } from './writing';
 export interface Matches {
   /** Refs of matching components, in the engine's order. */
   refs: readonly string[];
-  /** The error of the last search; the refs are from before it. */
+  /** The error of the last search, or undefined. After an error, `refs` are those of an earlier search. */
   trouble: unknown;
-  is_old: boolean; // of an earlier condition
+  is_old: boolean; // `refs` and `trouble` belong to an earlier condition
 }
 
 const debounce = 300; // ms

@@ -110,7 +110,7 @@ export class LinkState {
   }
 
   private note_gap(gap: Gap): void {
-    if (gap.reason === 'buffer') return; // dropped only from a stream that the console does not read
+    if (gap.reason === 'buffer') return; // concerns a stream of the client; the console reads no streams
     const before = this.missed.value?.gap;
     const sum = gap.reason === 'lost' && before?.reason === 'lost' ? { ...gap, first: before.first, count: gap.count + before.count } : gap;
     this.missed.value = { at: this.environment.now(), gap: sum };
