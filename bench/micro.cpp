@@ -9,6 +9,8 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <pugixml.hpp>
 #include <stdexcept>
 #include <string>
@@ -113,6 +115,18 @@ class Nobody final : public Outbox {
     void notify(NotificationQueue&) override {}
 };
 
+class Question final : public Asked {
+public:
+    Question(SessionId const& from, Operation const& operation) : Asked{from, 0}, operation_{operation} {}
+    Operation const& operation() const override { return operation_; }
+    void answer(Said answer) override { said = std::move(answer); }
+
+    std::optional<Said> said;
+
+private:
+    Operation const& operation_;
+};
+
 // An engine with probes, and one session that has bound the first of them.
 class World {
 public:
@@ -126,13 +140,16 @@ public:
 
     SessionId connect() { return ask<Connect>({}, Connect{}).session; }
 
-    template <class Asked>
-    typename Asked::Reply ask(SessionId const& asker, Operation const& operation) {
+    template <class Known>
+    typename Known::Reply ask(SessionId const& asker, Operation const& operation) {
         now_.steady += std::chrono::microseconds{10};
-        auto handled = engine_.handle(asker, operation, now_);
-        auto* const reply = std::get_if<Reply>(&handled);
+        auto const question = std::make_shared<Question>(asker, operation);
+        std::unique_lock lock{mutex_};
+        engine_.handle(question, now_);
+        engine_.work(lock, now_);
+        auto* const reply = std::get_if<Reply>(&question->said.value());
         if (!reply) throw std::runtime_error("refused");
-        auto said = std::get<typename Asked::Reply>(std::move(*reply));
+        auto said = std::get<typename Known::Reply>(std::move(*reply));
         if (said.return_code != ReturnCode::ok) throw std::runtime_error(said.reason);
         return said;
     }
@@ -156,16 +173,17 @@ private:
     int last_ = 0;
     Nobody nobody_;
     Instant now_{};
+    std::mutex mutex_;
     Engine engine_;
 };
 
-template <class Asked>
+template <class Known>
 void handle(benchmark::State& state, std::string const& document) {
     World world{static_cast<int>(state.range(0))};
     auto const operation = request_of(document).operation;
     std::uint64_t heard = 0;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(world.ask<Asked>(world.session, operation));
+        benchmark::DoNotOptimize(world.ask<Known>(world.session, operation));
         world.take(world.session, heard);
     }
 }

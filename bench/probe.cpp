@@ -52,29 +52,29 @@ std::string stamp() {
     return "t" + std::to_string(duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count());
 }
 
-class Probe final : public Component {
+class Probe final : public LocalComponent {
 public:
     Probe(std::string ref, std::shared_ptr<ComponentProfile const> profile) : event_{profile->messages[1].name} {
         description_.ref = {.code = std::move(ref), .authority = {}, .codebook_ref = profile->object.identifier, .version = {}};
         description_.profile = std::move(profile);
+        description_.returns_at_once = true;
     }
 
 private:
     ComponentDescription const& description() const override { return description_; }
-    void attach(ComponentPort& port) override { port_ = &port; }
     ComponentStatus status() const override { return ComponentStatus::ready; }
-    std::optional<std::string> refusal(std::string_view, ParameterList const&) const override { return {}; }
-    void start(CommandHandle command, ParameterList const&, Instant) override { port_->completed(command, CompletedStatus::ok); }
+    Prepared prepare(std::string_view command_type, ParameterList const& arguments) override {
+        if (command_type == "set_parameter") return [](CommandHandle, Instant) {};
+        auto const* burst = command_type == "fire" ? find(arguments, "burst") : nullptr;
+        auto const count = command_type != "fire" ? 0 : burst == nullptr ? 1 : to_double(burst->values.front()).value_or(1);
+        return [this, count](CommandHandle command, Instant) {
+            for (int i = 0; i < count; ++i) port().event(event_, {{rois::text("stamp", stamp()), integer("value", 42)}, {}});
+            port().completed(command, CompletedStatus::ok);
+        };
+    }
     Halted halt(Instant) override { return Halted::confirmed; }
     void suspend(Instant) override {}
     void resume(Instant) override {}
-
-    void perform(CommandHandle command, std::string_view, ParameterList const& arguments, Instant) override {
-        auto const* burst = find(arguments, "burst");
-        auto const count = burst == nullptr ? 1 : to_double(burst->values.front()).value_or(1);
-        for (int i = 0; i < count; ++i) port_->event(event_, {{rois::text("stamp", stamp()), integer("value", 42)}, {}});
-        port_->completed(command, CompletedStatus::ok);
-    }
 
     std::vector<Results> query(std::string_view, Instant) override {
         return {{{integer("value", 42), rois::text("label", label)}, {}}};
@@ -82,7 +82,6 @@ private:
 
     std::string event_;
     ComponentDescription description_;
-    ComponentPort* port_ = nullptr;
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/component.hpp"
+#include "engine/local_component.hpp"
 #include "types/profiles.hpp"
 
 namespace rois::bench {

@@ -15,7 +15,7 @@ namespace rois::command {
 namespace {
 
 // The configuration keys of rois-gateway (server/main/keys.cpp) as variables.
-constexpr std::array<std::string_view, 53> keys{"ROIS_ALLOWED_ORIGINS",
+constexpr std::array<std::string_view, 54> keys{"ROIS_ALLOWED_ORIGINS",
                                                 "ROIS_COMMAND_RESULTS",
                                                 "ROIS_CONNECT_TIMEOUT",
                                                 "ROIS_ENGINE_NAME",
@@ -56,6 +56,7 @@ constexpr std::array<std::string_view, 53> keys{"ROIS_ALLOWED_ORIGINS",
                                                 "ROIS_PING_INTERVAL",
                                                 "ROIS_PROFILES",
                                                 "ROIS_PROXIES",
+                                                "ROIS_QUESTION_DEADLINE",
                                                 "ROIS_REQUEST_TIMEOUT",
                                                 "ROIS_RESUME_WINDOW",
                                                 "ROIS_SCENARIO",

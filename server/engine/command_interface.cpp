@@ -27,6 +27,28 @@ std::string why_not_free(RegisteredComponent const& component) {
     return component.bound_to == nullptr ? why_not_halted(component) : held(component);
 }
 
+std::string did_not_answer(RegisteredComponent const& component) {
+    return "the component " + quoted(component.ref().code) + " did not answer in time";
+}
+
+// Returns why the command cannot begin, or nullopt. Sets what the component has prepared.
+std::optional<Objection> why_not_prepared(Preparation& command, std::optional<ComponentAnswer>& answer, Session const& session) {
+    auto const& component = *command.component;
+    auto const objection = [&](ReturnCode code, std::string const& reason) {
+        return Objection{code, command.path.empty() ? reason : command.path + ": " + reason};
+    };
+    if (!answer) return objection(ReturnCode::timeout, did_not_answer(component) + "; no command has begun");
+    if (auto const* refused = std::get_if<Refused>(&*answer)) return objection(ReturnCode::bad_parameter, refused->reason);
+    auto* begin = std::get_if<Begin>(&*answer);
+    if (begin == nullptr) return objection(ReturnCode::error, "the component " + quoted(component.ref().code) + " failed");
+    command.begin = std::move(*begin);
+    if (component.bound_to != &session) return objection(ReturnCode::error, not_bound(component.ref().code));
+    if (begins_action(command.command_type) && component.halts != command.halts)
+        return objection(ReturnCode::error,
+                         "the component " + quoted(component.ref().code) + " was stopped before the command could begin");
+    return {};
+}
+
 // Gives an id to each command that has none.
 class IdFiller {
 public:
@@ -65,25 +87,45 @@ Reply Engine::Core::perform(Session& session, Search const& search, Instant) {
     return reply;
 }
 
-Reply Engine::Core::perform(Session& session, Bind const& bind, Instant now) {
-    auto [component, problem] = registry_.meant(bind.component_ref);
-    if (component == nullptr) return refused<Bind::Reply>(ReturnCode::bad_parameter, std::move(problem));
-    bool const mine = component->bound_to == &session;
-    switch (Registry::bind(*component, session, now)) {
+Reply Engine::Core::bind(Session& session, RegisteredComponent& component, Instant now) {
+    bool const mine = component.bound_to == &session;
+    switch (Registry::bind(component, session, now)) {
         case Registry::Bound::ok:
-            if (!mine) journal_->bound(session.number, component->ref().code);
+            if (!mine) journal_->bound(session.number, component.ref().code);
             return Bind::Reply{};
         case Registry::Bound::not_halted:
-            return refused<Bind::Reply>(ReturnCode::error, why_not_halted(*component));
+            return refused<Bind::Reply>(ReturnCode::error, why_not_halted(component));
         case Registry::Bound::taken:
             break;
     }
-    return refused<Bind::Reply>(ReturnCode::out_of_resources, held(*component));
+    return refused<Bind::Reply>(ReturnCode::out_of_resources, held(component));
+}
+
+Engine::Core::Later Engine::Core::perform(Session& session, Bind const& bind_, SharedAsked const& asked, Instant now) {
+    auto [component, problem] = registry_.meant(bind_.component_ref);
+    if (component == nullptr) return refused<Bind::Reply>(ReturnCode::bad_parameter, std::move(problem));
+    if (!component->confirms_binding() || !component->is_free()) return bind(session, *component, now);
+    auto then = [this, asked, shared = component->shared_from_this()](std::optional<ComponentAnswer>& answer, Instant when) {
+        auto const make = [&](Session& asker) -> Later {
+            if (!answer) return refused<Bind::Reply>(ReturnCode::timeout, did_not_answer(*shared) + "; it is not bound");
+            if (auto* refusal = std::get_if<Refused>(&*answer))
+                return refused<Bind::Reply>(ReturnCode::out_of_resources, std::move(refusal->reason));
+            if (!std::holds_alternative<Done>(*answer) || shared->has_departed())
+                return refused<Bind::Reply>(ReturnCode::error,
+                                            "the component " + quoted(shared->ref().code) + " cannot be bound now");
+            return bind(asker, *shared, when);
+        };
+        answer_later(*asked, make);
+    };
+    auto const ticket = questions_.ask(*component, now.steady + settings_.question_deadline,
+                                       "the component did not answer whether it can be bound", std::move(then));
+    component->hosted().bind(ticket, now);
+    return {};
 }
 
 // Decisions 4 and 6: binds the first free match in the order of preference. If none is free, returns a match that the session has
 // bound already.
-Reply Engine::Core::perform(Session& session, BindAny const& bind, Instant now) {
+Engine::Core::Later Engine::Core::perform(Session& session, BindAny const& bind, SharedAsked const& asked, Instant now) {
     auto compiled = Selection::compile(bind.condition, vocabulary());
     if (auto* problem = std::get_if<std::string>(&compiled))
         return refused<BindAny::Reply>(ReturnCode::bad_parameter, std::move(*problem));
@@ -91,22 +133,55 @@ Reply Engine::Core::perform(Session& session, BindAny const& bind, Instant now) 
     if (!may_ever_match(selection.filter(), registry_.possible(selection.filter().demand()), session))
         return refused<BindAny::Reply>(ReturnCode::unsupported, "no component of this engine can match the condition");
     auto const [matches, held_of_group] = select_to_bind(selection, session);
-    auto found = std::ranges::find_if(matches, &RegisteredComponent::is_free);
-    if (found == matches.end())
-        found = std::ranges::find_if(
-            matches, [&](auto const* match) { return match->bound_to == &session && !match->has_failed_to_halt(); });
-    if (found == matches.end() && held_of_group != nullptr)
+    std::vector<SharedComponent> candidates;
+    for (auto* match : matches)
+        if (match->is_free()) candidates.push_back(match->shared_from_this());
+    for (auto* match : matches)
+        if (match->bound_to == &session && !match->has_failed_to_halt()) candidates.push_back(match->shared_from_this());
+    if (candidates.empty() && held_of_group != nullptr)
         return refused<BindAny::Reply>(ReturnCode::out_of_resources,
                                        "no robot can give all components of the group now; " + held(*held_of_group));
-    if (found == matches.end())
+    if (candidates.empty())
         return refused<BindAny::Reply>(ReturnCode::out_of_resources,
                                        "no component that matches the condition is free now" +
                                            (matches.empty() ? "" : "; " + why_not_free(*matches.front())));
-    if ((*found)->bound_to == nullptr) journal_->bound(session.number, (*found)->ref().code);
-    Registry::bind(**found, session, now);
-    BindAny::Reply reply;
-    reply.component_ref = (*found)->ref();
-    return reply;
+    return bind_first(session, asked, std::move(candidates), now.steady + settings_.question_deadline, now);
+}
+
+// Binds the first candidate that confirms it. Each may take half of the remaining time, the last one all of it.
+Engine::Core::Later Engine::Core::bind_first(Session& session, SharedAsked const& asked, std::vector<SharedComponent> candidates,
+                                             Steady until, Instant now) {
+    auto const component = candidates.front();
+    candidates.erase(candidates.begin());
+    if (!component->confirms_binding() || component->bound_to == &session) {
+        auto const bound = bind(session, *component, now);
+        auto const& outcome = std::get<Bind::Reply>(bound);
+        if (outcome.return_code != ReturnCode::ok) return refused<BindAny::Reply>(outcome.return_code, outcome.reason);
+        BindAny::Reply reply;
+        reply.component_ref = component->ref();
+        return reply;
+    }
+    auto const due = candidates.empty() ? until : now.steady + (until - now.steady) / 2;
+    auto then = [this, asked, component, candidates = std::move(candidates), until](std::optional<ComponentAnswer>& answer,
+                                                                                    Instant when) {
+        auto const make = [&](Session& asker) -> Later {
+            if (answer && std::holds_alternative<Done>(*answer) && !component->has_departed()) {
+                auto const bound = this->bind(asker, *component, when);
+                if (std::get<Bind::Reply>(bound).return_code == ReturnCode::ok) {
+                    BindAny::Reply reply;
+                    reply.component_ref = component->ref();
+                    return reply;
+                }
+            }
+            if (!candidates.empty()) return bind_first(asker, asked, candidates, until, when);
+            if (!answer) return refused<BindAny::Reply>(ReturnCode::timeout, did_not_answer(*component) + "; nothing is bound");
+            return refused<BindAny::Reply>(ReturnCode::error, "no component that matches the condition can be bound now");
+        };
+        answer_later(*asked, make);
+    };
+    auto const ticket = questions_.ask(*component, due, "the component did not answer whether it can be bound", std::move(then));
+    component->hosted().bind(ticket, now);
+    return {};
 }
 
 Reply Engine::Core::perform(Session& session, Release const& release_, Instant now) {
@@ -138,42 +213,87 @@ Reply Engine::Core::perform(Session& session, GetParameter const& get, Instant) 
     return reply;
 }
 
-Reply Engine::Core::perform(Session& session, SetParameter const& set, Instant now) {
-    CommandMessage message{
-        .component_ref = set.component_ref, .command_type = "set_parameter", .command_id = {}, .arguments = set.parameters};
-    if (auto problem = SequenceCheck{session, registry_}.objection(message))
-        return refused<SetParameter::Reply>(problem->return_code, std::move(problem->reason));
-    message.command_id = executor_.fresh_id(session, {});
-    SetParameter::Reply reply;
-    reply.command_id = message.command_id;
-    executor_.run_alone(session, message, now);
-    return reply;
+// Asks the components of the commands whether they are possible (Component::prepare), all at once. `then` gets the prepared
+// commands, and returns the reply.
+template <class Op, class Then>
+Engine::Core::Later Engine::Core::prepare(Session& session, SharedAsked const& asked, std::vector<Preparation> list, Then then,
+                                          Instant now) {
+    if (std::ranges::none_of(list, &Preparation::asks)) return then(session, std::move(list), now);
+    auto const prepared = std::make_shared<std::vector<Preparation>>(std::move(list));
+    auto const round =
+        questions_.begin(now.steady + settings_.question_deadline,
+                         [this, asked, prepared, then = std::move(then)](Questions::Answers& answers, Instant when) mutable {
+                             answer_later(*asked, [&](Session& asker) -> Later {
+                                 auto next = answers.begin();
+                                 for (auto& each : *prepared)
+                                     if (auto objection = each.asks() ? why_not_prepared(each, *next++, asker) : std::nullopt)
+                                         return refused<typename Op::Reply>(objection->return_code, std::move(objection->reason));
+                                 return then(asker, std::move(*prepared), when);
+                             });
+                         });
+    for (auto& each : *prepared) {
+        if (!each.asks()) continue;
+        auto& component = *each.component;
+        auto const ticket = questions_.add(round, component, "the component did not answer whether a command is possible");
+        auto changed = component.in_own_frame(each.parameters);
+        component.hosted().prepare(ticket, each.command_type, changed ? std::move(*changed) : each.parameters, now);
+    }
+    return {};
 }
 
-Reply Engine::Core::perform(Session& session, Execute const& execute, Instant now) {
+Engine::Core::Later Engine::Core::perform(Session& session, SetParameter const& set, SharedAsked const& asked, Instant now) {
+    CommandMessage message{
+        .component_ref = set.component_ref, .command_type = "set_parameter", .command_id = {}, .arguments = set.parameters};
+    SequenceCheck check{session, registry_};
+    if (auto problem = check.objection(message))
+        return refused<SetParameter::Reply>(problem->return_code, std::move(problem->reason));
+    auto then = [this, message = std::move(message)](Session& asker, std::vector<Preparation> prepared, Instant when) mutable {
+        message.command_id = executor_.fresh_id(asker, {});
+        SetParameter::Reply reply;
+        reply.command_id = message.command_id;
+        executor_.run_alone(asker, message, std::move(prepared.front()), when);
+        return Reply{std::move(reply)};
+    };
+    return prepare<SetParameter>(session, asked, std::move(check.preparations()), std::move(then), now);
+}
+
+Engine::Core::Later Engine::Core::perform(Session& session, Execute const& execute, SharedAsked const& asked, Instant now) {
     executor_.forget_old_results(session, now);
     SequenceCheck check{session, registry_};
     if (auto problem = check.objection(execute.command_unit_list))
         return refused<Execute::Reply>(problem->return_code, std::move(problem->reason));
-    if (everything_is_stopped_ && check.begins_something())
-        return refused<Execute::Reply>(ReturnCode::error,
-                                       "everything was stopped; nothing starts until it is cleared (POST /rois/clear)");
+    bool const begins = check.begins_something(), lasts = begins || check.delays_something();
+    if (auto problem = why_not_now(session, begins, lasts, check.commands()))
+        return refused<Execute::Reply>(problem->return_code, std::move(problem->reason));
+    auto then = [this, asked, begins, lasts, ids = check.ids()](Session& asker, std::vector<Preparation> prepared, Instant when) {
+        if (auto problem = why_not_now(asker, begins, lasts, prepared.size()))
+            return Reply{refused<Execute::Reply>(problem->return_code, std::move(problem->reason))};
+        for (auto const& id : ids)
+            if (asker.commands.contains(id))
+                return Reply{refused<Execute::Reply>(ReturnCode::bad_parameter,
+                                                     "the command_id " + quoted(id.text) + " is in use in this session")};
+        Execute::Reply reply;
+        reply.command_unit_list = std::get<Execute>(asked->operation()).command_unit_list;
+        IdFiller{executor_, asker, ids}.fill(reply.command_unit_list.command_unit_list);
+        executor_.execute(asker, reply.command_unit_list, std::move(prepared), when);
+        return Reply{std::move(reply)};
+    };
+    return prepare<Execute>(session, asked, std::move(check.preparations()), std::move(then), now);
+}
+
+// Returns why the session may not begin this many commands now, or nullopt.
+std::optional<Objection> Engine::Core::why_not_now(Session const& session, bool begins, bool lasts, std::size_t commands) {
+    if (everything_is_stopped_ && begins)
+        return Objection{ReturnCode::error, "everything was stopped; nothing starts until it is cleared (POST /rois/clear)"};
     // Each of these commands may add a `completed` to the session's queue (decisions 12, 23).
     constexpr std::size_t most_without_memory = 16;
     auto const most = settings_.max_waiting_notifications;
-    bool const lasts = check.begins_something() || check.delays_something();
-    if (memory_->full() && lasts && session.live_commands() + check.commands() > most_without_memory)
-        return refused<Execute::Reply>(ReturnCode::out_of_resources, memory_->refuse("there is no memory for more commands"));
-    if (session.live_commands() + check.commands() > most) {
-        ++refused_.commands;
-        return refused<Execute::Reply>(ReturnCode::out_of_resources,
-                                       "a session may have at most " + std::to_string(most) + " commands that wait or run");
-    }
-    Execute::Reply reply;
-    reply.command_unit_list = execute.command_unit_list;
-    IdFiller{executor_, session, check.ids()}.fill(reply.command_unit_list.command_unit_list);
-    executor_.execute(session, reply.command_unit_list, now);
-    return reply;
+    if (memory_->full() && lasts && session.live_commands() + commands > most_without_memory)
+        return Objection{ReturnCode::out_of_resources, memory_->refuse("there is no memory for more commands")};
+    if (session.live_commands() + commands <= most) return {};
+    ++refused_.commands;
+    return Objection{ReturnCode::out_of_resources,
+                     "a session may have at most " + std::to_string(most) + " commands that wait or run"};
 }
 
 // Decision 17.

@@ -4,15 +4,9 @@
 
 namespace rois {
 
-void Component::reconcile(ParameterList&, ParameterList const&) const {}
+// Only a component whose description has `confirms_binding` is asked.
+void Component::bind(Ticket, Instant) { throw std::logic_error("the component does not implement bind"); }
 
 void Component::parameters_changed(ParameterList const&, Instant) {}
-
-void Component::perform(CommandHandle, std::string_view command_type, ParameterList const&, Instant) {
-    throw std::logic_error("the component's profile has the command '" + std::string{command_type} +
-                           "', but the component does not implement it");
-}
-
-std::vector<Results> Component::query(std::string_view, Instant) { return {}; }
 
 }  // namespace rois

@@ -12,26 +12,40 @@ namespace rois {
 
 namespace {
 
-void list(EngineProfile& engine, std::string const& sub_engine, std::string const& ref) {
-    auto* owner = &engine;
-    if (sub_engine != engine.object.name) {
-        auto const known = std::ranges::find(engine.sub_profiles, sub_engine, [](auto const& sub) { return sub.object.name; });
-        owner = known != engine.sub_profiles.end() ? &*known : &engine.sub_profiles.emplace_back();
-        owner->object = {.identifier = engine.object.identifier + "." + sub_engine,
-                         .code_space = engine.object.code_space,
-                         .name = sub_engine,
-                         .description = {},
-                         .meta_data = {}};
+// Returns the sub profile of a sub engine, such as "hall.robot1": the sub profile "hall.robot1" of the sub profile "hall". Adds
+// the ones that are missing.
+EngineProfile& profile_of(EngineProfile& main, std::string const& sub_engine) {
+    auto* owner = &main;
+    for (std::size_t end = 0; end != std::string::npos;) {
+        end = sub_engine.find('.', end == 0 ? 0 : end + 1);
+        auto const name = sub_engine.substr(0, end);
+        auto const known = std::ranges::find(owner->sub_profiles, name, [](auto const& sub) { return sub.object.name; });
+        if (known != owner->sub_profiles.end()) {
+            owner = &*known;
+            continue;
+        }
+        IdentifiedObject object{.identifier = main.object.identifier + "." + name,
+                                .code_space = main.object.code_space,
+                                .name = name,
+                                .description = {},
+                                .meta_data = {}};
+        owner = &owner->sub_profiles.emplace_back();
+        owner->object = std::move(object);
     }
-    owner->components.push_back(ref);
+    return *owner;
 }
 
-// A sub engine without components is removed.
+void list(EngineProfile& main, std::string const& engine, std::string const& ref) {
+    auto& owner = engine == main.object.name ? main : profile_of(main, engine);
+    owner.components.push_back(ref);
+}
+
+// A sub engine without components and sub engines is removed.
 void unlist(EngineProfile& engine, std::set<std::string_view> const& refs) {
-    auto const goes = [&](std::string const& ref) { return refs.contains(ref); };
-    std::erase_if(engine.components, goes);
-    for (auto& sub : engine.sub_profiles) std::erase_if(sub.components, goes);
-    std::erase_if(engine.sub_profiles, [](EngineProfile const& sub) { return sub.components.empty(); });
+    std::erase_if(engine.components, [&](std::string const& ref) { return refs.contains(ref); });
+    for (auto& sub : engine.sub_profiles) unlist(sub, refs);
+    std::erase_if(engine.sub_profiles,
+                  [](EngineProfile const& sub) { return sub.components.empty() && sub.sub_profiles.empty(); });
 }
 
 }  // namespace
@@ -44,8 +58,30 @@ Engine::Core::SharedComponent Engine::Core::made(std::unique_ptr<Component> comp
         throw std::runtime_error("the ref " + quoted(description.ref.code) + " begins or ends with white space");
     auto whole = flattened(*description.profile, known);
     auto engine = description.engine.empty() ? profile_.object.name : description.engine;
-    return std::make_shared<RegisteredComponent>(std::move(component), std::move(whole), std::move(engine), agenda_,
+    auto const runs = description.returns_at_once ? Provider::Runs::on_callers_thread : Provider::Runs::on_own_thread;
+    auto hosted = std::make_shared<HostedComponent>(std::move(component), provider(description.provider, runs));
+    return std::make_shared<RegisteredComponent>(description, std::move(hosted), std::move(whole), std::move(engine), agenda_,
                                                  places_.frames);
+}
+
+// Returns the provider with this name, or a new one. An empty name belongs to nobody else.
+std::shared_ptr<Provider> Engine::Core::provider(std::string const& name, Provider::Runs runs) {
+    auto made = name.empty() ? nullptr : providers_[name].lock();
+    if (made && made->has_own_thread() != (runs == Provider::Runs::on_own_thread))
+        throw std::runtime_error("all components of the provider " + quoted(name) + " must return at once, or none");
+    if (made) return made;
+    std::erase_if(providers_, [](auto const& known) { return known.second.expired(); });
+    made = std::make_shared<Provider>(runs, inbox_, to_run_);
+    if (!name.empty()) providers_[name] = made;
+    return made;
+}
+
+void Engine::Core::add(std::shared_ptr<Device> device, std::string const& name) {
+    auto state = std::make_shared<DeviceState>();
+    state->device = std::move(device);
+    state->provider = provider(name, Provider::Runs::on_callers_thread);
+    expect_providers(registry_.all().size() + devices_.size() + 1);
+    devices_.push_back(std::move(state));
 }
 
 std::shared_ptr<EngineProfile const> Engine::Core::profile() const {
@@ -57,6 +93,8 @@ void Engine::Core::enter(SharedComponent const& component) {
     auto const& entry = registry_.add(component).entry();
     list(profile_, entry.engine, entry.ref);
     shared_profile_.reset();
+    expect_providers(registry_.all().size() + devices_.size());
+    component->hosted().attach();
 }
 
 // The component is no longer in the registry. The next tick retries a step that fails.
@@ -67,13 +105,34 @@ void Engine::Core::leave(SharedComponent const& component, Instant now) {
         session->bound.erase(component.get());
         attempts([&] { journal_->released(session->number, component->ref().code); });
     }
+    attempts([&] { questions_.fail_all(*component, now); });
     attempts([&] { settle(now); });
-    component->depart();
-    departed_.push_back(component);  // `change` reserved the room
+    attempts([&] { component->depart(); });
     attempts.rethrow();
 }
 
-void Engine::Core::add(std::unique_ptr<Component> component) { enter(made(std::move(component), known_profiles_)); }
+void Engine::Core::add(std::unique_ptr<Component> component) { enter(made(std::move(component), profiles_of(belongings_))); }
+
+std::vector<ComponentProfile> Engine::Core::profiles_of(BelongingsOf const& belongings) {
+    std::vector<ComponentProfile> all;
+    for (auto const& [provider, brought] : belongings) all.insert(all.end(), brought.profiles.begin(), brought.profiles.end());
+    return all;
+}
+
+Places Engine::Core::places_of(BelongingsOf const& belongings) const {
+    auto all = own_places_;
+    std::vector<Frame> frames;
+    for (auto const& [provider, brought] : belongings) {
+        frames.insert(frames.end(), brought.frames.begin(), brought.frames.end());
+        for (auto const& place : brought.places) {
+            if (all.find(place.name) != nullptr)
+                throw std::runtime_error("there are two places with the name " + quoted(place.name));
+            all.all.push_back(place);
+        }
+    }
+    if (!frames.empty()) all.frames = all.frames.with(std::move(frames));
+    return all;
+}
 
 void Engine::Core::check(ComponentChange const& change) const {
     std::set<std::string_view> const going{change.going.begin(), change.going.end()};
@@ -95,29 +154,47 @@ void Engine::Core::change(ComponentChange change, Instant now) {
     settle(now);
     auto registry = registry_;
     auto profile = profile_;
+    auto belongings = belongings_;
+    belongings[change.provider] = std::move(change.belongings);
+    auto const known = profiles_of(belongings);
+    auto places = places_of(belongings);
     std::vector<SharedComponent> going, coming;
     for (auto const& ref : change.going) registry.remove(*going.emplace_back(registry_.find(ref)->shared_from_this()));
     unlist(profile, {change.going.begin(), change.going.end()});
     for (auto& component : change.coming) {
-        coming.push_back(made(std::move(component), change.known_profiles));
+        coming.push_back(made(std::move(component), known));
         auto const& entry = registry.add(coming.back()).entry();
         list(profile, entry.engine, entry.ref);
     }
-    departed_.reserve(departed_.size() + going.size());
-    auto const notification = std::make_shared<OutgoingNotification const>(ProfileChanged{});
+    expect_providers(registry.all().size() + going.size() + devices_.size());
 
     std::swap(registry_, registry);
     std::swap(profile_, profile);
-    std::swap(known_profiles_, change.known_profiles);
+    std::swap(belongings_, belongings);
+    std::swap(places_, places);
     shared_profile_.reset();
     if (going.empty() && coming.empty()) return;
     Attempts attempts;
     for (auto const& component : going) attempts([&] { leave(component, now); });
+    for (auto const& component : coming) attempts([&] { component->hosted().attach(); });
     for (auto const& component : coming)
         attempts([&] { executor_.halt(*component, CompletedStatus::abort, "it was just added", now); });
-    for (auto const& [id, session] : sessions_) attempts([&, &to = *session] { notifier_.notify(to, notification); });
+    profile_change_unreported_ = true;
+    attempts([&] { report_profile_change(now); });
     attempts([&] { settle(now); });
     if (attempts.failure()) unsettled_ = attempts.failure();
+}
+
+// At most once a second: components may come and go often. A tick reports a later change.
+void Engine::Core::report_profile_change(Instant now) {
+    if (!profile_change_unreported_) return;
+    if (profile_change_reported_ && now.steady - *profile_change_reported_ < std::chrono::seconds{1}) return;
+    auto const notification = std::make_shared<OutgoingNotification const>(ProfileChanged{});
+    Attempts attempts;
+    for (auto const& [id, session] : sessions_) attempts([&, &to = *session] { notifier_.notify(to, notification); });
+    profile_change_reported_ = now.steady;
+    profile_change_unreported_ = false;
+    attempts.rethrow();
 }
 
 }  // namespace rois

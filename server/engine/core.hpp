@@ -1,7 +1,9 @@
 // The implementation of the engine: its parts, and one `perform` for each operation, in the source file of its RoIS interface.
 #pragma once
 
+#include <atomic>
 #include <exception>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,6 +16,7 @@
 #include "engine/attempts.hpp"
 #include "engine/commands/deadlines.hpp"
 #include "engine/commands/executor.hpp"
+#include "engine/commands/sequence_check.hpp"
 #include "engine/conditions/filter.hpp"
 #include "engine/engine.hpp"
 #include "engine/frames/perspective.hpp"
@@ -21,6 +24,9 @@
 #include "engine/notifications/details.hpp"
 #include "engine/notifications/notifier.hpp"
 #include "engine/notifications/subscriptions.hpp"
+#include "engine/providers/inbox.hpp"
+#include "engine/providers/provider.hpp"
+#include "engine/questions.hpp"
 #include "engine/registry.hpp"
 #include "engine/session.hpp"
 
@@ -35,10 +41,13 @@ public:
     void keep_within(MemoryBudget& memory) { memory_ = &memory; }
     void add(std::unique_ptr<Component>);
     void change(ComponentChange, Instant now);
-    void add(std::shared_ptr<Device> device) { devices_.push_back({std::move(device), false}); }
-    void describe(Places places) { places_ = std::move(places); }
+    ~Core();
+    void add(std::shared_ptr<Device>, std::string const& provider);
+    void describe(Places places) { own_places_ = places_ = std::move(places); }
 
-    std::variant<Reply, Refusal> handle(SessionId const&, Operation const&, Instant now);
+    void on_report(std::function<void()> wake) { inbox_->on_arrival(std::move(wake)); }
+    void handle(std::shared_ptr<Asked> const&, Instant now);
+    void work(std::unique_lock<std::mutex>&, Instant now, Provider::Runner);
     void begin(Instant now);
     void tick(Instant now);
 
@@ -63,12 +72,21 @@ private:
     // Components (components.cpp)
     using SharedComponent = std::shared_ptr<RegisteredComponent>;
     SharedComponent made(std::unique_ptr<Component>, std::vector<ComponentProfile> const& known);
+    std::shared_ptr<Provider> provider(std::string const& name, Provider::Runs);
+    void expect_providers(std::size_t most) {
+        to_run_.expect(most);
+        left_for_clock_.expect(most);
+    }
     void enter(SharedComponent const&);
     void leave(SharedComponent const&, Instant now);
     void check(ComponentChange const&) const;
+    using BelongingsOf = std::map<std::string, Belongings>;  // by provider
+    static std::vector<ComponentProfile> profiles_of(BelongingsOf const&);
+    Places places_of(BelongingsOf const&) const;
+    void report_profile_change(Instant now);
 
     // System interface (system_interface.cpp)
-    std::variant<Reply, Refusal> connect(SessionId const&, Connect const&, Instant now);
+    Said connect(SessionId const&, Connect const&, Instant now);
     Reply perform(Session&, Connect const&, Instant now);
     Reply perform(Session&, Resume const&, Instant now);
     Reply perform(Session&, Disconnect const&, Instant now);
@@ -77,18 +95,31 @@ private:
 
     // Command interface (command_interface.cpp)
     Reply perform(Session&, Search const&, Instant now);
-    Reply perform(Session&, Bind const&, Instant now);
-    Reply perform(Session&, BindAny const&, Instant now);
     Reply perform(Session&, Release const&, Instant now);
     Reply perform(Session&, GetParameter const&, Instant now);
-    Reply perform(Session&, SetParameter const&, Instant now);
-    Reply perform(Session&, Execute const&, Instant now);
     Reply perform(Session&, GetCommandResult const&, Instant now);
+    // These may have to ask components: nullopt means that the answer comes later.
+    using Later = std::optional<Reply>;
+    using SharedAsked = std::shared_ptr<Asked>;
+    Later perform(Session&, Bind const&, SharedAsked const&, Instant now);
+    Later perform(Session&, BindAny const&, SharedAsked const&, Instant now);
+    Later perform(Session&, SetParameter const&, SharedAsked const&, Instant now);
+    Later perform(Session&, Execute const&, SharedAsked const&, Instant now);
+    Reply bind(Session&, RegisteredComponent&, Instant now);
+    Later bind_first(Session&, SharedAsked const&, std::vector<SharedComponent> candidates, Steady until, Instant now);
+    std::optional<Objection> why_not_now(Session const&, bool begins, bool lasts, std::size_t commands);
+    template <class Op, class Then>
+    Later prepare(Session&, SharedAsked const&, std::vector<Preparation>, Then, Instant now);
 
     // Query interface (query_interface.cpp)
-    Reply perform(Session&, Query const&, Instant now);
-    Reply answer_of_whole_engine(Session const&, std::string const& query_type, Instant now);
-    static std::vector<Results> answers(Session const&, RegisteredComponent&, std::string const& query_type, Instant now);
+    class Inquiry;
+    Later perform(Session&, Query const&, SharedAsked const&, Instant now);
+    static std::vector<Results> known_answer(Session const&, RegisteredComponent&, std::string const& query_type);
+
+    // Answers an operation when the components that had to be asked have answered. `make` makes the reply, while the operation's
+    // hold is in force, or asks again. Without the session, the operation is refused.
+    void answer_later(Asked&, std::function<Later(Session&)> const& make);
+    void answer(Asked&, Session const&, Reply);
 
     // Event interface (event_interface.cpp)
     Reply perform(Session&, Subscribe const&, Instant now);
@@ -96,9 +127,9 @@ private:
     Reply perform(Session&, Unsubscribe const&, Instant now);
     Reply perform(Session&, GetEventDetail const&, Instant now);
     // Delivers to every receiver, even if one delivery throws. `deliveries` keeps the first exception.
-    void publish(EventOccurred const&, Instant now, Attempts& deliveries);
-    void publish(ErrorOccurred const&, Instant now, Attempts& deliveries);
-    ReceiveError noted(ErrorOccurred const&, Instant now);
+    void publish(RegisteredComponent&, EventOccurred const&, Instant now, Attempts& deliveries);
+    void publish(FoundError const&, Instant now, Attempts& deliveries);
+    ReceiveError noted(FoundError const&, Instant now);
 
     // Conditions (conditions.cpp)
     Vocabulary vocabulary(Declarations const* results = nullptr) const {
@@ -134,12 +165,18 @@ private:
     Session* longest_idle() const;
     void await_end_of_window(Session&, Steady not_before = Steady::min());
     void end_if_lost(SessionId const&, Instant now);
+    // Handles the errors that the engine has found, and reports of components: as many as fit into a short time.
     void settle(Instant now);
+    void handle_reports(Instant now, Attempts&);
+    void handle(InboxEntry&, Instant now, Attempts& deliveries);
+    void handle(RegisteredComponent&, CallFailed&, Instant now);
+    bool has_reports() { return agenda_.front() != nullptr || !inbox_->empty(); }
     void save_memory(Instant now);
+    void leave_for_clock(std::shared_ptr<Provider>);
     void advance_devices(Instant now);
+    bool devices_go_on();
     void hold_unproven_motion(Instant now);
     void report_stop_of_everything(Instant now);
-    void carry_out_what_is_due(Instant now, Attempts&);
     void forget_what_is_old(Instant now);
     void unbind(Session&, RegisteredComponent&, Instant now);
 
@@ -148,37 +185,50 @@ private:
     MemoryBudget* memory_ = &MemoryBudget::none();  // never null
     EngineSettings settings_;
     FreshSecret fresh_secret_;
-    std::vector<ComponentProfile> known_profiles_;
+    BelongingsOf belongings_;
     EngineProfile profile_;
     mutable std::shared_ptr<EngineProfile const>
         shared_profile_;  // the copy that callers share; null until the first call of profile()
     Agenda agenda_;
-    Places places_;
+    Places own_places_;
+    Places places_;  // the own ones, and those of all providers
+    std::shared_ptr<Inbox> inbox_ = std::make_shared<Inbox>();
+    ProvidersToRun to_run_;
+    ProvidersToRun left_for_clock_;
+    std::map<std::string, std::weak_ptr<Provider>> providers_;  // those with a name
     Registry registry_;
     struct DeviceState {
         std::shared_ptr<Device> device;
-        bool failed;  // at the last tick; the failure was reported
+        std::shared_ptr<Provider> provider;
+        std::atomic<bool> is_due = false;  // its advance waits, or has begun
+        std::atomic<bool> goes_on = false;
+        bool failed = false;  // at the last advance; only the provider reads it
     };
-    std::vector<DeviceState> devices_;
+    std::vector<std::shared_ptr<DeviceState>> devices_;
+    int turns_ = 0;  // of the devices in this tick
+    Questions questions_;
     std::unordered_map<SessionId, std::unique_ptr<Session>, IdHash> sessions_;
     Subscriptions subscriptions_;
     Deadlines deadlines_;
+    Deadlines::Ticket last_due_ = Deadlines::first();  // of the deadlines that were carried out since the last tick
     Notifier notifier_;
     Executor executor_;
     Details events_;
     Details errors_;
-    std::vector<SharedComponent> departed_;  // removed components; the agenda may still contain reports of them
     Steady details_checked_;
     Steady memory_saved_;
     std::vector<std::uint32_t> free_slots_;  // slots of ended sessions, to be reused (Details::Asker)
     std::optional<Steady> last_tick_;
     std::exception_ptr
         unsettled_;  // exception from `settle` after an operation; the next tick continues the work and rethrows it
+    bool is_handled_again_ = false;  // the report whose handling failed in the last `settle`
     bool sessions_must_end_ = false;
     bool shutting_down_ = false;
     bool everything_is_stopped_ = false;
     std::optional<Steady> stop_reported_;  // when the sessions last received the error of a stop of everything
     bool stop_unreported_ = false;         // a later stop has not been reported yet: a tick will report it
+    std::optional<Steady> profile_change_reported_;
+    bool profile_change_unreported_ = false;
     std::uint64_t events_published_ = 0;
     std::uint64_t errors_published_ = 0;
     std::uint64_t last_session_ = 0;

@@ -15,12 +15,18 @@ Engine::Core::Core(EngineProfile profile, std::vector<ComponentProfile> known_pr
                    Outbox& outbox, FreshSecret fresh_secret)
     : settings_{settings},
       fresh_secret_{std::move(fresh_secret)},
-      known_profiles_{std::move(known_profiles)},
+      belongings_{{"", {std::move(known_profiles), {}, {}}}},
       profile_{std::move(profile)},
       notifier_{outbox},
-      executor_{settings_, registry_, agenda_, deadlines_, notifier_, journal_},
+      executor_{settings_, registry_, agenda_, deadlines_, notifier_, questions_, journal_},
       events_{"e-", settings_.event_details},
       errors_{"x-", settings_.error_details} {}
+
+// A call that blocks may outlast the engine: its thread then ends alone.
+Engine::Core::~Core() {
+    for (auto const& [ref, component] : registry_.all()) component->hosted().provider().close();
+    for (auto const& device : devices_) device->provider->close();
+}
 
 namespace {
 
@@ -35,26 +41,51 @@ std::string in_seconds(std::chrono::nanoseconds time) {
 }  // namespace
 
 // Refuses the operation, if there is a reason, before it changes anything.
-std::variant<Reply, Refusal> Engine::Core::handle(SessionId const& id, Operation const& operation, Instant now) {
-    if (shutting_down_) return Refusal::shutting_down;
-    if (auto const* asked = std::get_if<Connect>(&operation)) return connect(id, *asked, now);
+void Engine::Core::handle(std::shared_ptr<Asked> const& asked, Instant now) {
+    auto const& operation = asked->operation();
+    if (shutting_down_) return asked->answer(Refusal::shutting_down);
+    if (auto const* connection = std::get_if<Connect>(&operation))
+        return asked->answer(connect(asked->session, *connection, now));
     auto const* resumed = std::get_if<Resume>(&operation);
-    auto* session = find(resumed != nullptr ? resumed->session : id);
-    if (session == nullptr) return Refusal::no_session;
-    auto const number = session->number;
+    auto* session = find(resumed != nullptr ? resumed->session : asked->session);
+    if (session == nullptr) return asked->answer(Refusal::no_session);
     session->lease.request_received(now.steady);
     auto const too_long = why_too_long(operation);
-    Reply reply = std::visit(
-        [&]<class Known>(Known const& known) -> Reply {
+    auto reply = std::visit(
+        [&]<class Known>(Known const& known) -> Later {
             if (too_long) return refused<typename Known::Reply>(ReturnCode::bad_parameter, *too_long);
-            return perform(*session, known, now);
+            if constexpr (requires { perform(*session, known, asked, now); })
+                return perform(*session, known, asked, now);
+            else
+                return perform(*session, known, now);
         },
         operation);
+    if (reply) answer(*asked, *session, std::move(*reply));
+    Attempts attempts;
+    if (!attempts([&] { settle(now); })) unsettled_ = attempts.failure();
+}
+
+void Engine::Core::answer(Asked& asked, Session const& session, Reply reply) {
     auto const& outcome = *std::visit([](Outcome const& each) { return &each; }, reply);
     Attempts attempts;
-    if (outcome.return_code != ReturnCode::ok) attempts([&] { journal_->refused(number, operation, outcome); });
-    if (!attempts([&] { settle(now); })) unsettled_ = attempts.failure();
-    return reply;
+    if (outcome.return_code != ReturnCode::ok) attempts([&] { journal_->refused(session.number, asked.operation(), outcome); });
+    asked.answer(std::move(reply));
+}
+
+void Engine::Core::answer_later(Asked& asked, std::function<Later(Session&)> const& make) {
+    auto* session = find(asked.session);
+    if (session == nullptr) return asked.answer(Refusal::no_session);
+    auto const queue = session->notifications;
+    auto const before = queue->current();
+    queue->enter(asked.hold);
+    try {
+        if (auto reply = make(*session)) answer(asked, *session, std::move(*reply));
+    } catch (...) {
+        queue->enter(before);
+        asked.answer(Refusal::no_memory);
+        throw;
+    }
+    queue->enter(before);
 }
 
 void Engine::Core::begin(Instant now) {
@@ -68,27 +99,17 @@ void Engine::Core::tick(Instant now) {
     if (unsettled_) attempts.note(std::exchange(unsettled_, nullptr));
     attempts([&] { hold_unproven_motion(now); });
     attempts([&] { report_stop_of_everything(now); });
+    attempts([&] { report_profile_change(now); });
     if (memory_->full()) attempts([&] { save_memory(now); });
-    constexpr int most_turns = 100;  // turns of devices in one tick; later turns wait for the next tick
-    auto const goes_on = [&](DeviceState const& state) {
-        bool more = false;
-        attempts([&] { more = state.device->goes_on(); });
-        return more;
-    };
-    for (int turn = 0; turn == 0 || (turn < most_turns && std::ranges::any_of(devices_, goes_on)); ++turn) {
-        attempts([&] { advance_devices(now); });
-        attempts([&] { settle(now); });
-    }
-    carry_out_what_is_due(now, attempts);
-    attempts([&] { executor_.repair(now); });
+    turns_ = 0;
+    attempts([&] { advance_devices(now); });
+    attempts([&] { questions_.expire(now); });
+    last_due_ = Deadlines::first();
+    attempts([&] { executor_.repair(now, inbox_->take_lost_reports()); });
     end_marked_sessions(now, attempts);
-    if (attempts([&] { settle(now); })) departed_.clear();
+    attempts([&] { settle(now); });
     attempts([&] { forget_what_is_old(now); });
     attempts.rethrow();
-}
-
-void Engine::Core::carry_out_what_is_due(Instant now, Attempts& attempts) {
-    for (auto last = Deadlines::first(); deadlines_.carry_out_next(last, now, attempts);) attempts([&] { settle(now); });
 }
 
 void Engine::Core::forget_what_is_old(Instant now) {
@@ -108,7 +129,7 @@ void Engine::Core::hold_unproven_motion(Instant now) {
         auto const* session = component->bound_to;
         if (session == nullptr || (!component->works() && session->live_commands() == 0)) continue;
         session->notifications->want_signs_of_life(now.steady + signs_of_life_wanted);
-        if (!component->works()) continue;
+        if (!component->works() || component->is_being_held) continue;
         attempts([&] {
             if (missed >= settings_.motion_lease)
                 executor_.hold(*component, "the engine stood still for " + in_seconds(missed), now);
@@ -119,55 +140,6 @@ void Engine::Core::hold_unproven_motion(Instant now) {
     attempts.rethrow();  // before last_tick_ changes: the next tick then holds the components that could not be held
     last_tick_ = now.steady;
     settle(now);
-}
-
-// Reports a failing device once, until it succeeds again. Each tick retries it, because the cause may have been a lack of memory.
-void Engine::Core::advance_devices(Instant now) {
-    Attempts attempts;
-    for (auto& [device, failed] : devices_) {
-        std::string problem;
-        try {
-            device->advance(now);
-            failed = false;
-            continue;
-        } catch (std::exception const& exception) {
-            attempts([&] { problem = exception.what(); });
-        } catch (...) {
-            attempts([&] { problem = "a device threw an unknown exception"; });
-        }
-        if (std::exchange(failed, true)) continue;
-        attempts([&] { agenda_.add(ErrorOccurred{nullptr, ErrorType::engine_internal_error, std::move(problem)}); });
-    }
-    attempts.rethrow();
-}
-
-// Handles the entries of the agenda, also those that are added meanwhile, until it is empty. The next tick retries an entry that
-// fails.
-void Engine::Core::settle(Instant now) {
-    Attempts attempts;
-    struct Handler {
-        Core& core;
-        Instant now;
-        Attempts& deliveries;
-        void operator()(CommandStarted const& report) { core.executor_.started(report.command); }
-        void operator()(CommandEnded& report) { core.executor_.completed(report, now); }
-        void operator()(HaltConfirmed const& report) { core.executor_.halted(*report.component, now); }
-        void operator()(EventOccurred const& report) { core.publish(report, now, deliveries); }
-        void operator()(ErrorOccurred const& report) { core.publish(report, now, deliveries); }
-    };
-    auto const handle_all = [&] {
-        while (auto* entry = agenda_.front()) {
-            if (!attempts([&] { std::visit(Handler{*this, now, attempts}, *entry); })) return;
-            agenda_.pop();
-        }
-    };
-    handle_all();
-    while (notifier_.take_overflowed()) {
-        mark_overflowed();
-        end_marked_sessions(now, attempts);
-        handle_all();
-    }
-    attempts.rethrow();
 }
 
 void Engine::Core::mark_overflowed() {
@@ -420,15 +392,14 @@ void Engine::report_to(Journal& journal) { core_->report_to(journal); }
 void Engine::keep_within(MemoryBudget& memory) { core_->keep_within(memory); }
 void Engine::add(std::unique_ptr<Component> component) { core_->add(std::move(component)); }
 void Engine::change(ComponentChange change, Instant now) { core_->change(std::move(change), now); }
-void Engine::add(std::shared_ptr<Device> device) { core_->add(std::move(device)); }
+void Engine::add(std::shared_ptr<Device> device, std::string const& provider) { core_->add(std::move(device), provider); }
+void Engine::on_report(std::function<void()> wake) { core_->on_report(std::move(wake)); }
 void Engine::describe(Places places) { core_->describe(std::move(places)); }
 
-std::variant<Reply, Refusal> Engine::handle(SessionId const& session, Operation const& operation, Instant now) {
-    return core_->handle(session, operation, now);
-}
-
+void Engine::handle(std::shared_ptr<Asked> const& asked, Instant now) { core_->handle(asked, now); }
 void Engine::begin(Instant now) { core_->begin(now); }
 void Engine::tick(Instant now) { core_->tick(now); }
+void Engine::work(std::unique_lock<std::mutex>& lock, Instant now, Provider::Runner runner) { core_->work(lock, now, runner); }
 
 std::shared_ptr<NotificationQueue> Engine::notifications(SessionId const& id) const {
     auto const* session = core_->find(id);

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -15,6 +17,7 @@
 #include "engine/journal.hpp"
 #include "engine/memory_budget.hpp"
 #include "engine/notifications/notification_queue.hpp"
+#include "engine/providers/provider.hpp"
 #include "engine/settings.hpp"
 #include "types/messages.hpp"
 
@@ -31,11 +34,38 @@ public:
 // Why an operation was not performed at all. The network layer answers with a fault.
 enum class Refusal : std::uint8_t { no_session, too_many_sessions, no_memory, shutting_down };
 
+using Said = std::variant<Reply, Refusal>;
+
+// An operation that waits for its answer. The engine shares it until then.
+class Asked {
+public:
+    // `hold`: the session's notifications that the operation causes wait until it is released (decision 22); 0: none does.
+    Asked(SessionId from, NotificationQueue::Hold until_answered) : session{std::move(from)}, hold{until_answered} {}
+    virtual ~Asked() = default;
+    Asked(Asked const&) = delete;
+    Asked& operator=(Asked const&) = delete;
+
+    virtual Operation const& operation() const = 0;
+    // Called once, within a call to the engine. Must not call the engine.
+    virtual void answer(Said) = 0;
+
+    SessionId const session;  // empty: the client has none yet
+    NotificationQueue::Hold const hold;
+};
+
+// What a provider of components brings with it: known while it is there.
+struct Belongings {
+    std::vector<ComponentProfile> profiles;  // in which the engine looks up sub components
+    std::vector<Frame> frames;               // placed in frames of the engine, or in one another
+    std::vector<NamedPlace> places;
+};
+
 // Components to remove and to add in one step (profile_changed).
 struct ComponentChange {
     std::vector<std::string> going;  // refs of the components to remove
     std::vector<std::unique_ptr<Component>> coming;
-    std::vector<ComponentProfile> known_profiles;  // replaces the profiles in which the engine looks up sub components
+    Belongings belongings;      // replaces what the provider has brought before
+    std::string provider = {};  // empty: the gateway itself
 };
 
 // Statistics for /metrics, counted since the start.
@@ -73,9 +103,12 @@ struct EngineStatistics {
     std::size_t memory_used = 0;    // bytes
 };
 
-// Not thread-safe: the caller serializes all calls (Gateway holds a mutex). Exception: any thread may read from a
-// NotificationQueue, which has a lock of its own. The engine never reads a clock or opens a file: the caller passes the time, and
-// `steady` must not go back. When a call returns, its consequences have been handled.
+// Not thread-safe: the caller serializes all calls (Gateway holds a mutex). Exceptions: any thread may read from a
+// NotificationQueue, which has a lock of its own, and components may report from any thread. The engine never reads a clock or
+// opens a file: the caller passes the time, and `steady` must not go back.
+//
+// No component is called within these calls, except by `work`, which releases the caller's lock meanwhile. Call it after each of
+// them that may command a component: handle, begin, tick, change, end, stop_everything, shut_down.
 class Engine {
 public:
     // Returns an unguessable text of at least 128 bits that is valid in an XML attribute.
@@ -94,31 +127,43 @@ public:
     // budget measures the memory. The budget must outlive the last call to the engine.
     void keep_within(MemoryBudget&);
 
+    // Sets the function that is called when a component has reported something and no thread is there to handle it. It is called
+    // on any thread, must return at once and not call the engine; `work` must then be called soon.
+    void on_report(std::function<void()> wake);
+
     // Call before the first session. Adds a component. Throws std::runtime_error if its ref is taken or the profile of a sub
     // component is unknown.
     void add(std::unique_ptr<Component>);
-    void add(std::shared_ptr<Device>);
+    // Adds a device of this provider (ComponentDescription::provider). Its calls must return at once.
+    void add(std::shared_ptr<Device>, std::string const& provider);
 
-    // Removes and adds components, at any time. Throws std::runtime_error, and changes nothing, if a ref is taken or unknown or a
-    // sub component profile is unknown. Commands that run on or wait for a removed component complete with ABORT, and its
-    // bindings end. Subscriptions stay, and apply again if the component returns. New components are halted first. Notifies all
-    // sessions if anything changed.
+    // Removes and adds components, at any time. Throws std::runtime_error or std::invalid_argument, and changes nothing, if a ref
+    // is taken or unknown, a sub component profile is unknown, or a frame or place is invalid or known already. Commands that run
+    // on or wait for a removed component complete with ABORT, and its bindings end. Subscriptions stay, and apply again if the
+    // component returns. New components are halted first. Notifies all sessions if anything changed, at most once a second.
     void change(ComponentChange, Instant now);
 
-    // Sets the frames and the named places. Call once, before the first session.
+    // Sets the gateway's own frames and named places. Call once, before the first session.
     void describe(Places);
 
-    // Performs an operation for the session; the id is empty if the client has none yet. On return, the session's queue holds the
-    // notifications that the operation caused. `Connect` opens a session unless `session` is open. At the limit of sessions,
-    // `Connect` ends the session that has been idle for longest (no link, no binding, no subscription); if no session is idle, it
-    // is refused. `Resume` only checks that notifications can be read on from `last_sequence`; the caller reads them.
-    std::variant<Reply, Refusal> handle(SessionId const& session, Operation const&, Instant now);
+    // Performs an operation for the session, and answers it: within this call, or later if a component has to be asked (bind,
+    // bind_any, set_parameter, execute, query), at the latest after question_deadline with TIMEOUT. `Connect` opens a session
+    // unless the session is open. At the limit of sessions, `Connect` ends the session that has been idle for longest (no link,
+    // no binding, no subscription); if no session is idle, it is refused. `Resume` only checks that notifications can be read on
+    // from `last_sequence`; the caller reads them.
+    void handle(std::shared_ptr<Asked> const&, Instant now);
 
-    // Halts all components, which may be moving, and performs the first tick. Call once, before `handle`.
+    // Halts all components, which may be moving. Call once, before `handle`.
     void begin(Instant now);
 
-    // Does everything that is due: devices, delays, timeouts, expiry, the end of sessions whose link was lost.
+    // Does what is due: leases, expiry, the end of sessions whose link was lost. The next `work` of the clock advances the
+    // devices, and carries out delays and timeouts.
     void tick(Instant now);
+
+    // Calls the components that must be called, and handles their reports, until nothing is left to do. `lock` holds the mutex
+    // that serializes the calls to the engine; it is released while components run, and now and then while many reports wait.
+    // `clock`: the thread that ticks; only it advances devices, and receives exceptions.
+    void work(std::unique_lock<std::mutex>& lock, Instant now, Provider::Runner = Provider::Runner::client);
 
     // Returns the session's queue, or null. The queue stays readable after the session's end.
     std::shared_ptr<NotificationQueue> notifications(SessionId const&) const;

@@ -107,29 +107,30 @@ private:
 
 }  // namespace
 
-void Engine::Core::publish(EventOccurred const& event, Instant now, Attempts& deliveries) {
-    auto const subscriptions = subscriptions_.possible(event.event_type, *event.component);
-    auto const& results = event.results;
+void Engine::Core::publish(RegisteredComponent& component, EventOccurred const& event, Instant now, Attempts& deliveries) {
+    auto const results = component.accepted(event);
+    if (!results) return;
+    auto const subscriptions = subscriptions_.possible(event.event_type, component);
     std::string event_id;  // made when a subscriber matches
     Perspective no_asker{registry_, places_, nullptr, Perspective::Of::present};
-    MessageCandidate const candidate{no_asker.candidate(*event.component), *results};
+    MessageCandidate const candidate{no_asker.candidate(component), *results};
     auto const matches = [&](Subscription const& subscription, Session const& asker) {
         Perspective askers{registry_, places_, &asker, Perspective::Of::present};
-        return subscription.filter.match(MessageCandidate{askers.candidate(*event.component), *results}) == Match::yes;
+        return subscription.filter.match(MessageCandidate{askers.candidate(component), *results}) == Match::yes;
     };
     bool begun = false;  // some subscriber may have been notified
     auto const deliver = [&](Subscription& subscription) {
         bool const each = subscription.filter.depends_on_asker();
         if (!each && subscription.filter.match(candidate) != Match::yes) return;
         if (event_id.empty()) {
-            auto const& profile = event.component->entry().profile;
+            auto const& profile = component.entry().profile;
             event_id = events_.add(results, {profile, find_message(*profile, MessageKind::event, event.event_type)}, now);
         }
         EventNotifications notifications{{.event_id = {event_id},
                                           .event_type = event.event_type,
                                           .subscribe_id = subscription.id,
                                           .expire = now.utc + events_.kept_for(),
-                                          .component_ref = event.component->ref(),
+                                          .component_ref = component.ref(),
                                           .results = nullptr},
                                          results};
         begun = true;

@@ -14,58 +14,8 @@ namespace rois {
 
 namespace {
 
-// A component that may answer a query, with its row of results; nullopt if it was not asked yet.
-struct Possible {
-    RegisteredComponent* component;
-    std::optional<Results> row;
-    std::optional<ComponentStatus> status;  // cached
-};
-
-bool is_ready(Possible& possible, Session const& asker) {
-    if (!possible.status) possible.status = possible.component->status_for(&asker);
-    return possible.status == ComponentStatus::ready;
-}
-
 // For so few components, calling each is faster than looking them up by the demand of the condition.
 constexpr std::size_t few = 4;
-
-// Asks a component only if the condition or SortBy may depend on its answer. Without sorting, stops at the component that will be
-// chosen.
-template <class RowsOf>
-std::vector<Possible> possible_answers(std::vector<RegisteredComponent*> const& able, Selection const& selection,
-                                       Perspective& looked_at, RowsOf const& rows_of) {
-    std::vector<Possible> found;
-    for (auto* component : able) {
-        auto const& candidate = looked_at.candidate(*component);
-        auto const match = selection.match(candidate);
-        if (match == Match::no) continue;
-        bool const ask = match == Match::maybe || selection.sorts();
-        auto rows = ask ? rows_of(*component) : std::vector<Results>{};
-        if (rows.empty() && match == Match::yes) found.push_back({component, {}, {}});
-        for (auto& row : rows)
-            if (selection.match(MessageCandidate{candidate, row}) == Match::yes) found.push_back({component, std::move(row), {}});
-        if (!selection.sorts() && !found.empty() && found.back().component == component &&
-            is_ready(found.back(), *looked_at.asker()))
-            break;
-    }
-    return found;
-}
-
-// Sorts by the selection, which must have a sort order.
-std::vector<Possible> in_order(Selection const& selection, std::vector<Possible> found, Perspective& looked_at) {
-    std::vector<std::unique_ptr<MessageCandidate>> with_results;
-    std::vector<Candidate const*> candidates;
-    for (auto const& [component, row, status] : found) {
-        candidates.push_back(&looked_at.candidate(*component));
-        if (row)
-            candidates.back() = with_results.emplace_back(std::make_unique<MessageCandidate>(*candidates.back(), *row)).get();
-    }
-    auto const places = selection.order(candidates);
-    std::vector<Possible> ordered;
-    ordered.reserve(found.size());
-    for (auto const place : places) ordered.push_back(std::move(found[place]));
-    return ordered;
-}
 
 // The queries of System Information: it "belongs to the HRI engine" (7.6.1).
 bool is_about_the_engine(std::string_view query_type) { return query_type == "robot_position" || query_type == "engine_status"; }
@@ -101,104 +51,285 @@ void join(Results& whole, Results part) {
     whole.located.insert(whole.located.end(), part.located.begin(), part.located.end());
 }
 
+Query::Reply refused(ReturnCode code, std::string reason) { return rois::refused<Query::Reply>(code, std::move(reason)); }
+
 }  // namespace
 
+// A query that is being answered. It lives until the components that must be asked have answered.
+class Engine::Core::Inquiry : public std::enable_shared_from_this<Inquiry> {
+public:
+    Inquiry(Core& core, SharedAsked asked, std::string const& query_type, Selection selection, Instant now)
+        : core_{core},
+          asked_{std::move(asked)},
+          query_type_{query_type},
+          selection_{std::move(selection)},
+          until_{now.steady + core.settings_.question_deadline} {}
+
+    Later of_one_component(Session&, std::vector<RegisteredComponent*> const& able, Instant now);
+    Later of_whole_engine(Session const&, std::vector<RegisteredComponent*> const& able, Instant now);
+
+private:
+    // A component that may answer. `rows`: its answer; nullopt if it was not asked, or has not answered in time.
+    struct Possible {
+        SharedComponent component;
+        bool needs_rows = false;  // the condition or SortBy may depend on them
+        std::optional<std::vector<Results>> rows{};
+    };
+    // A row of results that matches; without a row, the component matches whatever it answers.
+    struct Match {
+        SharedComponent component;
+        std::optional<Results> row;
+    };
+
+    bool engine_knows() const { return query_type_ == "component_status" || query_type_ == "get_parameter"; }
+    static bool is_ready(RegisteredComponent const& component, Session const& session) {
+        return component.status_for(&session) == ComponentStatus::ready;
+    }
+    // Asks for the rows of these components. `then` is called once all have answered, or at `due`.
+    void ask(std::vector<Possible*> const&, Steady due, std::function<void(Instant)> then, Instant now);
+    void take(Possible&, std::optional<ComponentAnswer>&);
+    // Answers the operation, now or later.
+    Later choose(Session&, Instant now);
+    std::vector<Match> matches(Perspective&) const;
+    void sort(std::vector<Match>&, Perspective&) const;
+    Later next_match(Instant now);
+    Reply joined();
+    Reply why_nobody_answered() const;
+
+    Core& core_;
+    SharedAsked asked_;
+    std::string query_type_;
+    Selection selection_;
+    Steady until_;
+    std::vector<Possible> possible_;
+    std::vector<Match> matches_;  // in order of preference, READY ones first
+    std::size_t next_ = 0;        // of matches_
+    bool is_late_ = false;        // a component did not answer in time
+    std::string failed_;          // the ref of a component that could not answer
+};
+
 // Decision 18: one component that has the query type answers. The order is: READY components, then those of the robot that the
-// session works with, then the order of SortBy, or the lowest code. The answer is the first row of the component that matches.
-Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
+// session works with, then the order of SortBy, or the lowest code. The answer is the first row of the component that matches. If
+// a component fails or does not answer in time, the next one is asked (decision 36).
+Engine::Core::Later Engine::Core::perform(Session& session, Query const& query, SharedAsked const& asked, Instant now) {
     auto vocabulary = this->vocabulary(&registry_.results(MessageKind::query, query.query_type));
     vocabulary.first = Vocabulary::First::parameters;
     auto compiled = Selection::compile(query.condition, vocabulary);
-    if (auto* problem = std::get_if<std::string>(&compiled))
-        return refused<Query::Reply>(ReturnCode::bad_parameter, std::move(*problem));
-    auto const& selection = std::get<Selection>(compiled);
+    if (auto* problem = std::get_if<std::string>(&compiled)) return refused(ReturnCode::bad_parameter, std::move(*problem));
+    auto& selection = std::get<Selection>(compiled);
     auto const& able = registry_.with(MessageKind::query, query.query_type);
     bool const of_whole_engine = !selection.filter().restricts() && !selection.sorts() && !able.all().empty();
-    if (of_whole_engine && is_about_the_engine(query.query_type)) return answer_of_whole_engine(session, query.query_type, now);
-    Perspective looked_at{registry_, places_, &session, Perspective::Of::present};
-    Preference const preference{session};
     auto meant = able.possible(able.all().size() > few ? selection.filter().demand() : std::nullopt).rest();
-    preference.order(meant);
-    auto found = possible_answers(meant, selection, looked_at, [&](RegisteredComponent& component) {
-        return answers(session, component, query.query_type, now);
-    });
-    if (found.empty())
-        return refused<Query::Reply>(ReturnCode::unsupported,
-                                     "no component that matches the condition answers query " + quoted(query.query_type));
-    if (selection.sorts()) {
-        found = in_order(selection, std::move(found), looked_at);
-        preference.bring_forward(found, &Possible::component);
+    auto const inquiry = std::make_shared<Inquiry>(*this, asked, query.query_type, std::move(selection), now);
+    if (of_whole_engine && is_about_the_engine(query.query_type)) return inquiry->of_whole_engine(session, able.all(), now);
+    Preference{session}.order(meant);
+    return inquiry->of_one_component(session, meant, now);
+}
+
+// The rows that the engine knows itself.
+std::vector<Results> Engine::Core::known_answer(Session const& session, RegisteredComponent& component,
+                                                std::string const& query_type) {
+    Results row;
+    if (query_type == "component_status") {
+        row.parameters.push_back(status_of("status", component.status_for(&session)));
+        return one_row(std::move(row));
     }
-    auto const ready = std::ranges::find_if(found, [&](Possible& possible) { return is_ready(possible, session); });
-    auto& chosen = ready == found.end() ? found.front() : *ready;
-    if (!chosen.row) {
-        auto rows = answers(session, *chosen.component, query.query_type, now);
-        if (!rows.empty()) chosen.row = std::move(rows.front());
+    auto parameters = component.all_parameters(&session);
+    if (!parameters) return {};
+    row.parameters = std::move(*parameters);
+    return one_row(std::move(row));
+}
+
+// Without sorting, the first READY component that matches whatever it answers will be chosen, or one before it. The next match
+// has its turn only if that one does not answer, so those behind it are not considered.
+Engine::Core::Later Engine::Core::Inquiry::of_one_component(Session& session, std::vector<RegisteredComponent*> const& able,
+                                                            Instant now) {
+    Perspective looked_at{core_.registry_, core_.places_, &session, Perspective::Of::present};
+    bool has_choice = false;
+    for (auto* component : able) {
+        auto const match = selection_.match(looked_at.candidate(*component));
+        if (match == rois::Match::no) continue;
+        bool const needs_rows = match == rois::Match::maybe || selection_.sorts();
+        if (has_choice && needs_rows) continue;
+        possible_.push_back({component->shared_from_this(), needs_rows});
+        if (has_choice) break;
+        has_choice = !needs_rows && is_ready(*component, session);
     }
-    if (!chosen.row)
-        return refused<Query::Reply>(ReturnCode::error,
-                                     "the component " + quoted(chosen.component->ref().code) + " could not answer");
-    Query::Reply reply;
-    reply.component_ref = chosen.component->ref();
-    reply.results = std::move(*chosen.row);
-    return reply;
+    std::vector<Possible*> to_ask;
+    for (auto& possible : possible_) {
+        if (!possible.needs_rows) continue;
+        if (engine_knows())
+            possible.rows = known_answer(session, *possible.component, query_type_);
+        else
+            to_ask.push_back(&possible);
+    }
+    if (to_ask.empty()) return choose(session, now);
+    ask(
+        to_ask, until_,
+        [self = shared_from_this()](Instant when) {
+            self->core_.answer_later(*self->asked_, [&](Session& asker) { return self->choose(asker, when); });
+        },
+        now);
+    return {};
+}
+
+void Engine::Core::Inquiry::ask(std::vector<Possible*> const& to_ask, Steady due, std::function<void(Instant)> then,
+                                Instant now) {
+    auto const round = core_.questions_.begin(
+        due, [self = shared_from_this(), to_ask, then = std::move(then)](Questions::Answers& answers, Instant when) {
+            for (std::size_t i = 0; i < to_ask.size(); ++i) self->take(*to_ask[i], answers[i]);
+            then(when);
+        });
+    for (auto* possible : to_ask) {
+        auto const ticket = core_.questions_.add(round, *possible->component, "the component did not answer a query in time");
+        possible->component->hosted().query(ticket, query_type_, now);
+    }
+}
+
+void Engine::Core::Inquiry::take(Possible& possible, std::optional<ComponentAnswer>& answer) {
+    if (!answer) {
+        is_late_ = true;
+        return;
+    }
+    if (auto* rows = std::get_if<std::vector<Results>>(&*answer)) {
+        auto accepted = possible.component->accepted(query_type_, std::move(*rows));
+        if (!accepted.empty()) possible.component->clear_failure();
+        possible.rows = std::move(accepted);
+    }
+    if (!possible.rows || possible.rows->empty()) failed_ = possible.component->ref().code;
+}
+
+// A component that matches maybe, and has not answered, does not match. One that has matched before it was asked still matches.
+std::vector<Engine::Core::Inquiry::Match> Engine::Core::Inquiry::matches(Perspective& looked_at) const {
+    std::vector<Match> found;
+    for (auto const& [component, needs_rows, rows] : possible_) {
+        auto const& candidate = looked_at.candidate(*component);
+        if (!rows || rows->empty()) {
+            if (selection_.match(candidate) == rois::Match::yes) found.push_back({component, {}});
+            continue;
+        }
+        for (auto const& row : *rows)
+            if (selection_.match(MessageCandidate{candidate, row}) == rois::Match::yes) found.push_back({component, row});
+    }
+    return found;
+}
+
+void Engine::Core::Inquiry::sort(std::vector<Match>& found, Perspective& looked_at) const {
+    std::vector<std::unique_ptr<MessageCandidate>> with_results;
+    std::vector<Candidate const*> candidates;
+    for (auto const& [component, row] : found) {
+        candidates.push_back(&looked_at.candidate(*component));
+        if (row)
+            candidates.back() = with_results.emplace_back(std::make_unique<MessageCandidate>(*candidates.back(), *row)).get();
+    }
+    std::vector<Match> ordered;
+    ordered.reserve(found.size());
+    for (auto const place : selection_.order(candidates)) ordered.push_back(std::move(found[place]));
+    found = std::move(ordered);
+    Preference{*looked_at.asker()}.bring_forward(found, [](Match const& match) { return match.component.get(); });
+}
+
+Engine::Core::Later Engine::Core::Inquiry::choose(Session& session, Instant now) {
+    Perspective looked_at{core_.registry_, core_.places_, &session, Perspective::Of::present};
+    matches_ = matches(looked_at);
+    if (matches_.empty() && (is_late_ || !failed_.empty())) return why_nobody_answered();
+    if (matches_.empty())
+        return refused(ReturnCode::unsupported, "no component that matches the condition answers query " + quoted(query_type_));
+    if (selection_.sorts()) sort(matches_, looked_at);
+    std::ranges::stable_partition(matches_, [&](Match const& match) { return is_ready(*match.component, session); });
+    return next_match(now);
+}
+
+// Answers with the first row that matches. A match without a row is asked for it; if it does not answer in half of the remaining
+// time, or fails, the next match has its turn.
+Engine::Core::Later Engine::Core::Inquiry::next_match(Instant now) {
+    while (next_ < matches_.size()) {
+        auto& [component, row] = matches_[next_++];
+        bool const was_asked = std::ranges::any_of(
+            possible_, [&, &of = component](Possible const& each) { return each.component == of && each.needs_rows; });
+        if (!row && engine_knows()) {
+            auto* session = core_.find(asked_->session);
+            auto rows = known_answer(*session, *component, query_type_);
+            if (!rows.empty()) row = std::move(rows.front());
+            if (!row) failed_ = component->ref().code;
+        }
+        if (row) {
+            Query::Reply reply;
+            reply.component_ref = component->ref();
+            reply.results = std::move(*row);
+            return reply;
+        }
+        if (was_asked || engine_knows()) continue;
+        bool const is_last = next_ == matches_.size();
+        auto const due = is_last ? until_ : now.steady + (until_ - now.steady) / 2;
+        possible_.clear();
+        possible_.push_back({component, true});
+        ask(
+            {possible_.data()}, due,
+            [self = shared_from_this(), place = next_ - 1](Instant when) {
+                auto& rows = self->possible_.front().rows;
+                if (rows && !rows->empty()) self->matches_[place].row = std::move(rows->front());
+                if (self->matches_[place].row) self->next_ = place;
+                self->core_.answer_later(*self->asked_, [&](Session&) { return self->next_match(when); });
+            },
+            now);
+        return {};
+    }
+    return why_nobody_answered();
+}
+
+Reply Engine::Core::Inquiry::why_nobody_answered() const {
+    if (is_late_) return refused(ReturnCode::timeout, "no component answered the query " + quoted(query_type_) + " in time");
+    return refused(ReturnCode::error, "the component " + quoted(failed_) + " could not answer");
 }
 
 // One component of each engine answers, in the order of the engines' names: READY components before others, then the lowest code.
 // If an engine cannot answer, its position is missing and its status is ERROR. The answer names the component of the first
 // engine.
-Reply Engine::Core::answer_of_whole_engine(Session const& session, std::string const& query_type, Instant now) {
+Engine::Core::Later Engine::Core::Inquiry::of_whole_engine(Session const& session, std::vector<RegisteredComponent*> const& able,
+                                                           Instant now) {
     using Choice = std::pair<bool, RegisteredComponent*>;  // the bool: is not READY
     std::map<std::string_view, Choice> chosen;             // by engine
-    for (auto* component : registry_.with(MessageKind::query, query_type).all()) {
-        Choice const choice{component->status_for(&session) != ComponentStatus::ready, component};
+    for (auto* component : able) {
+        Choice const choice{!is_ready(*component, session), component};
         auto const [place, added] = chosen.try_emplace(component->entry().engine, choice);
         if (!added && choice.first < place->second.first) place->second = choice;
     }
+    for (auto const& [engine, choice] : chosen) possible_.push_back({choice.second->shared_from_this(), true});
+    std::vector<Possible*> to_ask;
+    for (auto& possible : possible_) to_ask.push_back(&possible);
+    ask(
+        to_ask, until_,
+        [self = shared_from_this()](Instant) {
+            self->core_.answer_later(*self->asked_, [&](Session&) -> Later { return self->joined(); });
+        },
+        now);
+    return {};
+}
+
+Reply Engine::Core::Inquiry::joined() {
     Query::Reply reply;
     bool has_failed = false, has_answered = false;
-    for (auto const& [engine, choice] : chosen) {
-        auto* component = choice.second;
-        auto rows = answers(session, *component, query_type, now);
-        if (rows.empty()) {
+    for (auto& [component, needs_rows, rows] : possible_) {
+        if (!rows || rows->empty()) {
             has_failed = true;
             continue;
         }
         if (!has_answered) {
             reply.component_ref = component->ref();
-            reply.results = std::move(rows.front());
+            reply.results = std::move(rows->front());
         } else {
-            join(reply.results, std::move(rows.front()));
+            join(reply.results, std::move(rows->front()));
         }
         has_answered = true;
     }
-    if (!has_answered)
-        return refused<Query::Reply>(ReturnCode::error,
-                                     "the component " + quoted(chosen.begin()->second.second->ref().code) + " could not answer");
-    if (has_failed && query_type == "engine_status") {
+    if (!has_answered) return why_nobody_answered();
+    if (has_failed && query_type_ == "engine_status") {
         Results failed;
         failed.parameters.push_back(status_of("status", ComponentStatus::error));
         join(reply.results, std::move(failed));
     }
     return reply;
-}
-
-// Rows of results; none if the component could not answer.
-std::vector<Results> Engine::Core::answers(Session const& session, RegisteredComponent& component, std::string const& query_type,
-                                           Instant now) {
-    if (query_type == "component_status") {
-        Results row;
-        row.parameters.push_back(status_of("status", component.status_for(&session)));
-        return one_row(std::move(row));
-    }
-    std::vector<Results> rows;
-    if (query_type == "get_parameter") {
-        if (auto parameters = component.all_parameters(&session)) rows.push_back({std::move(*parameters), {}});
-    } else {
-        rows = component.answer(query_type, now);
-    }
-    if (!rows.empty()) component.clear_failure();
-    return rows;
 }
 
 }  // namespace rois

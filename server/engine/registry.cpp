@@ -106,23 +106,27 @@ std::vector<ParameterProfile> results_of_get_parameter(ComponentProfile const& p
 
 }  // namespace
 
-RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, ComponentProfile profile, std::string engine,
-                                         Agenda& agenda, Frames const& frames)
-    : component_{std::move(component)}, agenda_{agenda}, frames_{frames} {
-    auto const& description = component_->description();
-    codebooks_ = description.codebooks;
+RegisteredComponent::RegisteredComponent(ComponentDescription const& description, std::shared_ptr<HostedComponent> hosted,
+                                         ComponentProfile profile, std::string engine, Agenda& agenda, Frames const& frames)
+    : hosted_{std::move(hosted)},
+      ref_{description.ref},
+      agenda_{agenda},
+      frames_{frames},
+      crs_{description.crs},
+      moves_{description.moves},
+      positions_{description.positions},
+      codebooks_{description.codebooks},
+      alternatives_{description.alternatives},
+      status_when_stopped_{description.status_when_stopped},
+      confirms_binding_{description.confirms_binding} {
     declare_codebooks(profile, codebooks_);
     settable_ = settable_of(profile);
     add_parameter_messages(profile, settable_);
     start_arguments_ = start_arguments_of(profile, settable_);
     startable_ = with_others(start_arguments_, settable_);
     readable_ = with_others(settable_, results_of_get_parameter(profile));
-    ref_ = description.ref;
     auto const prefix = description.engine + ".";
     if (prefix.size() > 1 && ref_.code.starts_with(prefix)) code_begin_ = prefix.size();
-    crs_ = description.crs;
-    moves_ = description.moves;
-    positions_ = description.positions;
     auto type = profile.object.identifier;
     type_key_ = folded_name(type);
     entry_ = {.ref = ref_.code,
@@ -132,30 +136,34 @@ RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, C
     for (auto const& message : entry_.profile->messages) results_.emplace_back(message.results);
     defaults_ = with_defaults(settable_, {});
     parameters = defaults_;
-    component_->attach(*this);
+    hosted_->registered = this;
+}
+
+void RegisteredComponent::depart() {
+    has_departed_ = true;
+    hosted_->depart();
 }
 
 ComponentStatus RegisteredComponent::status_for(Session const* asker) const {
     if (has_failed_to_halt()) return ComponentStatus::error;
     if (bound_to != nullptr && bound_to != asker) return ComponentStatus::busy;
-    auto status = ComponentStatus::error;
-    if (!failed_) call([&](Component& c) { status = c.status(); });
-    return status;
+    return failed_ || is_silent_ ? ComponentStatus::error : state_.status;
 }
 
-void RegisteredComponent::report_failure(std::string_view problem, Report report) const noexcept {
+void RegisteredComponent::report_failure(std::string_view problem, Report each) {
     failed_ = true;
-    try {
-        this->report(ErrorType::component_internal_error, std::string{problem}, report);
-    } catch (...) {
-        // the error may be reported again: its report was lost, and the status is ERROR
-        reported_once_.erase(ErrorType::component_internal_error);
-    }
+    report(ErrorType::component_internal_error, std::string{problem}, each);
 }
 
-void RegisteredComponent::report(ErrorType type, std::string text, Report report) const {
-    bool const known = !reported_once_.insert(type).second;
-    if (!known || report == Report::each) agenda_.add(ErrorOccurred{this, type, std::move(text)});
+void RegisteredComponent::report_silence(std::string_view what) {
+    is_silent_ = true;
+    report(ErrorType::component_not_responding, std::string{what}, Report::once);
+}
+
+void RegisteredComponent::report(ErrorType type, std::string text, Report each) {
+    if (each == Report::once && reported_once_.contains(type)) return;
+    agenda_.add({shared_from_this(), type, std::move(text)});
+    reported_once_.insert(type);
 }
 
 void RegisteredComponent::clear_failure() {
@@ -168,25 +176,54 @@ TypedProfiles const* RegisteredComponent::results_of(MessageKind kind, std::stri
     return found == nullptr ? nullptr : &results_[static_cast<std::size_t>(found - profile().messages.data())];
 }
 
-RegisteredComponent::Answer RegisteredComponent::check(MessageKind kind, std::string_view message, Results const& results,
-                                                       Report report) const {
+RegisteredComponent::Fit RegisteredComponent::check(MessageKind kind, std::string_view message, Results const& results,
+                                                    Report report) {
     auto const* profiles = results_of(kind, message);
     auto const problem = profiles == nullptr ? "it is not in the profile" : profiles->why_not(results.parameters);
-    if (!problem) return Answer::right;
+    if (!problem) return Fit::right;
     report_failure("invalid results of " + quoted(message) + ": " + *problem, report);
-    return Answer::wrong;
+    return Fit::wrong;
 }
 
-std::vector<Results> RegisteredComponent::answer(std::string_view query_type, Instant now) const {
-    std::vector<Results> rows;
-    call([&](Component& c) { rows = c.query(query_type, now); }, Report::once);
+std::vector<Results> RegisteredComponent::accepted(std::string_view query_type, std::vector<Results> rows) {
     for (auto& row : rows) {
-        if (check(MessageKind::query, query_type, row, Report::once) == Answer::wrong) return {};
-        auto converted = in_engine_frame(std::move(row), query_type, Report::once);
-        if (!converted) return {};
-        row = std::move(*converted);
+        if (check(MessageKind::query, query_type, row, Report::once) == Fit::wrong) return {};
+        if (!to_engine_frame(row, query_type, Report::once)) return {};
     }
     return rows;
+}
+
+std::shared_ptr<Results const> RegisteredComponent::accepted(EventOccurred const& event) {
+    if (check(MessageKind::event, event.event_type, *event.results, Report::once) == Fit::wrong) return {};
+    if (frames_.are_one()) return event.results;
+    auto results = *event.results;
+    if (!to_engine_frame(results, event.event_type, Report::once)) return {};
+    return std::make_shared<Results const>(std::move(results));
+}
+
+void RegisteredComponent::accept(CommandEnded& ended) {
+    if (to_engine_frame(ended.results, "a command", Report::each)) return;
+    ended.status = CompletedStatus::error;
+    ended.results = {};
+    ended.reason = "its results are in a frame that cannot be converted";
+}
+
+// Parameters outside of the profile are left out.
+void RegisteredComponent::accept(ComponentState state) {
+    if (state.location && !frames_.are_one())
+        if (auto const problem = frames_.change(*state.location, frames_.own())) {
+            report_failure("invalid location: " + *problem, Report::once);
+            state.location.reset();
+        }
+    std::erase_if(state.parameters, [&](Parameter const& each) { return profile_for(readable_, each.name) == nullptr; });
+    auto const problem = why_not(readable_, state.parameters);
+    if (problem) report_failure("invalid parameters: " + *problem, Report::once);
+    fits_ = !problem;
+    Results readable;
+    if (fits_) readable.parameters = normalized(readable_, state.parameters);
+    frames_.change_to_own(readable);
+    state.parameters = std::move(readable.parameters);
+    state_ = std::move(state);
 }
 
 ParameterList const& RegisteredComponent::parameters_for(Session const* asker) const {
@@ -196,27 +233,18 @@ ParameterList const& RegisteredComponent::parameters_for(Session const* asker) c
 void RegisteredComponent::restore_defaults(Instant now) {
     if (parameters == defaults_) return;
     parameters = defaults_;
-    auto const changed = in_own_frame(parameters);
-    call([&](Component& c) { c.parameters_changed(changed ? *changed : parameters, now); });
+    auto changed = in_own_frame(parameters);
+    hosted_->parameters_changed(changed ? std::move(*changed) : parameters, now);
 }
 
 std::optional<ParameterList> RegisteredComponent::all_parameters(Session const* asker) const {
+    if (!fits_) return {};
     auto const& stored = parameters_for(asker);
     bool const bound_by_asker = &stored == &parameters;
-    Results readable;
-    if (call([&](Component& c) { readable.parameters = c.readable_parameters(); }, Report::once) == Called::failed) return {};
-    std::erase_if(readable.parameters, [&](Parameter const& each) {
-        auto const* const known = profile_for(readable_, each.name);
-        if (known == nullptr || find(stored, known->name) != nullptr) return true;
-        return !bound_by_asker && find_parameter(settable_, known->name) != nullptr;
+    auto all = state_.parameters;
+    std::erase_if(all, [&](Parameter const& each) {
+        return find(stored, each.name) != nullptr || (!bound_by_asker && find_parameter(settable_, each.name) != nullptr);
     });
-    if (auto const problem = why_not(readable_, readable.parameters)) {
-        report_failure("invalid parameters: " + *problem, Report::once);
-        return {};
-    }
-    readable.parameters = normalized(readable_, readable.parameters);
-    frames_.change_to_own(readable);
-    auto all = std::move(readable.parameters);
     all.insert(all.end(), stored.begin(), stored.end());
     return all;
 }
@@ -229,21 +257,11 @@ bool RegisteredComponent::has_result(std::string_view name) const {
     });
 }
 
-std::optional<Located> RegisteredComponent::location() const {
-    std::optional<Located> where;
-    call([&](Component& c) { where = c.location(); }, Report::once);
-    if (!where || frames_.are_one()) return where;
-    auto const problem = frames_.change(*where, frames_.own());
-    if (!problem) return where;
-    report_failure("invalid location: " + *problem, Report::once);
-    return {};
-}
-
-std::optional<Results> RegisteredComponent::in_engine_frame(Results results, std::string_view message, Report report) const {
+bool RegisteredComponent::to_engine_frame(Results& results, std::string_view message, Report report) {
     auto const problem = frames_.change_to_own(results);
-    if (!problem) return results;
+    if (!problem) return true;
     report_failure("invalid results of " + quoted(message) + ": " + *problem, report);
-    return {};
+    return false;
 }
 
 bool RegisteredComponent::is_position(std::string_view parameter) const {
@@ -291,17 +309,26 @@ std::optional<ParameterList> RegisteredComponent::in_own_frame(ParameterList con
     return changed;
 }
 
-std::optional<ParameterList> RegisteredComponent::merged(ParameterList stored, ParameterList const& arrived) const {
-    if (start_arguments_.empty()) return reconciled(std::move(stored), arrived);
-    auto kept = arrived;
-    std::erase_if(kept, [&](Parameter const& each) { return find_parameter(start_arguments_, each.name) != nullptr; });
-    return reconciled(std::move(stored), kept);
+ParameterList RegisteredComponent::merged(ParameterList stored, ParameterList const& arrived) const {
+    if (start_arguments_.empty()) {
+        merge(stored, arrived, settable_);
+    } else {
+        auto kept = arrived;
+        std::erase_if(kept, [&](Parameter const& each) { return find_parameter(start_arguments_, each.name) != nullptr; });
+        merge(stored, kept, settable_);
+    }
+    replace_alternatives(stored, arrived);
+    return stored;
 }
 
-std::optional<ParameterList> RegisteredComponent::reconciled(ParameterList stored, ParameterList const& arrived) const {
-    merge(stored, arrived, settable_);
-    if (call([&](Component& c) { c.reconcile(stored, arrived); }) == Called::failed) return {};
-    return stored;
+void RegisteredComponent::replace_alternatives(ParameterList& stored, ParameterList const& arrived) const {
+    for (auto const& group : alternatives_) {
+        auto const has_arrived = [&](std::string const& name) {
+            return std::ranges::any_of(arrived, [&](Parameter const& each) { return equal_ignoring_case(each.name, name); });
+        };
+        if (std::ranges::none_of(group, has_arrived)) continue;
+        std::erase_if(stored, [&](Parameter const& each) { return is_among(group, each.name) && !has_arrived(each.name); });
+    }
 }
 
 std::optional<std::string> RegisteredComponent::why_no_start(ParameterList const& normalized) const {
@@ -317,34 +344,6 @@ ParameterList RegisteredComponent::for_start(ParameterList stored, ParameterList
     own.insert(own.end(), stored.begin(), stored.end());
     return own;
 }
-
-void RegisteredComponent::started(CommandHandle command) { agenda_.add(CommandStarted{command}); }
-
-void RegisteredComponent::completed(CommandHandle command, CompletedStatus status, Results results, Afterwards afterwards,
-                                    std::string reason) {
-    try {
-        auto converted = in_engine_frame(std::move(results), "a command", Report::each);
-        if (!converted) {
-            status = CompletedStatus::error;
-            reason = "its results are in a frame that cannot be converted";
-        }
-        agenda_.add(CommandEnded{command, status, std::move(converted).value_or(Results{}), afterwards, std::move(reason)});
-    } catch (...) {
-        answer_lost = true;
-        agenda_.note_lost_answer();
-        throw;
-    }
-}
-
-void RegisteredComponent::halted() { agenda_.add(HaltConfirmed{this}); }
-
-void RegisteredComponent::event(std::string_view event_type, Results results) {
-    if (check(MessageKind::event, event_type, results, Report::once) == Answer::wrong) return;
-    if (auto here = in_engine_frame(std::move(results), event_type, Report::once))
-        agenda_.add(EventOccurred{this, std::string{event_type}, std::make_shared<Results const>(std::move(*here))});
-}
-
-void RegisteredComponent::error(ErrorType type, std::string text, Report report) { this->report(type, std::move(text), report); }
 
 RegisteredComponent& Registry::add(std::shared_ptr<RegisteredComponent> component) {
     auto const& ref = component->ref().code;

@@ -1,7 +1,6 @@
 // The components of the engine, with their parameters and bindings (decisions 4 to 7).
 #pragma once
 
-#include <exception>
 #include <map>
 #include <memory>
 #include <optional>
@@ -17,6 +16,7 @@
 #include "engine/component_index.hpp"
 #include "engine/conditions/vocabulary.hpp"
 #include "engine/frames/frames.hpp"
+#include "engine/providers/hosted_component.hpp"
 #include "types/messages.hpp"
 
 namespace rois {
@@ -26,19 +26,21 @@ struct Session;
 // A halt that a component has not confirmed (decision 35).
 struct UnconfirmedHalt {
     bool failed = false;                            // the component threw, or did not confirm in time; its status is ERROR
+    Ticket first{};                                 // of the tickets that confirm it
     Deadlines::Ticket due;                          // when the time to confirm ends, or the next attempt begins
     std::vector<std::shared_ptr<Command>> waiting;  // commands that continue once the halt is confirmed; empty if it has failed
 };
 
-// A component, and what the engine knows about it. Implements the component's port.
-class RegisteredComponent final : public ComponentPort, public std::enable_shared_from_this<RegisteredComponent> {
+// A component, and what the engine knows about it.
+class RegisteredComponent final : public std::enable_shared_from_this<RegisteredComponent> {
 public:
     // The state of the component's commands.
     enum class Activity : std::uint8_t { idle, running, active };
 
     // `profile` includes the messages of the sub components; `engine` is the name of the engine or sub engine that it belongs to.
     // Results in a frame of `frames` are converted to the engine's frame.
-    RegisteredComponent(std::unique_ptr<Component>, ComponentProfile profile, std::string engine, Agenda&, Frames const& frames);
+    RegisteredComponent(ComponentDescription const&, std::shared_ptr<HostedComponent>, ComponentProfile profile,
+                        std::string engine, Agenda&, Frames const& frames);
 
     Identifier const& ref() const { return ref_; }
     ComponentEntry const& entry() const { return entry_; }
@@ -50,23 +52,24 @@ public:
     // Includes the messages of the sub components, and the implied ones (add_parameter_messages).
     ComponentProfile const& profile() const { return *entry_.profile; }
 
-    // Destroys the component, which has left the engine. The ref and the profile stay readable; later calls of the component fail
-    // without a report.
-    void depart() { component_.reset(); }
-    bool has_departed() const { return component_ == nullptr; }
+    // The component itself. The calls return before the component has carried them out.
+    HostedComponent& hosted() const { return *hosted_; }
 
-    // Calls the component. An exception is reported and sets the status to ERROR (decision 16).
-    enum class Called : std::uint8_t { ok, failed };
-    template <class What>
-    Called call(What const& what, Report = Report::each) const;
+    // Destroys the component, which has left the engine. The ref and the profile stay readable.
+    void depart();
+    bool has_departed() const { return has_departed_; }
 
     // Checks the results of a message against the profile. Invalid results are reported like an exception (decision 16).
-    enum class Answer : std::uint8_t { right, wrong };
-    Answer check(MessageKind, std::string_view message, Results const&, Report = Report::each) const;
+    enum class Fit : std::uint8_t { right, wrong };
+    Fit check(MessageKind, std::string_view message, Results const&, Report = Report::each);
 
-    // Returns the rows of the answer to a query; none if the component failed, cannot answer, or its answer does not fit the
-    // profile.
-    std::vector<Results> answer(std::string_view query_type, Instant now) const;
+    // Returns the rows of an answer to a query, in the engine's frame; none if they do not fit the profile.
+    std::vector<Results> accepted(std::string_view query_type, std::vector<Results> rows);
+    // Returns the results of an event in the engine's frame; null if they do not fit the profile.
+    std::shared_ptr<Results const> accepted(EventOccurred const&);
+    // Converts the results of a command to the engine's frame. If that is impossible, the command ends with ERROR.
+    void accept(CommandEnded&);
+    void accept(ComponentState);
 
     // The status, as `asker` sees it (decision 7).
     ComponentStatus status_for(Session const* asker) const;
@@ -75,9 +78,8 @@ public:
     std::vector<ParameterProfile> const& settable() const { return settable_; }
     // The stored parameters for the session that has bound the component; the defaults for all others (decision 30).
     ParameterList const& parameters_for(Session const* asker) const;
-    // The answer of get_parameter to `asker`: parameters_for(), and parameters that the component reads. Those that can be set
-    // are read only for the session that has bound it. Parameters outside of the profile are left out. Returns nullopt if the
-    // component failed or its values do not fit the profile.
+    // The answer of get_parameter to `asker`: parameters_for(), and parameters that the component has reported. Those that can
+    // be set are returned only to the session that has bound it. Returns nullopt if the reported ones do not fit the profile.
     std::optional<ParameterList> all_parameters(Session const* asker) const;
     // Restores the default parameters at the end of a binding. Notifies the component if they changed.
     void restore_defaults(Instant now);
@@ -93,7 +95,7 @@ public:
     // result, and its position (nullopt if it is unknown or the component failed).
     bool has_parameter(std::string_view name) const;
     bool has_result(std::string_view name) const;
-    std::optional<Located> location() const;
+    std::optional<Located> const& location() const { return state_.location; }
 
     // Returns which position is in an unknown frame, or nullopt. The parameters must be normalized.
     std::optional<std::string> why_no_frame(ParameterList const& normalized) const;
@@ -106,8 +108,10 @@ public:
     // Converts positions to the component's frame. Returns nullopt if nothing needs conversion.
     std::optional<ParameterList> in_own_frame(ParameterList const&) const;
 
-    // Returns `stored` with the new values, as the component reconciles the two; nullopt if the component failed.
-    std::optional<ParameterList> merged(ParameterList stored, ParameterList const& arrived) const;
+    // Returns `stored` with the new values. Of each group of alternatives, the newest ones are left.
+    ParameterList merged(ParameterList stored, ParameterList const& arrived) const;
+    CompletedStatus status_when_stopped() const { return status_when_stopped_; }
+    bool confirms_binding() const { return confirms_binding_; }
 
     Session* bound_to = nullptr;
     bool is_free() const { return bound_to == nullptr && !has_failed_to_halt(); }
@@ -127,34 +131,37 @@ public:
     bool has_failed_to_halt() const { return halting && halting->failed; }
     bool has_stood = false;  // has confirmed a halt at least once
 
-    // An answer of the component to a command was lost, because memory was short. The state of the component is unknown.
-    bool answer_lost = false;
+    std::uint64_t halts = 0;  // how often it was halted
 
+    // `suspend` was called for a lease that ended, and is not confirmed yet.
+    bool is_being_held = false;
+
+    // The component has thrown an exception, or reported something that does not fit its profile.
+    void report_failure(std::string_view problem, Report);
+    // It has not answered in time. Its status is ERROR until its next report.
+    void report_silence(std::string_view what);
+    void end_silence() { is_silent_ = false; }
+    void report(ErrorType, std::string text, Report);
     // Called after a command or query has succeeded.
     void clear_failure();
     // Called for a new binding: errors with Report::once are reported again.
     void forget_reported_errors() { reported_once_.clear(); }
 
-    void started(CommandHandle) override;
-    void completed(CommandHandle, CompletedStatus, Results, Afterwards, std::string reason) override;
-    void halted() override;
-    void event(std::string_view event_type, Results) override;
-    void error(ErrorType, std::string text, Report) override;
-
 private:
     // The types of a message's results; null if the profile has no such message.
     TypedProfiles const* results_of(MessageKind, std::string_view message) const;
-    // Never throws. If memory runs out, the failure is not reported.
-    void report_failure(std::string_view problem, Report) const noexcept;
-    void report(ErrorType, std::string text, Report) const;
-    // Returns nullopt, and reports the failure, if conversion is impossible.
-    std::optional<Results> in_engine_frame(Results, std::string_view message, Report) const;
-    std::optional<ParameterList> reconciled(ParameterList stored, ParameterList const& arrived) const;
+    // Returns false, and reports the failure, if conversion is impossible.
+    bool to_engine_frame(Results&, std::string_view message, Report);
+    void replace_alternatives(ParameterList& stored, ParameterList const& arrived) const;
     bool is_position(std::string_view parameter) const;
 
-    std::unique_ptr<Component> component_;
-    mutable bool failed_ = false;                // an exception left the component
-    mutable std::set<ErrorType> reported_once_;  // errors that are not to be reported again
+    std::shared_ptr<HostedComponent> hosted_;
+    bool has_departed_ = false;
+    bool failed_ = false;  // an exception left the component
+    bool is_silent_ = false;
+    std::set<ErrorType> reported_once_;  // errors that are not to be reported again
+    ComponentState state_;               // with normalized parameters, in the engine's frame
+    bool fits_ = true;                   // the reported parameters fit the profile
     Identifier ref_;
     std::size_t code_begin_ = 0;  // where its code within its engine begins
     ComponentEntry entry_;
@@ -171,21 +178,10 @@ private:
     bool moves_ = false;
     std::vector<std::string> positions_;
     std::vector<Codebooks> codebooks_;
+    std::vector<std::vector<std::string>> alternatives_;
+    CompletedStatus status_when_stopped_;
+    bool confirms_binding_;
 };
-
-template <class What>
-RegisteredComponent::Called RegisteredComponent::call(What const& what, Report report) const {
-    if (!component_) return Called::failed;
-    try {
-        what(*component_);
-        return Called::ok;
-    } catch (std::exception const& exception) {
-        report_failure(exception.what(), report);
-    } catch (...) {
-        report_failure("the component threw an unknown exception", report);
-    }
-    return Called::failed;
-}
 
 // All components of the engine, by ref.
 class Registry {

@@ -18,9 +18,10 @@ struct EngineSettings {
     std::size_t max_predicates = 100'000;            // total in the conditions of all subscriptions
     std::size_t max_condition_bytes = 1 << 20;       // total text in the conditions of a session's subscriptions
     std::chrono::milliseconds command_results = std::chrono::minutes{10};
-    std::chrono::milliseconds event_details = std::chrono::seconds{60};  // `expire` (decision 21)
-    std::chrono::milliseconds error_details = std::chrono::minutes{10};  // decision 24
-    std::chrono::milliseconds start_timeout = std::chrono::seconds{5};   // unless the profile has one (decision 16)
+    std::chrono::milliseconds event_details = std::chrono::seconds{60};     // `expire` (decision 21)
+    std::chrono::milliseconds error_details = std::chrono::minutes{10};     // decision 24
+    std::chrono::milliseconds start_timeout = std::chrono::seconds{5};      // unless the profile has one (decision 16)
+    std::chrono::milliseconds question_deadline = std::chrono::seconds{1};  // for a component's answer (decision 36)
     std::chrono::milliseconds session_timeout = std::chrono::seconds{60};
     std::chrono::milliseconds resume_window = std::chrono::seconds{30};
     std::chrono::milliseconds motion_lease = std::chrono::seconds{2};        // of a session with a link (decision 33)

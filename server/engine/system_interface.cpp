@@ -28,7 +28,7 @@ std::optional<std::string> agree(MotionLease::Terms& terms, Connect const& asked
 
 }  // namespace
 
-std::variant<Reply, Refusal> Engine::Core::connect(SessionId const& id, Connect const& asked, Instant now) {
+Said Engine::Core::connect(SessionId const& id, Connect const& asked, Instant now) {
     auto* const known = find(id);
     auto terms =
         known != nullptr ? known->lease.terms() : MotionLease::Terms{settings_.motion_lease, settings_.motion_lease_http};
@@ -130,8 +130,8 @@ Reply Engine::Core::perform(Session& session, GetErrorDetail const& get, Instant
 }
 
 // Decision 24: the engine's errors go to all sessions; a component's errors to the sessions that use it.
-void Engine::Core::publish(ErrorOccurred const& report, Instant now, Attempts& deliveries) {
-    auto const* const component = report.component;
+void Engine::Core::publish(FoundError const& report, Instant now, Attempts& deliveries) {
+    auto const* const component = report.component.get();
     std::set<Session*> concerned;
     if (component != nullptr) {
         Perspective ever{registry_, places_, nullptr, Perspective::Of::ever};
@@ -151,7 +151,7 @@ void Engine::Core::publish(ErrorOccurred const& report, Instant now, Attempts& d
 }
 
 // Keeps the details of the error.
-ReceiveError Engine::Core::noted(ErrorOccurred const& report, Instant now) {
+ReceiveError Engine::Core::noted(FoundError const& report, Instant now) {
     auto results = std::make_shared<Results>();
     if (report.component != nullptr)
         results->parameters.push_back(

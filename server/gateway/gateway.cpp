@@ -25,20 +25,6 @@ Fault beyond(std::uint64_t after, std::uint64_t last) {
             {}};
 }
 
-// Notes how a successful operation changes the connection that asked for it.
-void take_turn(Answer& answer, Operation const& operation, Reply const& reply) {
-    if (auto const* connected = std::get_if<Connect::Reply>(&reply)) {
-        answer.turn = Answer::Turn::connected;
-        answer.session = connected->session;
-    } else if (auto const* resume = std::get_if<Resume>(&operation)) {
-        answer.turn = Answer::Turn::resumed;
-        answer.session = resume->session;
-        answer.last_sequence = resume->last_sequence;
-    } else if (std::holds_alternative<Disconnect>(operation)) {
-        answer.turn = Answer::Turn::disconnected;
-    }
-}
-
 }  // namespace
 
 Hold::Hold(Gateway& gateway, std::shared_ptr<NotificationQueue> queue)
@@ -119,42 +105,115 @@ Gateway::Gateway(Engine& engine, Readers& readers, Telemetry& telemetry, ClientL
     telemetry.set(Telemetry::Limit::streams_per_session, limits.streams_per_session);
 }
 
-Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std::string_view text, Via via,
-                       std::shared_ptr<Opener> const& opener, Reading const* reading) {
-    auto const begun = present();
-    Answer answer;
-    auto const refuse = [&](Fault fault, std::string const& request_id) {
-        fault.request_id = request_id;
-        answer.document = xml::encode(fault);
-        telemetry_.faulted(fault.code);
-        answer.fault = std::move(fault);
-    };
-    std::optional<MemoryBudget::Room> room;
-    if (text.size() > negligible) room.emplace(room_for(text));
-    if (room && !*room) return refuse(no_memory_for_document(memory_), ""), std::move(answer);
-    auto const read = reader.read(text);
-    if (auto const way = reader.checked()) telemetry_.checked(*way);
-    if (auto const* fault = std::get_if<Fault>(&read)) return refuse(*fault, fault->request_id), std::move(answer);
-    auto const& request = std::get<Request>(read);
-    auto const* const resume = std::get_if<Resume>(&request.operation);
-    if (resume && via == Via::http) {
-        refuse({FaultCode::not_allowed,
-                "resume works only on a WebSocket; over HTTP, pass after=N or Last-Event-ID to /rois/notifications",
-                {},
-                {}},
-               request.request_id);
-        return answer;
+// A request that was read, and its answer.
+class Exchange final : public Asked {
+public:
+    Exchange(Gateway& gateway, SessionId const& of, NotificationQueue::Hold until_answered, Request request, Instant begun,
+             std::weak_ptr<Reader> waits)
+        : Asked{of, until_answered}, gateway_{gateway}, request_{std::move(request)}, begun_{begun}, waits_{std::move(waits)} {}
+    // Refused before an operation was performed.
+    Exchange(Gateway& gateway, Fault fault) : Asked{{}, 0}, gateway_{gateway}, fault_{std::move(fault)}, has_come_{true} {}
+
+    Operation const& operation() const override { return request_.operation; }
+
+    // Called with the engine locked.
+    void answer(Said said) override {
+        said_ = std::move(said);
+        has_come_.store(true, std::memory_order_release);
+        if (!is_late_) return;
+        if (auto const reader = waits_.lock()) reader->wake();
+    }
+    // From now on the reader is woken when the answer comes. Called with the engine locked.
+    void wait() { is_late_ = !has_come(); }
+    bool has_come() const { return has_come_.load(std::memory_order_acquire); }
+
+    // Returns whether the operation may change the session of the connection.
+    bool is_about_session() const {
+        return std::holds_alternative<Connect>(operation()) || std::holds_alternative<Resume>(operation()) ||
+               std::holds_alternative<Disconnect>(operation());
     }
 
-    auto const said = perform(session, request.operation, via, opener, reading, begun, answer);
-    if (auto const* refusal = std::get_if<Refusal>(&said))
-        return refuse(answer.fault ? *answer.fault : fault_of(*refusal), request.request_id), std::move(answer);
-    auto const& reply = std::get<Reply>(said);
-    answer.document = xml::encode(reply, request.request_id);
-    auto const code = std::visit([](Outcome const& outcome) { return outcome.return_code; }, reply);
-    telemetry_.answered(request.operation, code, std::chrono::steady_clock::now() - begun.steady);
-    if (code == ReturnCode::ok) take_turn(answer, request.operation, reply);
+    void session_opened(std::uint64_t number) { session_number_ = number; }
+    Said const* said() const { return said_ ? &*said_ : nullptr; }
+
+    Answer take() {
+        Answer taken;
+        taken.session_number = session_number_;
+        if (!fault_)
+            if (auto const* refusal = std::get_if<Refusal>(&*said_)) {
+                fault_ = gateway_.fault_of(*refusal);
+                fault_->request_id = request_.request_id;
+            }
+        if (fault_) {
+            taken.document = xml::encode(*fault_);
+            gateway_.telemetry_.faulted(fault_->code);
+            taken.fault = std::move(fault_);
+            return taken;
+        }
+        auto const& reply = std::get<Reply>(*said_);
+        taken.document = xml::encode(reply, request_.request_id);
+        auto const code = std::visit([](Outcome const& outcome) { return outcome.return_code; }, reply);
+        gateway_.telemetry_.answered(operation(), code, std::chrono::steady_clock::now() - begun_.steady);
+        if (code == ReturnCode::ok) take_turn(taken, reply);
+        return taken;
+    }
+
+private:
+    // Notes how a successful operation changes the connection that asked for it.
+    void take_turn(Answer& taken, Reply const& reply) const {
+        if (auto const* connected = std::get_if<Connect::Reply>(&reply)) {
+            taken.turn = Answer::Turn::connected;
+            taken.session = connected->session;
+        } else if (auto const* resume = std::get_if<Resume>(&operation())) {
+            taken.turn = Answer::Turn::resumed;
+            taken.session = resume->session;
+            taken.last_sequence = resume->last_sequence;
+        } else if (std::holds_alternative<Disconnect>(operation())) {
+            taken.turn = Answer::Turn::disconnected;
+        }
+    }
+
+    Gateway& gateway_;
+    Request request_;
+    Instant begun_{};
+    std::weak_ptr<Reader> waits_;
+    std::optional<Fault> fault_;
+    std::optional<Said> said_;
+    std::uint64_t session_number_ = 0;
+    bool is_late_ = false;
+    std::atomic<bool> has_come_ = false;
+};
+
+bool PendingAnswer::has_come() const { return exchange_->has_come(); }
+
+bool PendingAnswer::is_about_session() const { return exchange_->is_about_session(); }
+
+bool PendingAnswer::is_disconnect() const { return std::holds_alternative<Disconnect>(exchange_->operation()); }
+
+Answer PendingAnswer::take() {
+    auto answer = exchange_->take();
+    answer.hold = std::move(hold_);
     return answer;
+}
+
+PendingAnswer Gateway::refused(Fault fault) { return {std::make_shared<Exchange>(*this, std::move(fault)), {}}; }
+
+PendingAnswer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std::string_view text, Via via,
+                              std::weak_ptr<Reader> waits, std::shared_ptr<Opener> const& opener, Reading const* reading) {
+    auto const begun = present();
+    std::optional<MemoryBudget::Room> room;
+    if (text.size() > negligible) room.emplace(room_for(text));
+    if (room && !*room) return refused(no_memory_for_document(memory_));
+    auto read = reader.read(text);
+    if (auto const way = reader.checked()) telemetry_.checked(*way);
+    if (auto* fault = std::get_if<Fault>(&read)) return refused(std::move(*fault));
+    auto& request = std::get<Request>(read);
+    if (std::holds_alternative<Resume>(request.operation) && via == Via::http)
+        return refused({FaultCode::not_allowed,
+                        "resume works only on a WebSocket; over HTTP, pass after=N or Last-Event-ID to /rois/notifications",
+                        {},
+                        request.request_id});
+    return perform(session, std::move(request), via, std::move(waits), opener, reading, begun);
 }
 
 // Converts to false if there is no memory. Short documents reserve none, but their bytes are counted.
@@ -181,24 +240,37 @@ Fault Gateway::fault_of(Refusal refusal) {
     return no_such_session();
 }
 
-std::variant<Reply, Refusal> Gateway::perform(SessionId const& session, Operation const& operation, Via via,
-                                              std::shared_ptr<Opener> const& opener, Reading const* reading, Instant now,
-                                              Answer& answer) {
-    std::lock_guard const lock{mutex_};
+PendingAnswer Gateway::perform(SessionId const& session, Request request, Via via, std::weak_ptr<Reader> waits,
+                               std::shared_ptr<Opener> const& opener, Reading const* reading, Instant now) {
+    Hold hold;  // ends without the lock
+    std::unique_lock lock{mutex_};
     auto queue = reading != nullptr ? reading->queue_ : engine_.notifications(session);
     bool const known = queue != nullptr;
-    // `disconnect` holds nothing: the readers receive the last notifications before the answer (decision 3).
-    if (known && !std::holds_alternative<Disconnect>(operation)) answer.hold = Hold{*this, std::move(queue)};
     if (via == Via::http) engine_.heard_from(session, now);
-    bool const opens = opener && !known && std::holds_alternative<Connect>(operation);
-    if (opens) answer.fault = refusal_of(*opener);
-    if (answer.fault) return Refusal::too_many_sessions;
+    bool const connects = std::holds_alternative<Connect>(request.operation);
+    bool const opens = opener && !known && connects;
+    if (opens)
+        if (auto fault = refusal_of(*opener)) {
+            fault->request_id = request.request_id;
+            return refused(std::move(*fault));
+        }
     log_.take_joined();  // of an operation that failed
-    auto handled = engine_.handle(session, operation, now);
-    answer.session_number = log_.take_joined();
-    if (opens && answer.session_number != 0) quota_.opened(answer.session_number, opener);
-    if (via == Via::http && !known) heard_from_opened(handled, now);
-    return handled;
+    // `disconnect` holds nothing: the readers receive the last notifications before the answer (decision 3).
+    if (known && !std::holds_alternative<Disconnect>(request.operation)) hold = Hold{*this, std::move(queue)};
+    auto exchange = std::make_shared<Exchange>(*this, session, hold.number(), std::move(request), now, std::move(waits));
+    engine_.handle(exchange, now);
+    auto const number = log_.take_joined();
+    exchange->session_opened(number);
+    if (opens && number != 0) quota_.opened(number, opener);
+    // The `connect` of a session counts as a sign of life (decision 2).
+    if (auto const* said = exchange->said(); said && via == Via::http && !known && connects)
+        if (auto const* reply = std::get_if<Reply>(said))
+            if (auto const* connected = std::get_if<Connect::Reply>(reply)) engine_.heard_from(connected->session, now);
+    engine_.work(lock, now);
+    hold.leave();
+    exchange->wait();
+    lock.unlock();
+    return {std::move(exchange), std::move(hold)};
 }
 
 // Returns a fault if this connection may not open another session.
@@ -224,13 +296,6 @@ std::optional<Fault> Gateway::refusal_of(Opener const& opener) {
     return {};
 }
 
-// Starts the idle time of a session that was just opened over HTTP: its `connect` counts as a sign of life (decision 2).
-void Gateway::heard_from_opened(std::variant<Reply, Refusal> const& handled, Instant now) {
-    auto const* reply = std::get_if<Reply>(&handled);
-    auto const* connected = reply == nullptr ? nullptr : std::get_if<Connect::Reply>(reply);
-    if (connected != nullptr) engine_.heard_from(connected->session, now);
-}
-
 std::variant<std::unique_ptr<Reading>, Fault> Gateway::read(SessionId const& session, Link link, std::uint64_t after,
                                                             Reader& reader, Readers::Until until) {
     auto reading = std::make_unique<Reading>(*this, link, after, reader);
@@ -254,9 +319,33 @@ std::variant<std::unique_ptr<Reading>, Fault> Gateway::read(SessionId const& ses
 
 void Gateway::begin() {
     auto const now = present();
-    std::lock_guard const lock{mutex_};
+    engine_.on_report([this] { alarm_.ring(); });
+    std::unique_lock lock{mutex_};
     engine_.begin(now);
+    engine_.work(lock, now, Provider::Runner::clock);
     telemetry_.ticked(now.steady);
+}
+
+void Gateway::Alarm::ring() {
+    {
+        std::lock_guard const lock{mutex_};
+        rings_ = true;
+    }
+    rung_.notify_one();
+}
+
+bool Gateway::Alarm::wait_until(Steady until) {
+    std::unique_lock lock{mutex_};
+    rung_.wait_until(lock, until, [this] { return rings_; });
+    return std::exchange(rings_, false);
+}
+
+bool Gateway::await_reports(Steady until) { return alarm_.wait_until(until); }
+
+void Gateway::handle_reports() {
+    auto const now = present();
+    std::unique_lock lock{mutex_};
+    engine_.work(lock, now, Provider::Runner::clock);
 }
 
 // Returns freed memory to the system. Otherwise it would count against the budget until the process ends.
@@ -273,8 +362,11 @@ void Gateway::tick() {
     auto const now = present();
     save_memory(now.steady);
     {
-        std::lock_guard const lock{mutex_};
-        engine_.tick(now);
+        std::unique_lock lock{mutex_};
+        Attempts attempts;
+        attempts([&] { engine_.tick(now); });
+        attempts([&] { engine_.work(lock, now, Provider::Runner::clock); });
+        attempts.rethrow();
     }
     telemetry_.ticked(now.steady);
 }
@@ -286,18 +378,23 @@ void Gateway::halt_at_last() noexcept {
     if (!lock.owns_lock()) return;
     Attempts attempts;  // a failure of one component does not keep the others from halting
     attempts([&] { engine_.stop_everything(present()); });
+    attempts([&] { engine_.work(lock, present(), Provider::Runner::clock); });
 }
 
-void Gateway::change(std::function<ComponentChange()> const& make) {
-    std::lock_guard const lock{mutex_};
-    auto change = make();
-    engine_.change(std::move(change), present());
+void Gateway::change(ComponentChange change) {
+    auto const now = present();
+    std::unique_lock lock{mutex_};
+    engine_.change(std::move(change), now);
+    engine_.work(lock, now);
 }
 
 StopState Gateway::stop_everything() {
     auto const now = present();
-    std::lock_guard const lock{mutex_};
-    engine_.stop_everything(now);
+    std::unique_lock lock{mutex_};
+    Attempts attempts;
+    attempts([&] { engine_.stop_everything(now); });
+    attempts([&] { engine_.work(lock, now); });
+    attempts.rethrow();
     return {engine_.everything_is_stopped(), engine_.not_halted()};
 }
 
@@ -324,9 +421,10 @@ std::vector<std::string> Gateway::not_ready() const {
 
 void Gateway::shut_down() {
     auto const now = present();
-    std::lock_guard const lock{mutex_};
+    std::unique_lock lock{mutex_};
     shutting_down_ = true;
     engine_.shut_down(now);
+    engine_.work(lock, now);
 }
 
 std::shared_ptr<EngineProfile const> Gateway::profile() const {

@@ -4,12 +4,14 @@
 
 #include <array>
 #include <atomic>
+#include <condition_variable>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -37,6 +39,10 @@ private:
     friend class Gateway;
     Hold(Gateway&, std::shared_ptr<NotificationQueue>);
     void release();
+    void leave() {
+        if (gateway_ != nullptr) queue_->leave(place_);
+    }
+    NotificationQueue::Hold number() const { return place_; }
 
     Gateway* gateway_ = nullptr;  // null: holds nothing
     std::shared_ptr<NotificationQueue> queue_;
@@ -122,16 +128,36 @@ struct Answer {
     Hold hold;
 };
 
+class Exchange;
+
+// The answer to a request. It may come later, when a component has answered. The gateway must outlive it.
+class PendingAnswer {
+public:
+    PendingAnswer() = default;
+    PendingAnswer(std::shared_ptr<Exchange> exchange, Hold hold) : exchange_{std::move(exchange)}, hold_{std::move(hold)} {}
+
+    bool has_come() const;
+    // Returns whether the operation may change the session of the connection: connect, resume, disconnect.
+    bool is_about_session() const;
+    bool is_disconnect() const;
+    // Call it once, when the answer has come.
+    Answer take();
+
+private:
+    std::shared_ptr<Exchange> exchange_;
+    Hold hold_;
+};
+
 class Gateway {
 public:
     // All must outlive the gateway. `readers` is the engine's outbox. Each tick measures the memory.
     Gateway(Engine&, Readers& readers, Telemetry&, ClientLimits = {}, MemoryBudget& = MemoryBudget::none());
 
-    // Reads the request, performs its operation for the session (an empty id: none yet) and encodes the answer. Locks the engine
-    // only for the operation. `opener` is the connection that counts its sessions; null: they are not counted. `reading` is an
-    // open reading of the session, if there is one: it saves a search.
-    Answer answer(xml::RequestReader&, SessionId const&, std::string_view text, Via,
-                  std::shared_ptr<Opener> const& opener = nullptr, Reading const* reading = nullptr);
+    // Reads the request and performs its operation for the session (an empty id: none yet). Locks the engine only for the
+    // operation. If the answer comes later, `waits` is woken then. `opener` is the connection that counts its sessions; null:
+    // they are not counted. `reading` is an open reading of the session, if there is one: it saves a search.
+    PendingAnswer answer(xml::RequestReader&, SessionId const&, std::string_view text, Via, std::weak_ptr<Reader> waits,
+                         std::shared_ptr<Opener> const& opener = nullptr, Reading const* reading = nullptr);
 
     // Starts to read behind the sequence `after`. Returns a fault if the session is unknown, if `after` is above its last
     // sequence, or if it has too many event streams.
@@ -144,12 +170,16 @@ public:
     // Runs the engine's due work. Call it every few milliseconds. Throws the first error, after all other work was done.
     void tick();
 
+    // Waits until a component has reported something, at most until `until`. Returns whether one has. For the engine's clock.
+    bool await_reports(Steady until);
+    // Lets the engine handle what components have reported.
+    void handle_reports();
+
     // Halts every component before the process ends in an emergency. Gives up if the engine stays locked for a second.
     void halt_at_last() noexcept;
 
-    // Adds and removes components. Calls `make` with the engine locked, because devices move meanwhile. Throws the exceptions of
-    // `make` and of the engine.
-    void change(std::function<ComponentChange()> const& make);
+    // Adds and removes components. Throws the exceptions of the engine.
+    void change(ComponentChange);
 
     // Stop for everything (decision 34), and its end. Return the state afterwards.
     StopState stop_everything();
@@ -168,22 +198,35 @@ public:
     EngineStatistics statistics() const;
 
 private:
+    friend class Exchange;
     friend class Farewell;
     friend class Hold;
     friend class Reading;
 
-    std::variant<Reply, Refusal> perform(SessionId const&, Operation const&, Via, std::shared_ptr<Opener> const&, Reading const*,
-                                         Instant now, Answer&);
+    PendingAnswer perform(SessionId const&, Request, Via, std::weak_ptr<Reader> waits, std::shared_ptr<Opener> const&,
+                          Reading const*, Instant now);
+    PendingAnswer refused(Fault);
     std::optional<Fault> refusal_of(Opener const&);
     Fault fault_of(Refusal);
     MemoryBudget::Room room_for(std::string_view text);
     void save_memory(Steady now);
-    void heard_from_opened(std::variant<Reply, Refusal> const&, Instant now);
+
+    class Alarm {
+    public:
+        void ring();
+        bool wait_until(Steady);
+
+    private:
+        std::mutex mutex_;
+        std::condition_variable rung_;
+        bool rings_ = false;
+    };
 
     Engine& engine_;
     Readers& readers_;
     Telemetry& telemetry_;
     MemoryBudget& memory_;
+    Alarm alarm_;               // a component has reported something
     Steady memory_released_;    // when memory was last returned to the system; used only by tick()
     mutable std::mutex mutex_;  // guards the engine, the readers and the quota
     SessionQuota quota_;

@@ -323,6 +323,9 @@ std::vector<Key> session_keys() {
         seconds(
             "start_timeout", "time for a component to start a command, unless its profile sets another",
             [](Settings & s) -> auto& { return s.engine.start_timeout; }),
+        seconds(
+            "question_deadline", "time for a component to answer a query, or whether it can carry out a command",
+            [](Settings & s) -> auto& { return s.engine.question_deadline; }),
         whole_number<std::size_t>(
             "max_sessions", "maximum number of sessions", [](Settings & s) -> auto& { return s.engine.max_sessions; }, 1, 1e6),
         whole_number<std::size_t>(

@@ -181,7 +181,7 @@ EngineProfile engine_profile(Settings const& settings, simulation::FloorPlan con
 void read_again(UserComponents& components, Gateway& gateway) {
     try {
         spdlog::info("profiles: reading the folder again after SIGHUP");
-        gateway.change([&] { return components.read(); });
+        gateway.change(components.read());
         components.keep();
     } catch (std::exception const& error) {
         spdlog::warn("profiles: no component was changed: {}", error.what());
@@ -208,7 +208,7 @@ int serve(CommandLine const& command) {
     auto const media = make_media(settings.media, net_settings);
     Readers readers;
     Engine engine{engine_profile(settings, simulation->hall().plan()), profiles, settings.engine, readers, fresh_secret};
-    engine.add(simulation);
+    engine.add(simulation, std::string{simulation::Simulation::provider});
     engine.describe(simulation::named_places(simulation->hall().plan()));
     auto const robots = simulation::robots(simulation, media);
     for (auto& component : basic::robot_components(robots, profiles)) engine.add(std::move(component));
@@ -221,7 +221,7 @@ int serve(CommandLine const& command) {
     Gateway gateway{engine, readers, telemetry, client_limits(net_settings), memory};
     UserComponents user_components{
         schemas, {robots, schemas}, profiles, own_refs(settings, simulation->hall().plan()), settings.profiles};
-    if (!settings.profiles.empty()) gateway.change([&] { return user_components.read(); });
+    if (!settings.profiles.empty()) gateway.change(user_components.read());
     user_components.keep();
     net::Documents const documents{gateway,
                                    telemetry,

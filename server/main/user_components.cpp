@@ -86,8 +86,8 @@ std::vector<std::unique_ptr<Component>> UserComponents::components(ProfileFile c
 ComponentChange UserComponents::read() {
     auto const found = read_profile_folder(schemas_, folder_, own_, adapters_.streams());
     ComponentChange change;
-    change.known_profiles = with_own(found);
-    auto next = stay(found, change.known_profiles);
+    change.belongings.profiles = with_own(found);
+    auto next = stay(found, change.belongings.profiles);
     auto taken = refs_;
     for (auto const& [name, made] : next) taken.insert(made.refs.begin(), made.refs.end());
     for (auto const& [name, made] : files_)
@@ -95,8 +95,8 @@ ComponentChange UserComponents::read() {
     for (auto const& file : found) {
         log(file, next.contains(file.name));
         if (!file.profile || next.contains(file.name)) continue;
-        Made made{*file.profile, flattened(*file.profile, change.known_profiles), {}};
-        for (auto& component : components(file, change.known_profiles, taken)) {
+        Made made{*file.profile, flattened(*file.profile, change.belongings.profiles), {}};
+        for (auto& component : components(file, change.belongings.profiles, taken)) {
             made.refs.push_back(component->description().ref.code);
             spdlog::info("profiles: {}: adds the component {}", file.name, made.refs.back());
             change.coming.push_back(std::move(component));

@@ -13,15 +13,15 @@ LongDocuments::LongDocuments(std::shared_ptr<xml::Schemas const> schemas, xml::D
                              xml::Validation validation)
     : reader_{std::move(schemas), limits, validation} {}
 
-Task<Answer> LongDocuments::answer(Gateway& gateway, SessionId const& session, std::string_view text, Via via,
-                                   std::shared_ptr<Opener> const& opener, Wakes& wakes) {
+Task<PendingAnswer> LongDocuments::answer(Gateway& gateway, SessionId const& session, std::string_view text, Via via,
+                                          std::weak_ptr<Reader> waits, std::shared_ptr<Opener> const& opener, Wakes& wakes) {
     Executor const executor = co_await asio::this_coro::executor;
     auto const done = std::make_shared<Signal>(executor, wakes);
-    Answer answer;
+    PendingAnswer answer;
     std::exception_ptr failed;
     asio::post(thread_, [&] {
         try {
-            answer = gateway.answer(reader_, session, text, via, opener);
+            answer = gateway.answer(reader_, session, text, via, waits, opener);
         } catch (...) {
             failed = std::current_exception();
         }

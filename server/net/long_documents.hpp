@@ -19,8 +19,9 @@ public:
     // Reading a long document takes half a millisecond or more.
     static bool is_long(std::size_t bytes) { return bytes > std::size_t{32} * 1024; }
 
-    // Answers the request on that thread, and resumes the caller on its own. All arguments must live until then.
-    Task<Answer> answer(Gateway&, SessionId const&, std::string_view text, Via, std::shared_ptr<Opener> const&, Wakes&);
+    // As Gateway::answer, on that thread. Resumes the caller on its own thread. All arguments must live until then.
+    Task<PendingAnswer> answer(Gateway&, SessionId const&, std::string_view text, Via, std::weak_ptr<Reader> waits,
+                               std::shared_ptr<Opener> const&, Wakes&);
 
 private:
     xml::RequestReader reader_;

@@ -52,8 +52,15 @@ Task<Wire::Outcome> Wire::receive(Steady until, std::size_t expected) {
     auto const size = co_await socket_.async_read_some(asio::buffer(input_.data() + before, input_.size() - before), into(error));
     input_due_ = Steady::max();
     input_.resize(before + size);
-    if (!error) co_return Outcome::done;
+    if (bool const interrupted = std::exchange(interrupted_, false); !error || interrupted) co_return Outcome::done;
     co_return std::exchange(input_late_, false) ? Outcome::late : Outcome::closed;
+}
+
+void Wire::interrupt() {
+    if (input_due_ == Steady::max()) return;
+    interrupted_ = true;
+    boost::system::error_code ignored;
+    socket_.cancel(ignored);
 }
 
 std::size_t Wire::send_now(std::string_view text) {

@@ -37,6 +37,9 @@ public:
     // The next `sweep` ends a waiting receive: it returns `late`.
     void stop_waiting() { input_due_ = Steady::min(); }
 
+    // Ends a waiting receive, which returns `done` without new input.
+    void interrupt();
+
     // Writes without waiting. Returns the number of written bytes. After an error, the next send fails.
     std::size_t send_now(std::string_view);
     // Writes everything. The connection is cut if that takes longer than the write timeout.
@@ -91,6 +94,7 @@ private:
     Steady input_due_ = Steady::max();
     Steady output_due_ = Steady::max();
     bool input_late_ = false;
+    bool interrupted_ = false;
     bool probed_ = false;                 // the system probes the peer
     std::shared_ptr<Watching> watching_;  // null: there is no watch
 };

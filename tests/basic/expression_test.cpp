@@ -104,8 +104,8 @@ TEST_F(SystemInformationOfABody, AnswersWithPositionAndStatus) {
     EXPECT_EQ(value(position, "position_data"), "1001, 2000, 0");
     EXPECT_EQ(codebook_of(position, "position_data"), "urn:test::frame");
     EXPECT_EQ(position.located.at(0).position.at(0), 1001);
-    EXPECT_EQ(system.component().location().value().position.at(0), 1000);
-    EXPECT_EQ(system.component().status(), ComponentStatus::ready);
+    EXPECT_EQ(system.location().value().position.at(0), 1000);
+    EXPECT_EQ(system.status(), ComponentStatus::ready);
     body->wheels.report.motion = MotionState::obstructed;
     EXPECT_EQ(value(system.query("engine_status"), "status"), "WARNING");
 }
@@ -137,7 +137,7 @@ class ABody : public FakeRobot {};
 
 TEST_F(ABody, HasAllComponentsUnderTheirNames) {
     for (auto const& basic : basic_components()) {
-        auto const& description = (*this)[std::string{basic.ref}].component().description();
+        auto const& description = (*this)[std::string{basic.ref}].description();
         EXPECT_EQ(description.engine, "fake");
         EXPECT_EQ(description.crs, "") << "the engine's frame";
         EXPECT_EQ(description.moves,
@@ -157,9 +157,13 @@ TEST(SeveralBodies, HaveTheirNamesInTheirRefs) {
 
 TEST(Bodies, TheirComponentsAreUninitializedBeforeTheFirstObservation) {
     auto const body = std::make_shared<FakeBody>();
-    auto components = robot_components({.bodies = {body}, .media = nullptr}, own_profiles());
-    for (auto const& component : components) EXPECT_EQ(component->status(), ComponentStatus::uninitialized);
-    components.clear();
+    std::vector<std::unique_ptr<Operated>> operated;
+    for (auto& component : robot_components({.bodies = {body}, .media = nullptr}, own_profiles()))
+        operated.push_back(std::make_unique<Operated>(
+            std::move(component), [] { return Instant{}; }, [&] { return body->now(); }));
+    for (auto const& each : operated) EXPECT_EQ(each->status(), ComponentStatus::uninitialized);
+    EXPECT_EQ(body->observers(), 15U);
+    operated.clear();
     EXPECT_EQ(body->observers(), 0U);
 }
 

@@ -131,6 +131,7 @@ public:
     explicit FakeBody(std::string name = "fake") : name_{std::move(name)} {}
 
     std::string const& name() const override { return name_; }
+    bool returns_at_once() const override { return true; }
     EntityId self() const override { return EntityId{1}; }
     std::string const& crs() const override { return crs_; }
     bool uses_engines_frame() const override { return true; }
@@ -190,6 +191,7 @@ protected:
     void step(WorldTime length = WorldTime{20}) {
         now_ = now_ + length;
         body->step(now_, length);
+        for (auto const& [ref, operated] : operated_) operated->after_step();
     }
 
     std::string refusal(std::string const& ref, std::string const& command_type, ParameterList const& parameters) {

@@ -66,7 +66,7 @@ TEST_F(NavigationOfABody, GivesUpABlockedWay) {
     auto& navigation = start({"door"});
     body->wheels.now.state = MotionState::obstructed;
     step();
-    EXPECT_EQ(navigation.component().status(), ComponentStatus::warning);
+    EXPECT_EQ(navigation.status(), ComponentStatus::warning);
     step(WorldTime{29'000});
     EXPECT_FALSE(navigation.ended());
     step(WorldTime{1'000});
@@ -122,7 +122,7 @@ TEST_F(MoveOfABody, WaitsForTheBrakes) {
     auto& move = (*this)["move"];
     body->wheels.brake(true);
     move.start({integers("line", "1000 0")});
-    EXPECT_EQ(move.component().status(), ComponentStatus::warning);
+    EXPECT_EQ(move.status(), ComponentStatus::warning);
     step(WorldTime{10'000});
     EXPECT_EQ(move.reason(), "the brakes of the robot are on");
 }
@@ -130,7 +130,7 @@ TEST_F(MoveOfABody, WaitsForTheBrakes) {
 TEST_F(MoveOfABody, RefusesBadParameters) {
     EXPECT_THAT(refusal("move", "start", {}), HasSubstr("mandatory"));
     EXPECT_THAT(refusal("move", "start", {integers("line", "1")}), HasSubstr("two numbers"));
-    EXPECT_THAT(refusal("move", "start", {integers("line", "1 2"), integer("time", -5)}), HasSubstr("negative"));
+    EXPECT_THAT(refusal("move", "start", {integers("line", "1 2"), integer("time", -5)}), HasSubstr("must be 0 or more, not -5"));
 }
 
 class FollowOfABody : public FakeRobot {
@@ -149,7 +149,7 @@ TEST_F(FollowOfABody, KeepsItsDistanceUntilItIsStopped) {
     EXPECT_DOUBLE_EQ(body->wheels.last<KeepDistance>().distance, 1.2);
     step();
     EXPECT_EQ(body->wheels.motions.size(), 1U) << "the motion goes on";
-    EXPECT_EQ(follow.component().status_when_stopped(), CompletedStatus::ok);
+    EXPECT_EQ(follow.description().status_when_stopped, CompletedStatus::ok);
     body->wheels.brakes_slowly = true;
     EXPECT_EQ(follow.stop(), Halted::not_yet);
     body->wheels.report.stopping = false;
@@ -163,11 +163,11 @@ TEST_F(FollowOfABody, WaitsForAMissingTargetAndFollowsItWhenItComesBack) {
     body->senses.names.clear();
     step();
     EXPECT_TRUE(std::holds_alternative<Stay>(body->wheels.motions.back()));
-    EXPECT_EQ(follow.component().status(), ComponentStatus::warning);
+    EXPECT_EQ(follow.status(), ComponentStatus::warning);
     body->senses.names["person-3"] = EntityId{4};
     step();
     EXPECT_EQ(body->wheels.last<KeepDistance>().whom, EntityId{4});
-    EXPECT_EQ(follow.component().status(), ComponentStatus::ready);
+    EXPECT_EQ(follow.status(), ComponentStatus::ready);
 }
 
 TEST_F(FollowOfABody, GivesUpAnUnknownTargetAfterFiveSeconds) {
@@ -183,7 +183,7 @@ TEST_F(FollowOfABody, IsReadyAfterARejection) {
     body->wheels.rejection = Rejection{CompletedStatus::out_of_resources, "the wheels are busy with move"};
     auto& follow = start("ghost");
     EXPECT_EQ(follow.ended(), "OUT_OF_RESOURCES");
-    EXPECT_EQ(follow.component().status(), ComponentStatus::ready);
+    EXPECT_EQ(follow.status(), ComponentStatus::ready);
     EXPECT_THAT(body->wheels.motions, IsEmpty());
 }
 
@@ -193,7 +193,7 @@ TEST_F(FollowOfABody, RefusesBadParameters) {
                 HasSubstr("cannot follow itself"));
     EXPECT_THAT(refusal("follow", "start", {integer("distance", 1)}), HasSubstr("'target_object_ref' is mandatory"));
     EXPECT_THAT(refusal("follow", "start", {reference("target_object_ref", "x"), integer("distance", -1)}),
-                HasSubstr("negative"));
+                HasSubstr("must be 0 or more, not -1"));
 }
 
 }  // namespace

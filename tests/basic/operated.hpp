@@ -3,18 +3,23 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "basic/body/pose.hpp"
-#include "engine/component.hpp"
+#include "engine/local_component.hpp"
 #include "files/files.hpp"
 #include "xml/profiles/profile_document.hpp"
 
@@ -27,47 +32,92 @@ struct LogEntry {
     WorldTime at{};
 };
 
-// One component with its port. Stores the parameters like the engine.
+// One component with its port. Stores the parameters like the engine. Expects answers to all questions within the call.
 class Operated final : public ComponentPort {
 public:
     Operated(std::unique_ptr<Component> component, std::function<Instant()> now, std::function<WorldTime()> world_now)
         : component_{std::move(component)}, now_{std::move(now)}, world_now_{std::move(world_now)} {
-        component_->attach(*this);
+        call([&] { component_->attach(*this); });
     }
 
-    Component& component() { return *component_; }
+    ComponentDescription const& description() const { return component_->description(); }
 
-    // Returns why the command is refused with these parameters merged into the stored ones.
-    std::optional<std::string> refusal(std::string const& command_type, ParameterList const& arrived) const {
-        return component_->refusal(command_type, merged(arrived));
+    // The state that the component has reported last.
+    ComponentStatus status() const { return state_.status; }
+    std::optional<Located> const& location() const { return state_.location; }
+    ParameterList const& readable_parameters() const { return state_.parameters; }
+
+    // Call this after each step of the component's world: lets the component report.
+    void after_step() { component_->after_call(); }
+
+    // Returns why the command is refused. For start and set_parameter, `arrived` is merged into the stored parameters.
+    std::optional<std::string> refusal(std::string_view command_type, ParameterList const& arrived) {
+        bool const is_stored = command_type == "start" || command_type == "set_parameter";
+        auto const prepared = prepare(command_type, is_stored ? merged(arrived) : arrived);
+        auto const* refused = std::get_if<Refused>(&prepared);
+        return refused == nullptr ? std::nullopt : std::optional{refused->reason};
     }
 
     void set_parameter(ParameterList const& arrived) {
+        auto const begin = accepted("set_parameter", merged(arrived));
         stored_ = merged(arrived);
-        component_->parameters_changed(stored_, now_());
+        setting_ = CommandHandle{++handles_};
+        call([&] { begin(*setting_, now_()); });
+        EXPECT_FALSE(setting_) << "set_parameter has not completed";
+    }
+
+    // All parameters are their defaults again: none is stored.
+    void restore_defaults() {
+        stored_.clear();
+        call([&] { component_->parameters_changed(stored_, now_()); });
     }
 
     void start(ParameterList const& arrived = {}) {
-        if (runs_) component_->halt(now_());
+        auto const begin = accepted("start", merged(arrived));
+        if (runs_) stop();
         stored_ = merged(arrived);
         runs_ = true;
-        component_->start(CommandHandle{++last_}, stored_, now_());
+        carry_out(begin);
     }
 
     // A command of the component's own profile.
-    void perform(std::string_view command_type, ParameterList const& arguments) {
-        component_->perform(CommandHandle{++last_}, command_type, arguments, now_());
+    CommandHandle perform(std::string_view command_type, ParameterList const& arguments) {
+        return carry_out(accepted(command_type, arguments));
+    }
+
+    // The two halves of perform(). accepted() throws if the command is refused.
+    Begin accepted(std::string_view command_type, ParameterList const& parameters) {
+        auto prepared = prepare(command_type, parameters);
+        if (auto const* refused = std::get_if<Refused>(&prepared))
+            throw std::logic_error(std::string{command_type} + " is refused: " + refused->reason);
+        return std::get<Begin>(std::move(prepared));
+    }
+    CommandHandle carry_out(Begin const& begin) {
+        last_ = CommandHandle{++handles_};
+        call([&] { begin(last_, now_()); });
+        return last_;
     }
 
     Halted stop() {
         runs_ = false;
-        return component_->halt(now_());
+        halt_ = Ticket{++tickets_};
+        halted_ = Halted::not_yet;
+        call([&] { component_->halt(halt_, now_()); });
+        return *std::exchange(halted_, {});
     }
-    void suspend() { component_->suspend(now_()); }
-    void resume() { component_->resume(now_()); }
-    std::vector<Results> rows(std::string_view type) { return component_->query(type, now_()); }
-    Results query(std::string_view type) {
-        auto all = rows(type);
+    void suspend() {
+        expect_done(ask([&](Ticket ticket) { call([&] { component_->suspend(ticket, now_()); }); }));
+    }
+    void resume() {
+        expect_done(ask([&](Ticket ticket) { call([&] { component_->resume(ticket, now_()); }); }));
+    }
+
+    bool answers(std::string_view query_type) { return answer_to(query_type).has_value(); }
+    std::vector<Results> rows(std::string_view query_type) {
+        return std::get<std::vector<Results>>(answer_to(query_type).value());
+    }
+    Results query(std::string_view query_type) {
+        auto all = rows(query_type);
         return all.empty() ? Results{} : all.front();
     }
     ParameterList const& stored() const { return stored_; }
@@ -83,6 +133,12 @@ public:
     Results const& results() const { return last_results_; }
     Afterwards afterwards() const { return last_afterwards_; }
     std::string const& reason() const { return last_reason_; }
+
+    // Returns "OK", or "ERROR" with its reason; nothing if the command has not ended.
+    std::optional<std::string> outcome(CommandHandle command) const {
+        auto const found = outcomes_.find(command);
+        return found == outcomes_.end() ? std::nullopt : std::optional{found->second};
+    }
 
     std::vector<LogEntry> const& log() const { return log_; }
     std::vector<std::string> words() const {
@@ -100,43 +156,105 @@ public:
     // By default, only the last command may complete.
     void allow_any_command() { any_command_ = true; }
 
-    void halted() override { record("halted", {}); }
-    void started(CommandHandle) override { record("started", {}); }
-    void completed(CommandHandle command, CompletedStatus status, Results results, Afterwards afterwards,
-                   std::string reason) override {
-        if (!any_command_) {
-            EXPECT_EQ(static_cast<std::uint64_t>(command), last_);
-        }
-        last_results_ = std::move(results);
-        last_afterwards_ = afterwards;
-        last_reason_ = std::move(reason);
-        runs_ = afterwards == Afterwards::active;
-        record("completed " + std::string{to_text(status)} + (runs_ ? ", active" : ""), {});
-    }
-    void event(std::string_view type, Results results) override { record(std::string{type}, std::move(results)); }
-    void error(ErrorType, std::string text, Report report) override {
-        record((report == Report::once ? "error, once: " : "error ") + text, {});
+    void report(ComponentReport report) override {
+        std::visit([&](auto& each) { take(each); }, report);
     }
 
 private:
-    ParameterList merged(ParameterList const& arrived) const {
-        ParameterList all = stored_;
-        for (auto const& parameter : arrived) {
-            std::erase_if(all, [&](Parameter const& p) { return p.name == parameter.name; });
-            all.push_back(parameter);
+    // Calls the component like the engine: it reports after the call, even if it throws.
+    template <class What>
+    void call(What const& what) {
+        try {
+            what();
+        } catch (...) {
+            component_->after_call();
+            throw;
         }
-        component_->reconcile(all, arrived);
+        component_->after_call();
+    }
+
+    // Returns nothing if the component has not answered within the call.
+    template <class Question>
+    std::optional<ComponentAnswer> ask(Question const& question) {
+        answer_.reset();
+        asked_ = Ticket{++tickets_};
+        question(asked_);
+        return std::exchange(answer_, {});
+    }
+    std::optional<ComponentAnswer> answer_to(std::string_view query_type) {
+        return ask([&](Ticket ticket) { component_->query(ticket, query_type, now_()); });
+    }
+    Prepared prepare(std::string_view command_type, ParameterList const& parameters) {
+        auto answer = ask([&](Ticket ticket) { component_->prepare(ticket, command_type, parameters, now_()); }).value();
+        if (auto* refused = std::get_if<Refused>(&answer)) return std::move(*refused);
+        return std::get<Begin>(std::move(answer));
+    }
+    static void expect_done(std::optional<ComponentAnswer> const& answer) {
+        EXPECT_TRUE(answer && std::holds_alternative<Done>(*answer));
+    }
+
+    ParameterList merged(ParameterList const& arrived) const {
+        auto const has_arrived = [&](std::string const& name) { return find(arrived, name) != nullptr; };
+        ParameterList all = stored_;
+        std::erase_if(all, [&](Parameter const& each) { return has_arrived(each.name); });
+        for (auto const& group : description().alternatives)
+            if (std::ranges::any_of(group, has_arrived))
+                std::erase_if(all, [&](Parameter const& each) { return std::ranges::find(group, each.name) != group.end(); });
+        all.insert(all.end(), arrived.begin(), arrived.end());
         return all;
     }
-    void record(std::string what, Results results) { log_.push_back({std::move(what), std::move(results), world_now_()}); }
+
+    void take(ComponentState& state) { state_ = std::move(state); }
+    void take(Answered& answered) {
+        EXPECT_EQ(answered.ticket, asked_);
+        EXPECT_FALSE(answer_) << "two answers to one question";
+        answer_ = std::move(answered.answer);
+    }
+    void take(HaltConfirmed const& confirmed) {
+        EXPECT_EQ(confirmed.ticket, halt_);
+        if (!halted_) return record("halted");
+        halted_ = Halted::confirmed;
+    }
+    void take(CommandStarted const&) { record("started"); }
+    void take(CommandEnded& ended) {
+        if (setting_ == ended.command) {
+            EXPECT_EQ(ended.status, CompletedStatus::ok);
+            return setting_.reset();
+        }
+        if (!any_command_) {
+            EXPECT_EQ(ended.command, last_);
+        }
+        std::string const status{to_text(ended.status)};
+        auto const outcome = status + (ended.reason.empty() ? "" : " " + ended.reason);
+        EXPECT_TRUE(outcomes_.emplace(ended.command, outcome).second) << "a command ends once";
+        last_results_ = std::move(ended.results);
+        last_afterwards_ = ended.afterwards;
+        last_reason_ = std::move(ended.reason);
+        runs_ = ended.afterwards == Afterwards::active;
+        record("completed " + status + (runs_ ? ", active" : ""));
+    }
+    void take(EventOccurred const& event) { record(event.event_type, *event.results); }
+    void take(ErrorOccurred const& error) { record((error.report == Report::once ? "error, once: " : "error ") + error.text); }
+    void record(std::string what, Results results = {}) { log_.push_back({std::move(what), std::move(results), world_now_()}); }
 
     std::unique_ptr<Component> component_;
     std::function<Instant()> now_;
     std::function<WorldTime()> world_now_;
+    ComponentState state_;
     ParameterList stored_;
-    std::uint64_t last_ = 0;
+
+    std::uint64_t tickets_ = 0;
+    Ticket asked_{};                         // of the last question
+    std::optional<ComponentAnswer> answer_;  // to the last question
+    Ticket halt_{};                          // of the last halt
+    std::optional<Halted> halted_;           // during a halt
+
+    std::uint64_t handles_ = 0;
+    CommandHandle last_{};                  // of the last command, except set_parameter
+    std::optional<CommandHandle> setting_;  // a set_parameter that has not completed
     bool runs_ = false;
     bool any_command_ = false;
+    std::map<CommandHandle, std::string> outcomes_;
     Results last_results_;
     std::string last_reason_;
     Afterwards last_afterwards_ = Afterwards::as_before;

@@ -26,12 +26,14 @@ private:
 };
 
 // Moves on command, with faults: throws halfway, confirms late, ends by itself.
-class Mover final : public Component {
+class Mover final : public LocalComponent {
 public:
     Mover(std::string const& ref, Dice& dice) : dice_{dice} {
         description_.ref.code = ref;
         description_.profile = std::make_shared<ComponentProfile>(navigation.profile);
         description_.moves = true;
+        description_.provider = "stage";
+        description_.returns_at_once = true;
     }
 
     bool moves() const { return moves_; }
@@ -42,21 +44,21 @@ public:
             --ticks_to_halt_;
             if (ticks_to_halt_ == 0) {
                 moves_ = false;
-                port_->halted();
+                confirm_halt();
             }
         }
         if (moves_ && dice_.one_in(200)) {
             moves_ = false;
-            port_->completed(command_, dice_.one_in(2) ? CompletedStatus::ok : CompletedStatus::error);
+            port().completed(command_, dice_.one_in(2) ? CompletedStatus::ok : CompletedStatus::error);
         }
     }
 
     ComponentDescription const& description() const override { return description_; }
-    void attach(ComponentPort& port) override { port_ = &port; }
     ComponentStatus status() const override { return ComponentStatus::ready; }
-    std::optional<std::string> refusal(std::string_view, ParameterList const&) const override { return {}; }
-    void start(CommandHandle command, ParameterList const&, Instant) override { begin(command); }
-    void perform(CommandHandle command, std::string_view, ParameterList const&, Instant) override { begin(command); }
+    Prepared prepare(std::string_view command_type, ParameterList const&) override {
+        if (command_type == "set_parameter") return [](CommandHandle, Instant) {};
+        return [this](CommandHandle command, Instant) { begin(command); };
+    }
     void resume(Instant) override { begin(command_); }
     void suspend(Instant) override {
         fail_at_times();
@@ -74,7 +76,7 @@ private:
         command_ = command;
         moves_ = true;
         fail_at_times();
-        if (!dice_.one_in(20)) port_->started(command);
+        if (!dice_.one_in(20)) port().started(command);
     }
     // At most twice in a row.
     void fail_at_times() {
@@ -84,7 +86,6 @@ private:
 
     Dice& dice_;
     ComponentDescription description_;
-    ComponentPort* port_ = nullptr;
     CommandHandle command_{};
     bool moves_ = false;
     int ticks_to_halt_ = 0;  // while it halts; 0: it does not

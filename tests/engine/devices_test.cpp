@@ -9,21 +9,23 @@ namespace rois {
 namespace {
 
 // Ends its command when the test says so.
-class Machine final : public Component {
+class Machine final : public LocalComponent {
 public:
     explicit Machine(Part const& part) {
         description_.ref = Application::identifier(part.ref);
         description_.profile = std::make_shared<ComponentProfile const>(part.profile);
+        description_.provider = "stage";
+        description_.returns_at_once = true;
     }
     void finish() {
-        if (running_) port_->completed(*std::exchange(running_, {}), CompletedStatus::ok);
+        if (running_) port().completed(*std::exchange(running_, {}), CompletedStatus::ok);
     }
 
     ComponentDescription const& description() const override { return description_; }
-    void attach(ComponentPort& port) override { port_ = &port; }
     ComponentStatus status() const override { return ComponentStatus::ready; }
-    std::optional<std::string> refusal(std::string_view, ParameterList const&) const override { return {}; }
-    void start(CommandHandle command, ParameterList const&, Instant) override { running_ = command; }
+    Prepared prepare(std::string_view, ParameterList const&) override {
+        return [this](CommandHandle command, Instant) { running_ = command; };
+    }
     Halted halt(Instant) override {
         running_.reset();
         return Halted::confirmed;
@@ -33,7 +35,6 @@ public:
 
 private:
     ComponentDescription description_;
-    ComponentPort* port_ = nullptr;
     std::optional<CommandHandle> running_;
 };
 
@@ -93,6 +94,17 @@ TEST_F(Devices, HaveALimitedNumberOfTurnsInATick) {
     EXPECT_EQ(motor->turns, 100);
     world.advance(50ms);
     EXPECT_EQ(motor->turns, 200) << "the rest is for the next ticks";
+}
+
+TEST_F(Devices, AreAdvancedByTheClockThatClientsLeaveThemTo) {
+    std::mutex mutex;
+    std::unique_lock lock{mutex};
+    world.engine->Engine::tick(world.now);
+    world.engine->work(lock, world.now, Provider::Runner::client);
+    EXPECT_EQ(motor->turns, 0) << "clients do not advance devices";
+    world.engine->Engine::tick(world.now);
+    world.engine->work(lock, world.now, Provider::Runner::clock);
+    EXPECT_EQ(motor->turns, 1);
 }
 
 }  // namespace rois

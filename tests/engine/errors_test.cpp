@@ -165,34 +165,32 @@ TEST_F(Errors, InTheStatusAreTheStatus) {
 }
 
 TEST_F(Errors, BeforeAnythingRunsAreTheAnswer) {
-    for (auto const* call : {"refusal", "reconcile"}) {
-        robot.throws_in = {call};
-        auto const executed = desk.execute(go(""));
-        EXPECT_EQ(executed.return_code, ReturnCode::error) << call;
-        EXPECT_EQ(executed.reason, "command_unit_list[1]: the component 'navigation' failed") << call;
-        EXPECT_EQ(desk.set_parameter("navigation", {}).return_code, ReturnCode::error) << call;
-    }
+    robot.throws_in = {"prepare"};
+    auto const executed = desk.execute(go(""));
+    EXPECT_EQ(executed.return_code, ReturnCode::error);
+    EXPECT_EQ(executed.reason, "command_unit_list[1]: the component 'navigation' failed");
+    EXPECT_EQ(desk.set_parameter("navigation", {}).return_code, ReturnCode::error);
     EXPECT_THAT(robot.told, IsEmpty());
     EXPECT_EQ(in_words(desk.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time");
 }
 
-TEST_F(Errors, BetweenCheckAndRunEndTheCommand) {
+TEST_F(Errors, WhenACommandIsPreparedAgainEndIt) {
     desk.execute(after(200ms, go("go")), go("and on"));
-    desk.execute(after(400ms, named("store", set("navigation", {integer("time_limit", 1)}))));
-    robot.throws_in = {"reconcile"};
-    world.advance(400ms);
+    desk.set_parameter("navigation", {integer("time_limit", 1)});
+    desk.heard();
+    robot.throws_in = {"prepare"};
+    world.advance(200ms);
     EXPECT_THAT(desk.heard(),
-                ElementsAre("1 completed go ERROR", "2 completed and on ABORT", "3 COMPONENT_INTERNAL_ERROR navigation",
-                            "4 completed store ERROR", "5 COMPONENT_INTERNAL_ERROR navigation"));
-    EXPECT_THAT(robot.told, IsEmpty());
-    EXPECT_EQ(in_words(desk.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time");
+                ElementsAre("2 completed go ERROR", "3 completed and on ABORT", "4 COMPONENT_INTERNAL_ERROR navigation"));
+    EXPECT_THAT(robot.told, ElementsAre("parameters_changed"));
 }
 
-TEST_F(Errors, InReadingParametersAreTheAnswer) {
-    robot.throws_in = {"readable_parameters"};
-    EXPECT_EQ(desk.get_parameter("navigation").return_code, ReturnCode::error);
-    EXPECT_EQ(desk.query("get_parameter", equal("component_ref", "navigation")).return_code, ReturnCode::error);
-    EXPECT_THAT(desk.heard(), Contains("1 COMPONENT_INTERNAL_ERROR navigation"));
+TEST_F(Errors, InReadingParametersLeaveTheLastOnes) {
+    desk.bind("speech");
+    world["speech"].throws_in = {"readable_parameters"};
+    EXPECT_EQ(desk.status_of("speech"), "ERROR");
+    EXPECT_THAT(in_words(desk.get_parameter("speech").parameters), HasSubstr("synthesizable_languages=en|ja"));
+    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR speech")) << "reported once";
 }
 
 TEST_F(Errors, AParameterThatIsNotInTheProfileIsLeftOut) {
@@ -200,25 +198,10 @@ TEST_F(Errors, AParameterThatIsNotInTheProfileIsLeftOut) {
     EXPECT_EQ(in_words(desk.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time");
 }
 
-TEST_F(Errors, InStatusWhenStoppedMakeTheStartAbort) {
-    robot.throws_in = {"status_when_stopped"};
-    desk.execute(go("go"));
-    desk.execute(named("stop", stop("navigation")));
-    EXPECT_THAT(desk.heard(),
-                ElementsAre("1 completed go ABORT", "2 completed stop OK", "3 COMPONENT_INTERNAL_ERROR navigation"));
-}
-
 TEST_F(Errors, InTheDescriptionComeTooLateToMatter) {
     robot.throws_in = {"description"};
     EXPECT_THAT(desk.search(), ElementsAre("detection", "navigation", "speech"));
     EXPECT_EQ(desk.execute(go("go")).return_code, ReturnCode::ok);
-}
-
-TEST_F(Errors, OfACommandThatTheComponentDoesNotImplementAreReported) {
-    robot.throws_in = {"nothing performed"};
-    desk.execute(named("dock", command("dock", "navigation")));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock ERROR", "2 COMPONENT_INTERNAL_ERROR navigation"));
-    EXPECT_THAT(in_words(desk.detail_of(desk.last_heard<ReceiveError>().error_id).results.parameters), HasSubstr("'dock'"));
 }
 
 // --- Wrong answers ---

@@ -122,13 +122,20 @@ void Stage::advance(Instant) {
 }
 
 ScriptedComponent::ScriptedComponent(Part const& part, std::function<void(std::function<void()>)> happen)
-    : on_start{part.on_start}, part_{part}, happen_{std::move(happen)} {
+    : on_start{part.on_start},
+      part_{part},
+      happen_{std::move(happen)},
+      seen_{{.status = status_now, .location = {}, .parameters = {}}} {
     description_.ref = {.code = part.ref, .authority = "OMG", .codebook_ref = {}, .version = {}};
     description_.engine = part.engine;
     description_.crs = part.crs;
     description_.positions = part.positions;
     description_.codebooks = part.codebooks;
     description_.moves = part.moves;
+    description_.provider = "stage";
+    description_.returns_at_once = true;
+    description_.alternatives = part.mandatory;
+    description_.status_when_stopped = part.status_when_stopped;
     description_.profile = std::make_shared<ComponentProfile const>(part.profile);
 }
 
@@ -139,27 +146,27 @@ void ScriptedComponent::called(std::string const& name) const {
 }
 
 void ScriptedComponent::begins() {
-    happen_([this] { port_->started(latest_); });
+    happen_([this] { port().started(latest_); });
 }
 
 void ScriptedComponent::stands_still() {
-    happen_([this] { port_->halted(); });
+    happen_([this] { confirm_halt(); });
 }
 
 void ScriptedComponent::finishes(CompletedStatus status, Results results, Afterwards afterwards) {
-    happen_([this, status, results, afterwards] { port_->completed(latest_, status, results, afterwards); });
+    happen_([this, status, results, afterwards] { port().completed(latest_, status, results, afterwards); });
 }
 
 void ScriptedComponent::answers(CommandHandle command, CompletedStatus status) {
-    happen_([this, command, status] { port_->completed(command, status); });
+    happen_([this, command, status] { port().completed(command, status); });
 }
 
 void ScriptedComponent::fires(std::string const& event_type, ParameterList results, std::vector<Located> located) {
-    happen_([this, event_type, results, located] { port_->event(event_type, {results, located}); });
+    happen_([this, event_type, results, located] { port().event(event_type, {results, located}); });
 }
 
 void ScriptedComponent::reports(ErrorType type, std::string const& text) {
-    happen_([this, type, text] { port_->error(type, text); });
+    happen_([this, type, text] { port().error(type, text); });
 }
 
 ComponentDescription const& ScriptedComponent::description() const {
@@ -172,35 +179,29 @@ ComponentStatus ScriptedComponent::status() const {
     return status_now;
 }
 
-std::optional<std::string> ScriptedComponent::refusal(std::string_view command_type, ParameterList const& parameters) const {
-    called("refusal");
-    if (command_type != "start") return {};
+Prepared ScriptedComponent::prepare(std::string_view command_type, ParameterList const& parameters) {
+    called("prepare");
+    if (command_type == "set_parameter")
+        return [this, parameters](CommandHandle, Instant now) { parameters_changed(parameters, now); };
+    if (command_type != "start")
+        return [this, type = std::string{command_type}, parameters](CommandHandle command, Instant) {
+            perform(command, type, parameters);
+        };
     for (auto const& group : part_.mandatory)
         if (std::ranges::none_of(group, [&](auto const& name) { return find(parameters, name) != nullptr; }))
-            return "the parameter " + group.front() + " is mandatory";
-    return {};
+            return Refused{"the parameter " + group.front() + " is mandatory"};
+    return [this, parameters](CommandHandle command, Instant) { start(command, parameters); };
 }
 
-// The newest of a group of alternatives replaces the others.
-void ScriptedComponent::reconcile(ParameterList& stored, ParameterList const& arrived) const {
-    called("reconcile");
-    for (auto const& group : part_.mandatory)
-        for (auto const& name : group)
-            if (find(arrived, name) != nullptr)
-                std::erase_if(stored, [&](Parameter const& p) {
-                    return p.name != name && std::ranges::find(group, p.name) != group.end();
-                });
-}
-
-void ScriptedComponent::start(CommandHandle command, ParameterList const& parameters, Instant) {
+void ScriptedComponent::start(CommandHandle command, ParameterList const& parameters) {
     told.emplace_back("start");
     latest_ = command;
     started_with = parameters;
     called("start");
     if (on_start == OnStart::stays_silent) return;
-    port_->started(command);
-    if (on_start == OnStart::becomes_active) port_->completed(command, CompletedStatus::ok, {}, Afterwards::active);
-    if (on_start == OnStart::is_done) port_->completed(command, CompletedStatus::ok);
+    port().started(command);
+    if (on_start == OnStart::becomes_active) port().completed(command, CompletedStatus::ok, {}, Afterwards::active);
+    if (on_start == OnStart::is_done) port().completed(command, CompletedStatus::ok);
 }
 
 Halted ScriptedComponent::halt(Instant) {
@@ -225,18 +226,18 @@ void ScriptedComponent::parameters_changed(ParameterList const& parameters, Inst
     called("parameters_changed");
 }
 
-void ScriptedComponent::perform(CommandHandle command, std::string_view command_type, ParameterList const& arguments,
-                                Instant now) {
+void ScriptedComponent::perform(CommandHandle command, std::string_view command_type, ParameterList const& arguments) {
     told.emplace_back(command_type);
     latest_ = command;
     started_with = arguments;
     called("perform");
-    if (throws_in.contains("nothing performed")) Component::perform(command, command_type, arguments, now);
 }
 
-CompletedStatus ScriptedComponent::status_when_stopped() const {
-    called("status_when_stopped");
-    return part_.status_when_stopped;
+bool ScriptedComponent::has_changed() const {
+    ComponentState now{status_now, where, reads.value_or(ParameterList{})};
+    bool const throws =
+        throws_in.contains("status") || throws_in.contains("location") || throws_in.contains("readable_parameters");
+    return throws || throws_in.contains("more than is known") || std::exchange(seen_, now) != now;
 }
 
 std::optional<Located> ScriptedComponent::location() const {
@@ -254,9 +255,9 @@ ParameterList ScriptedComponent::readable_parameters() const {
 
 std::vector<Results> ScriptedComponent::query(std::string_view query_type, Instant now) {
     called("query");
-    if (throws_in.contains("nothing known")) return Component::query(query_type, now);
+    if (throws_in.contains("nothing known")) return LocalComponent::query(query_type, now);
     if (!knows.empty()) return knows;
-    if (query_type != "route") return Component::query(query_type, now);
+    if (query_type != "route") return LocalComponent::query(query_type, now);
     return {{{Parameter{"length", {"double", {}, {}, {}}, {throws_in.contains("nothing right") ? "far" : "2.5"}}}, {}}};
 }
 

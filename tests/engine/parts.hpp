@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/component.hpp"
 #include "engine/engine.hpp"
+#include "engine/local_component.hpp"
 #include "types/profiles.hpp"
 
 namespace rois {
@@ -43,9 +43,10 @@ struct Part {
     std::vector<std::string> positions{};
     std::vector<Codebooks> codebooks{};  // for its identifiers
     bool moves = false;
+    bool confirms_binding = false;
 };
 
-class ScriptedComponent final : public Component {
+class ScriptedComponent final : public LocalComponent {
 public:
     ScriptedComponent(Part const& part, std::function<void(std::function<void()>)> happen);
 
@@ -58,7 +59,7 @@ public:
     bool halts_later = false;          // `halt` returns `not_yet`
     std::vector<std::string> told;     // the calls that it received
     ParameterList started_with;
-    ParameterList changed_to;            // by the last parameters_changed
+    ParameterList changed_to;            // by the last set_parameter, or the end of a binding
     std::optional<ParameterList> reads;  // result of readable_parameters, instead of the usual one
     std::vector<Results> knows;          // rows of answers to queries, instead of the usual one
     std::optional<Located> where;        // nullopt: unknown
@@ -73,29 +74,29 @@ public:
     CommandHandle latest() const { return latest_; }  // the newest command that it received
 
     ComponentDescription const& description() const override;
-    void attach(ComponentPort& port) override { port_ = &port; }
     ComponentStatus status() const override;
-    std::optional<std::string> refusal(std::string_view command_type, ParameterList const& parameters) const override;
-    void reconcile(ParameterList& stored, ParameterList const& arrived) const override;
-    void start(CommandHandle, ParameterList const& parameters, Instant now) override;
+    Prepared prepare(std::string_view command_type, ParameterList const& parameters) override;
     Halted halt(Instant now) override;
     void suspend(Instant now) override;
     void resume(Instant now) override;
     void parameters_changed(ParameterList const& parameters, Instant now) override;
-    void perform(CommandHandle, std::string_view command_type, ParameterList const& arguments, Instant now) override;
-    CompletedStatus status_when_stopped() const override;
     std::optional<Located> location() const override;
     ParameterList readable_parameters() const override;
     std::vector<Results> query(std::string_view query_type, Instant now) override;
 
+    // Returns whether the test has changed its state since the engine last saw it.
+    bool has_changed() const;
+
 private:
     void called(std::string const& name) const;
+    void start(CommandHandle, ParameterList const& parameters);
+    void perform(CommandHandle, std::string_view command_type, ParameterList const& arguments);
 
     Part part_;
     ComponentDescription description_;
     std::function<void(std::function<void()>)> happen_;
-    ComponentPort* port_ = nullptr;
     CommandHandle latest_{};
+    mutable std::optional<ComponentState> seen_;
 };
 
 // Included by nearly all profiles.

@@ -99,8 +99,8 @@ World::World(std::vector<Part> const& parts, EngineSettings settings) {
     EngineProfile profile;
     profile.object = {
         .identifier = "urn:x-rois:def:HRIEngine:test", .code_space = {}, .name = "main", .description = {}, .meta_data = {}};
-    engine = std::make_unique<Engine>(std::move(profile), std::vector<ComponentProfile>{common}, settings, *this,
-                                      [this] { return "secret-" + std::to_string(++secrets_); });
+    engine = std::make_unique<WorkingEngine>(std::move(profile), std::vector<ComponentProfile>{common}, settings, *this,
+                                             [this] { return "secret-" + std::to_string(++secrets_); });
     for (auto const& part : parts) {
         auto component = std::make_unique<ScriptedComponent>(part, [this](auto what) { happen(std::move(what)); });
         components_.emplace(part.ref, component.get());
@@ -110,7 +110,7 @@ World::World(std::vector<Part> const& parts, EngineSettings settings) {
 }
 
 void World::change(std::vector<std::string> going, std::vector<Part> const& coming) {
-    ComponentChange change{std::move(going), {}, {common}};
+    ComponentChange change{std::move(going), {}, {.profiles = {common}, .frames = {}, .places = {}}};
     std::map<std::string, ScriptedComponent*> added;
     for (auto const& part : coming) {
         auto component = std::make_unique<ScriptedComponent>(part, [this](auto what) { happen(std::move(what)); });
@@ -142,6 +142,12 @@ void World::advance(std::chrono::milliseconds duration) {
         duration -= passed;
         engine->tick(now);
     }
+}
+
+// The scripted components notice what the test has changed.
+void World::let_look() {
+    bool const changed = std::ranges::any_of(components_, [](auto const& each) { return each.second->has_changed(); });
+    if (changed) happen([] {});
 }
 
 void World::happen(std::function<void()> what) {

@@ -16,8 +16,8 @@
 #include <variant>
 #include <vector>
 
-#include "engine/engine.hpp"
 #include "engine/parts.hpp"
+#include "engine/working_engine.hpp"
 #include "types/messages.hpp"
 
 namespace rois {
@@ -115,8 +115,11 @@ public:
     // Runs this as a part of the devices' next advance.
     void happen(std::function<void()> what);
 
-    std::variant<Reply, Refusal> say(SessionId const& session, Operation const& operation) {
-        return engine->handle(session, operation, now);
+    Said say(SessionId const& session, Operation const& operation) { return begin_to_say(session, operation)->said.value(); }
+    // The answer may come later.
+    std::shared_ptr<TestedOperation> begin_to_say(SessionId const& session, Operation const& operation) {
+        let_look();
+        return engine->begin_to_handle(session, operation, now);
     }
     std::uint64_t stray_answers() const { return engine->statistics().stray_answers; }
 
@@ -124,9 +127,11 @@ public:
 
     Instant now{Steady{std::chrono::hours{1}}, Utc{std::chrono::hours{24 * 20'777 + 12}}};  // 2026-11-20, noon
     std::map<SessionId, int> notified;  // number of Outbox::notify calls, by session
-    std::unique_ptr<Engine> engine;
+    std::unique_ptr<WorkingEngine> engine;
 
 private:
+    void let_look();
+
     std::shared_ptr<Stage> stage_ = std::make_shared<Stage>();
     std::map<std::string, ScriptedComponent*> components_;
     int secrets_ = 0;

@@ -30,7 +30,7 @@ TEST_P(ChangeWithoutMemory, HappensWholeOrNotAtAll) {
         desk.bind("navigation");
         desk.subscribe("reached_target", equal("component_ref", "navigation"));
         desk.execute(go("go"), after(100ms, go("later")));
-        ComponentChange change{{"navigation"}, {}, {common}};
+        ComponentChange change{{"navigation"}, {}, {.profiles = {common}, .frames = {}, .places = {}}};
         auto driving = std::make_unique<DrivingComponent>("base", navigation);
         driving->drives = true;
         auto const& base = *driving;

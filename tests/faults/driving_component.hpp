@@ -12,12 +12,14 @@
 namespace rois {
 
 // With `confirms_late`, confirms a halt later.
-class DrivingComponent final : public Component {
+class DrivingComponent final : public LocalComponent {
 public:
     explicit DrivingComponent(std::string const& ref, Part const& like) {
         description_.ref = Application::identifier(ref);
         description_.profile = std::make_shared<ComponentProfile const>(like.profile);
         description_.moves = true;
+        description_.provider = "stage";
+        description_.returns_at_once = true;
     }
 
     std::atomic<bool> drives = false;
@@ -27,21 +29,21 @@ public:
     // Reports of the component.
     void arrive(Results results) {
         drives = false;
-        port_->completed(std::exchange(command_, {}), CompletedStatus::ok, std::move(results));
+        port().completed(std::exchange(command_, {}), CompletedStatus::ok, std::move(results));
     }
     void pass(std::string const& target) {
-        port_->event("reached_target", {{text("target", target), value("is_final_target", "bool", {"false"})}, {}});
+        port().event("reached_target", {{text("target", target), value("is_final_target", "bool", {"false"})}, {}});
     }
     void stand_still() {
-        if (std::exchange(asked_to_halt_, false)) port_->halted();
+        if (std::exchange(asked_to_halt_, false)) confirm_halt();
     }
 
     ComponentDescription const& description() const override { return description_; }
-    void attach(ComponentPort& port) override { port_ = &port; }
     ComponentStatus status() const override { return drives ? ComponentStatus::busy : ComponentStatus::ready; }
-    std::optional<std::string> refusal(std::string_view, ParameterList const&) const override { return {}; }
-    void start(CommandHandle command, ParameterList const&, Instant) override { go(command); }
-    void perform(CommandHandle command, std::string_view, ParameterList const&, Instant) override { go(command); }
+    Prepared prepare(std::string_view command_type, ParameterList const&) override {
+        if (command_type == "set_parameter") return [](CommandHandle, Instant) {};
+        return [this](CommandHandle command, Instant) { go(command); };
+    }
     Halted halt(Instant) override {
         drives = false;
         asked_to_halt_ = confirms_late;
@@ -55,11 +57,10 @@ private:
         on_start();
         drives = true;
         command_ = command;
-        port_->started(command);
+        port().started(command);
     }
 
     ComponentDescription description_;
-    ComponentPort* port_ = nullptr;
     CommandHandle command_{};
     bool asked_to_halt_ = false;
 };

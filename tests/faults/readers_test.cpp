@@ -45,7 +45,9 @@ TEST(AReaderThatIsBeingDestroyed, DoesNotAffectRequestsOfOthers) {
     Troubles troubles{telemetry, [] {}};
     Wakes wakes{[] {}, troubles};
     auto const ask = [&](SessionId const& session, std::string const& operation) {
-        return gateway.answer(requests, session, "<" + operation + " xmlns=\"urn:x-rois:psm:xml:message:1\"/>", Via::websocket);
+        return gateway
+            .answer(requests, session, "<" + operation + " xmlns=\"urn:x-rois:psm:xml:message:1\"/>", Via::websocket, {})
+            .take();
     };
     auto const session = ask({}, "connect").session;
     auto const other = ask({}, "connect").session;

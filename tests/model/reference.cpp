@@ -79,6 +79,7 @@ std::string Reference::disconnect(int session) {
     for (auto& component : components_) {
         if (component.bound_to != session) continue;
         component.start = nullptr;
+        component.waiting.clear();
         component.is_active = component.is_suspended = false;
         end_binding(component);
     }
@@ -205,24 +206,56 @@ void Reference::run(SharedCommand const& command) {
     if (command->type == "start") return start(command);
     if (command->type == "stop") {
         halt(component, is(Flaw::stop_completes_start_with_ok) ? "OK" : "ABORT");
-        return end(command, "OK");
+        component.waiting.push_back(command);
+        return;
     }
     bool const suspends = command->type == "suspend";
     if (suspends ? !is_busy || component.is_suspended : !component.is_suspended) return end(command, "ERROR");
-    component.is_suspended = suspends;
-    end(command, "OK");
+    reports_.push_back({suspends ? Report::Of::suspend : Report::Of::resume, command->component, component.halts, command});
 }
 
 void Reference::start(SharedCommand const& command) {
     auto& component = components_[at(command->component)];
-    halt(component, "ABORT");
+    if (component.start || component.is_active) halt(component, "ABORT");
+    if (component.unconfirmed_halt != 0) return component.waiting.push_back(command);
     component.start = command;
-    if (command->component == detection) activating_.push_back(command);
+    if (command->component == detection) reports_.push_back({Report::Of::start, command->component, component.halts, command});
 }
 
 void Reference::halt(Component& component, std::string const& status_of_start) {
     component.is_active = component.is_suspended = false;
+    ++component.halts;
+    if (component.unconfirmed_halt == 0) component.unconfirmed_halt = component.halts;
+    reports_.push_back({Report::Of::halt, static_cast<int>(&component - components_.data()), component.halts, nullptr});
     if (auto const running = std::exchange(component.start, nullptr)) end(running, status_of_start);
+    for (auto const& command : component.waiting)
+        if (command->type != "stop") abort(command);
+}
+
+void Reference::take(Report const& report) {
+    auto& component = components_[at(report.component)];
+    if (report.of == Report::Of::halt) {
+        if (component.unconfirmed_halt == 0 || report.halt < component.unconfirmed_halt) return;
+        component.unconfirmed_halt = 0;
+        for (auto const& command : std::exchange(component.waiting, {})) {
+            if (command->state != "RUNNING") continue;
+            if (command->type == "stop")
+                end(command, "OK");
+            else
+                start(command);
+        }
+        return;
+    }
+    if (report.command->state != "RUNNING") return;
+    if (report.of == Report::Of::start) {
+        bool const was_suspended = component.is_suspended;
+        end(report.command, "OK");
+        component.is_active = true;
+        component.is_suspended = was_suspended;
+        return;
+    }
+    if (component.halts == report.halt) component.is_suspended = report.of == Report::Of::suspend;
+    end(report.command, "OK");
 }
 
 void Reference::abort(SharedCommand const& command) {
@@ -263,21 +296,16 @@ void Reference::end(SharedCommand const& command, std::string const& status) {
 }
 
 void Reference::settle() {
-    while (!turns_.empty() || !activating_.empty()) {
+    while (!turns_.empty() || !reports_.empty()) {
         if (!turns_.empty()) {
             auto const command = turns_.front();
             turns_.pop_front();
             run(command);
             continue;
         }
-        auto const command = activating_.front();
-        activating_.pop_front();
-        if (command->state != "RUNNING") continue;
-        auto& component = components_[at(command->component)];
-        bool const was_suspended = component.is_suspended;
-        end(command, "OK");
-        component.is_active = true;
-        component.is_suspended = was_suspended;
+        auto const report = reports_.front();
+        reports_.pop_front();
+        take(report);
     }
 }
 

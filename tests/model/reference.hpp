@@ -69,7 +69,10 @@ private:
         SharedCommand start{};  // the running `start`
         bool is_active = false;
         bool is_suspended = false;
-        std::string default_value{};  // of the parameter
+        int halts = 0;
+        int unconfirmed_halt = 0;              // the first halt that is not confirmed; 0: none
+        std::vector<SharedCommand> waiting{};  // for its confirmation
+        std::string default_value{};           // of the parameter
         std::string value = default_value;
     };
     struct Session {
@@ -78,6 +81,13 @@ private:
         int subscriptions = 0;
         std::uint64_t sequence = 0;
         std::vector<std::string> told;
+    };
+    // A component's answer to a call, which it makes when all turns are over.
+    struct Report {
+        enum class Of { halt, start, suspend, resume } of;
+        int component;
+        int halt;               // Component::halts at the call
+        SharedCommand command;  // null for a halt
     };
     struct Due {
         int time;
@@ -99,6 +109,7 @@ private:
     void give_turn(SharedCommand const&);
     void run(SharedCommand const&);
     void start(SharedCommand const&);
+    void take(Report const&);
     void end(SharedCommand const&, std::string const& status);
     void abort(SharedCommand const&);
     void halt(Component&, std::string const& status_of_start);
@@ -113,8 +124,8 @@ private:
     std::array<Component, 3> components_{Component{.default_value = "0"}, Component{.default_value = "50"}, Component{}};
     std::vector<std::unique_ptr<Execution>> executions_;  // also those that have ended
     std::deque<SharedCommand> turns_;                     // commands whose turn has come
-    std::deque<SharedCommand> activating_;                // starts of functions, which complete after all turns
-    std::vector<Due> due_;                                // delays, in the order of their beginnings
+    std::deque<Report> reports_;
+    std::vector<Due> due_;  // delays, in the order of their beginnings
     int time_ = 0;
 };
 

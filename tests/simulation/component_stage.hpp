@@ -101,6 +101,7 @@ public:
     void step() {
         now_ = now_ + Hall::step_length;
         simulation_->step(now_);
+        for (auto const& [ref, operated] : operated_) operated->after_step();
     }
     void run(Seconds seconds) {
         for (auto const end = hall().now() + world_time(seconds); hall().now() < end;) step();

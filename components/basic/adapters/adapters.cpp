@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view adapter_urn = "urn:x-rois:def:adapter:simulation::";
 
 // Makes the component of one robot. The profile includes the messages of its sub components.
-using Make = std::function<std::unique_ptr<Component>(Context, ComponentProfile const&)>;
+using Make = std::function<std::unique_ptr<LocalComponent>(Context, ComponentProfile const&)>;
 
 std::map<std::string, Make, std::less<>> adapters(std::shared_ptr<xml::Schemas const> const& schemas, Streams streams) {
     std::map<std::string, Make, std::less<>> all;
@@ -58,7 +58,7 @@ std::string adapter_of(ComponentProfile const& profile, std::vector<ComponentPro
 }
 
 std::vector<std::unique_ptr<Component>> Adapters::components(ComponentProfile const& profile,
-                                                             std::vector<ComponentProfile> const& known) const {
+                                                                  std::vector<ComponentProfile> const& known) const {
     auto const name = adapter_of(profile, known, streams());
     if (name.empty()) return {};
     auto const make = adapters(schemas_, streams()).at(name);

@@ -9,15 +9,15 @@
 namespace rois::basic {
 
 // Validates grammars against the schemas.
-std::unique_ptr<Component> srgs_speech_recognition(Context, std::shared_ptr<xml::Schemas const>);
-std::unique_ptr<Component> person_gender_identification(Context);
-std::unique_ptr<Component> person_age_recognition(Context);
+std::unique_ptr<LocalComponent> srgs_speech_recognition(Context, std::shared_ptr<xml::Schemas const>);
+std::unique_ptr<LocalComponent> person_gender_identification(Context);
+std::unique_ptr<LocalComponent> person_age_recognition(Context);
 
 // Navigation of a wheelchair, with brakes and state.
-std::unique_ptr<Component> wheelchair_robot(Context);
+std::unique_ptr<LocalComponent> wheelchair_robot(Context);
 
 // A component without behaviour. Commands complete at once and queries are answered, both with the default values in the profile.
 // `whole` includes the messages of the sub components.
-std::unique_ptr<Component> stand_in(Context, ComponentProfile whole);
+std::unique_ptr<LocalComponent> stand_in(Context, ComponentProfile whole);
 
 }  // namespace rois::basic

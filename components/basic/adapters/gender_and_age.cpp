@@ -51,11 +51,11 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> person_gender_identification(Context context) {
+std::unique_ptr<LocalComponent> person_gender_identification(Context context) {
     return std::make_unique<GenderIdentification>(std::move(context));
 }
 
-std::unique_ptr<Component> person_age_recognition(Context context) {
+std::unique_ptr<LocalComponent> person_age_recognition(Context context) {
     return std::make_unique<AgeRecognition>(std::move(context));
 }
 

@@ -172,7 +172,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> srgs_speech_recognition(Context context, std::shared_ptr<xml::Schemas const> schemas) {
+std::unique_ptr<LocalComponent> srgs_speech_recognition(Context context, std::shared_ptr<xml::Schemas const> schemas) {
     return std::make_unique<SrgsSpeechRecognition>(std::move(context), std::move(schemas));
 }
 

@@ -21,9 +21,11 @@ class StandIn final : public ContinuousFunction {
 public:
     StandIn(Context context, ComponentProfile whole) : ContinuousFunction{std::move(context)}, whole_{std::move(whole)} {}
 
-    void perform(CommandHandle command, std::string_view command_type, ParameterList const&, Instant) override {
+    Prepared prepare_command(std::string_view command_type, ParameterList const&) override {
         auto const* message = find_message(whole_, MessageKind::command, command_type);
-        port().completed(command, CompletedStatus::ok, message == nullptr ? Results{} : defaults_of(message->results));
+        return [this, results = message == nullptr ? Results{} : defaults_of(message->results)](CommandHandle command, Instant) {
+            port().completed(command, CompletedStatus::ok, results);
+        };
     }
 
     std::vector<Results> query(std::string_view query_type, Instant) override {
@@ -47,7 +49,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> stand_in(Context context, ComponentProfile whole) {
+std::unique_ptr<LocalComponent> stand_in(Context context, ComponentProfile whole) {
     return std::make_unique<StandIn>(std::move(context), std::move(whole));
 }
 

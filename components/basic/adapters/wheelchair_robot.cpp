@@ -25,10 +25,13 @@ class WheelchairRobot final : public Navigation {
 public:
     explicit WheelchairRobot(Context context) : Navigation{std::move(context), "wheelchair_robot"} {}
 
-    void parameters_changed(ParameterList const& parameters, Instant) override { limit_speed(parameters); }
+    void parameters_changed(ParameterList const& parameters, Instant) override { base().limit_speed(speed_of(parameters)); }
 
-    void perform(CommandHandle command, std::string_view, ParameterList const& arguments, Instant) override {
-        bool const on = is_true(arguments, "status");
+    Prepared prepare_command(std::string_view, ParameterList const& arguments) override {
+        return [this, on = is_true(arguments, "status")](CommandHandle command, Instant) { brake(command, on); };
+    }
+
+    void brake(CommandHandle command, bool on) {
         base().brake(on);
         if (auto const earlier = std::exchange(braking_, {}))
             port().completed(*earlier, on ? CompletedStatus::ok : CompletedStatus::abort, {}, Afterwards::as_before,
@@ -71,23 +74,24 @@ private:
         return Navigation::parameter_problem(parameters);
     }
 
-    std::optional<std::string> start_problem(ParameterList const& parameters) const override {
-        if (!goes_by_tag(parameters)) return Navigation::start_problem(parameters);
-        if (!text_of(parameters, "behaviour_tag").empty()) return {};
-        return "parameter 'behaviour_tag' is mandatory when 'navigation_mode' is 'Tag'";
-    }
-
-    void begin(ParameterList const& parameters) override {
-        limit_speed(parameters);
-        if (!goes_by_tag(parameters)) return Navigation::begin(parameters);
-        visit({std::string{text_of(parameters, "behaviour_tag")}}, parameters);
+    std::variant<Plan, Refused> plan(ParameterList const& parameters) override {
+        std::string tag{text_of(parameters, "behaviour_tag")};
+        if (goes_by_tag(parameters) && tag.empty())
+            return Refused{"parameter 'behaviour_tag' is mandatory when 'navigation_mode' is 'Tag'"};
+        auto way = goes_by_tag(parameters) ? visit({std::move(tag)}, parameters) : Navigation::plan(parameters);
+        auto const* set_out = std::get_if<Plan>(&way);
+        if (set_out == nullptr) return way;
+        return [this, speed = speed_of(parameters), set_out = *set_out] {
+            base().limit_speed(speed);
+            set_out();
+        };
     }
 
     static bool goes_by_tag(ParameterList const& parameters) { return text_of(parameters, "navigation_mode") == "Tag"; }
 
-    void limit_speed(ParameterList const& parameters) {
+    static std::optional<double> speed_of(ParameterList const& parameters) {
         auto const speed = to_double(text_of(parameters, "preferred_max_speed"));
-        base().limit_speed(speed ? std::optional{*speed / 1000} : std::nullopt);
+        return speed ? std::optional{*speed / 1000} : std::nullopt;
     }
 
     State state() const {
@@ -132,6 +136,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> wheelchair_robot(Context context) { return std::make_unique<WheelchairRobot>(std::move(context)); }
+std::unique_ptr<LocalComponent> wheelchair_robot(Context context) {
+    return std::make_unique<WheelchairRobot>(std::move(context));
+}
 
 }  // namespace rois::basic

@@ -1,6 +1,7 @@
 #include "basic/base/robot_component.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "basic/base/parameter_reading.hpp"
@@ -16,6 +17,8 @@ Context make_context(std::shared_ptr<Body> body, std::shared_ptr<media::Media> m
     ComponentDescription description{.ref = std::move(identifier),
                                      .engine = body->name(),
                                      .profile = std::move(profile),
+                                     .provider = body->provider(),
+                                     .returns_at_once = body->returns_at_once(),
                                      .crs = body->uses_engines_frame() ? "" : body->crs(),
                                      .positions = {},
                                      .codebooks = {}};
@@ -32,6 +35,11 @@ Context with_identifier_parameter(Context context, std::string parameter, std::v
     return context;
 }
 
+Context with_alternatives(Context context, std::vector<std::string> parameters) {
+    context.description.alternatives.push_back(std::move(parameters));
+    return context;
+}
+
 Context with_motion(Context context) {
     context.description.moves = true;
     return context;
@@ -39,10 +47,12 @@ Context with_motion(Context context) {
 
 RobotComponent::RobotComponent(Context context) : context_{std::move(context)} {}
 
-RobotComponent::~RobotComponent() { body().part(*this); }
+RobotComponent::~RobotComponent() {
+    if (is_attached()) body().part(*this);
+}
 
 void RobotComponent::attach(ComponentPort& port) {
-    port_ = &port;
+    LocalComponent::attach(port);
     observed_ = body().now();
     body().join(*this);
 }
@@ -53,11 +63,17 @@ std::optional<Located> RobotComponent::location() const {
     return located_entity("location", body().name(), body().pose(), 0, {});
 }
 
-std::optional<std::string> RobotComponent::refusal(std::string_view command_type, ParameterList const& parameters) const {
+Prepared RobotComponent::prepare(std::string_view command_type, ParameterList const& parameters) {
     bool const starts = command_type == "start";
-    if (!starts && command_type != "set_parameter") return command_problem(command_type, parameters);
-    if (auto problem = parameter_problem(parameters)) return problem;
-    return starts ? start_problem(parameters) : std::nullopt;
+    if (!starts && command_type != "set_parameter") return prepare_command(command_type, parameters);
+    if (auto problem = parameter_problem(parameters)) return Refused{std::move(*problem)};
+    if (starts) return prepare_start(parameters);
+    return [this, parameters](CommandHandle, Instant now) { parameters_changed(parameters, now); };
+}
+
+Prepared RobotComponent::prepare_command(std::string_view command_type, ParameterList const&) {
+    throw std::logic_error("the component's profile has the command '" + std::string{command_type} +
+                           "', but the component does not implement it");
 }
 
 Located RobotComponent::located_entity(std::string of, std::string ref, Pose const& pose, Metres height,
@@ -83,7 +99,12 @@ void RobotComponent::observe(Instant when) {
     on_step(when);
 }
 
-void ContinuousFunction::start(CommandHandle command, ParameterList const& parameters, Instant) {
+Prepared ContinuousFunction::prepare_start(ParameterList const& parameters) {
+    if (auto problem = start_problem(parameters)) return Refused{std::move(*problem)};
+    return [this, parameters](CommandHandle command, Instant) { start(command, parameters); };
+}
+
+void ContinuousFunction::start(CommandHandle command, ParameterList const& parameters) {
     state_ = State::active;
     apply(parameters);
     begin();
@@ -115,12 +136,16 @@ void ContinuousFunction::on_step(Instant when) {
     if (state_ == State::active) sense(when);
 }
 
-void Action::start(CommandHandle command, ParameterList const& parameters, Instant) {
-    command_ = command;
-    suspended_ = false;
-    elapsed_ = {};
-    begin(parameters);
-    if (command_) port().started(command);
+Prepared Action::prepare_start(ParameterList const& parameters) {
+    auto planned = plan(parameters);
+    if (auto* refused = std::get_if<Refused>(&planned)) return std::move(*refused);
+    return [this, begin = std::get<Plan>(std::move(planned))](CommandHandle command, Instant) {
+        command_ = command;
+        suspended_ = false;
+        elapsed_ = {};
+        begin();
+        if (command_) port().started(command);
+    };
 }
 
 Halted Action::halt(Instant) {
@@ -144,7 +169,7 @@ void Action::resume(Instant) {
 void Action::on_step(Instant) {
     if (halting_ && has_stopped()) {
         halting_ = false;
-        port().halted();
+        confirm_halt();
     }
     if (!command_ || suspended_) return;
     elapsed_ += step_length();

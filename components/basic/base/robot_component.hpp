@@ -2,14 +2,16 @@
 // actions end by themselves (navigation, speech).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "basic/body/body.hpp"
 #include "basic/body/wire_units.hpp"
-#include "engine/component.hpp"
+#include "engine/local_component.hpp"
 #include "media/media.hpp"
 
 namespace rois::basic {
@@ -27,6 +29,9 @@ Context with_position_parameter(Context, std::string parameter);
 // Declares that this parameter takes identifiers from these codebooks. The first codebook is the default.
 Context with_identifier_parameter(Context, std::string parameter, std::vector<std::string_view> const& codebooks);
 
+// Declares that only the newest of these parameters is stored, as the others are alternatives to it.
+Context with_alternatives(Context, std::vector<std::string> parameters);
+
 // Declares that the component moves the robot or a part of it (decision 33).
 Context with_motion(Context);
 
@@ -35,7 +40,7 @@ Context make_context(std::shared_ptr<Body>, std::shared_ptr<media::Media>, std::
                      std::shared_ptr<ComponentProfile const>);
 
 // Observes its body. Its status is UNINITIALIZED before the first observation.
-class RobotComponent : public Component, private Observer {
+class RobotComponent : public LocalComponent, private Observer {
 public:
     explicit RobotComponent(Context);
     ~RobotComponent() override;
@@ -46,13 +51,12 @@ public:
     void attach(ComponentPort&) final;
     ComponentStatus status() const final;
     std::optional<Located> location() const final;
-    std::optional<std::string> refusal(std::string_view command_type, ParameterList const&) const final;
+    Prepared prepare(std::string_view command_type, ParameterList const&) final;
 
 protected:
     Body& body() const { return *context_.body; }
     Perception const& perception() const { return body().perception(); }
     media::Media& media() const { return *context_.media; }
-    ComponentPort& port() { return *port_; }
     std::optional<Instant> const& last_step() const { return last_step_; }
     WorldTime step_length() const { return step_length_; }  // world time between the last two observations
 
@@ -70,18 +74,16 @@ protected:
     // The status after the first step: READY or WARNING.
     virtual ComponentStatus running_status() const { return ComponentStatus::ready; }
 
-    // Return an error for an invalid value, or for parameters with which `start` is impossible; nothing if valid. The values have
-    // been validated against their data types.
+    // Returns an error for an invalid value, nothing if all are valid. They have been validated against their data types.
     virtual std::optional<std::string> parameter_problem(ParameterList const&) const { return {}; }
-    virtual std::optional<std::string> start_problem(ParameterList const&) const { return {}; }
-    // Returns an error if a command of the profile is impossible with these arguments.
-    virtual std::optional<std::string> command_problem(std::string_view, ParameterList const&) const { return {}; }
+    // Prepares `start` with valid parameters, and a command of the component's own profile (LocalComponent::prepare).
+    virtual Prepared prepare_start(ParameterList const&) = 0;
+    virtual Prepared prepare_command(std::string_view command_type, ParameterList const& arguments);
 
 private:
     void observe(Instant when) final;
 
     Context context_;
-    ComponentPort* port_ = nullptr;
     std::optional<Instant> last_step_;
     WorldTime observed_{};  // the world time of the last observation
     WorldTime step_length_{};
@@ -92,13 +94,14 @@ class ContinuousFunction : public RobotComponent {
 public:
     using RobotComponent::RobotComponent;
 
-    void start(CommandHandle, ParameterList const&, Instant now) final;
     Halted halt(Instant now) final;
     void suspend(Instant now) final;
     void resume(Instant now) final;
     void parameters_changed(ParameterList const&, Instant now) final;
 
 protected:
+    // Returns an error for parameters with which the function cannot start.
+    virtual std::optional<std::string> start_problem(ParameterList const&) const { return {}; }
     // Resets the reports: everything sensed from now on counts as new.
     virtual void begin() = 0;
     // Applies new parameters; called before begin(), and on changes while active.
@@ -109,6 +112,8 @@ protected:
     virtual void resumed() {}
 
 private:
+    Prepared prepare_start(ParameterList const&) final;
+    void start(CommandHandle, ParameterList const&);
     void on_step(Instant when) final;
 
     enum class State : std::uint8_t { idle, active, suspended } state_ = State::idle;
@@ -119,14 +124,15 @@ class Action : public RobotComponent {
 public:
     using RobotComponent::RobotComponent;
 
-    void start(CommandHandle, ParameterList const&, Instant now) final;
     Halted halt(Instant now) final;
     void suspend(Instant now) final;
     void resume(Instant now) final;
 
 protected:
-    // May end the action at once.
-    virtual void begin(ParameterList const&) = 0;
+    // A function that begins the action, which may end at once.
+    using Plan = std::function<void()>;
+    // Reads the parameters. Returns how to begin the action, or why that is impossible.
+    virtual std::variant<Plan, Refused> plan(ParameterList const&) = 0;
     // Called after each step while running and not suspended.
     virtual void act() = 0;
     // Ends the motion, suspends it, resumes it.
@@ -141,6 +147,7 @@ protected:
     WorldTime elapsed() const { return elapsed_; }
 
 private:
+    Prepared prepare_start(ParameterList const&) final;
     void on_step(Instant when) final;
 
     std::optional<CommandHandle> command_;

@@ -54,7 +54,7 @@ public:
 };
 
 // One robot. Its components share it: each holds a shared_ptr. Except for Camera::picture(), all functions of the body and its
-// parts are called by the engine's thread, one call at a time, and return at once. Lengths are in metres, angles in radians, and
+// parts are called one at a time, but not always on the same thread. Lengths are in metres, angles in radians, and
 // poses in the frame crs(). A failure of the hardware is an exception: the engine ends the command with ERROR and reports
 // COMPONENT_INTERNAL_ERROR.
 class Body {
@@ -62,6 +62,12 @@ public:
     virtual ~Body() = default;
 
     virtual std::string const& name() const = 0;  // the robot's name; also the name of its sub engine
+
+    // The components of all bodies with the same provider are called one at a time (ComponentDescription): such bodies may share
+    // data, as the robots of a simulated world do. If a function may block, the provider has a thread of its own.
+    virtual std::string provider() const { return name(); }
+    virtual bool returns_at_once() const { return false; }
+
     virtual EntityId self() const = 0;
 
     // The frame of all poses of the body and its parts.

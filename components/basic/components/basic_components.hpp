@@ -12,28 +12,28 @@
 
 namespace rois::basic {
 
-std::unique_ptr<Component> system_information(Context);
-std::unique_ptr<Component> person_detection(Context);
-std::unique_ptr<Component> person_localization(Context);
-std::unique_ptr<Component> person_identification(Context);
-std::unique_ptr<Component> face_detection(Context);
-std::unique_ptr<Component> face_localization(Context);
-std::unique_ptr<Component> sound_detection(Context);
-std::unique_ptr<Component> sound_localization(Context);
-std::unique_ptr<Component> speech_recognition(Context);
-std::unique_ptr<Component> gesture_recognition(Context);
-std::unique_ptr<Component> speech_synthesis(Context);
-std::unique_ptr<Component> reaction(Context);
-std::unique_ptr<Component> navigation(Context);
-std::unique_ptr<Component> follow(Context);
-std::unique_ptr<Component> move(Context);
-std::unique_ptr<Component> audio_streaming(Context);
-std::unique_ptr<Component> video_streaming(Context);
+std::unique_ptr<LocalComponent> system_information(Context);
+std::unique_ptr<LocalComponent> person_detection(Context);
+std::unique_ptr<LocalComponent> person_localization(Context);
+std::unique_ptr<LocalComponent> person_identification(Context);
+std::unique_ptr<LocalComponent> face_detection(Context);
+std::unique_ptr<LocalComponent> face_localization(Context);
+std::unique_ptr<LocalComponent> sound_detection(Context);
+std::unique_ptr<LocalComponent> sound_localization(Context);
+std::unique_ptr<LocalComponent> speech_recognition(Context);
+std::unique_ptr<LocalComponent> gesture_recognition(Context);
+std::unique_ptr<LocalComponent> speech_synthesis(Context);
+std::unique_ptr<LocalComponent> reaction(Context);
+std::unique_ptr<LocalComponent> navigation(Context);
+std::unique_ptr<LocalComponent> follow(Context);
+std::unique_ptr<LocalComponent> move(Context);
+std::unique_ptr<LocalComponent> audio_streaming(Context);
+std::unique_ptr<LocalComponent> video_streaming(Context);
 
 struct BasicComponent {
     std::string_view ref;       // its name in table 31: "navigation"
     std::string_view urn_name;  // the last part of its profile's URN
-    std::unique_ptr<Component> (*make)(Context);
+    std::unique_ptr<LocalComponent> (*make)(Context);
 };
 
 // Returns all basic components, in the order of the specification.

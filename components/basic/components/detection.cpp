@@ -26,15 +26,15 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> person_detection(Context context) {
+std::unique_ptr<LocalComponent> person_detection(Context context) {
     return std::make_unique<Detection>(std::move(context), "person_detected", Sense::people);
 }
 
-std::unique_ptr<Component> face_detection(Context context) {
+std::unique_ptr<LocalComponent> face_detection(Context context) {
     return std::make_unique<Detection>(std::move(context), "face_detected", Sense::faces);
 }
 
-std::unique_ptr<Component> sound_detection(Context context) {
+std::unique_ptr<LocalComponent> sound_detection(Context context) {
     return std::make_unique<Detection>(std::move(context), "sound_detected", Sense::sounds);
 }
 

@@ -34,7 +34,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> gesture_recognition(Context context) {
+std::unique_ptr<LocalComponent> gesture_recognition(Context context) {
     return std::make_unique<GestureRecognition>(std::move(context));
 }
 

@@ -16,6 +16,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> person_identification(Context context) { return std::make_unique<Identification>(std::move(context)); }
+std::unique_ptr<LocalComponent> person_identification(Context context) {
+    return std::make_unique<Identification>(std::move(context));
+}
 
 }  // namespace rois::basic

@@ -124,17 +124,17 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> person_localization(Context context) {
+std::unique_ptr<LocalComponent> person_localization(Context context) {
     return std::make_unique<Localization>(std::move(context),
                                           Kind{"person_localized", "person_ref", Kind::Heading::orientation, Sense::people});
 }
 
-std::unique_ptr<Component> face_localization(Context context) {
+std::unique_ptr<LocalComponent> face_localization(Context context) {
     return std::make_unique<Localization>(std::move(context),
                                           Kind{"face_localized", "face_ref", Kind::Heading::orientation, Sense::faces});
 }
 
-std::unique_ptr<Component> sound_localization(Context context) {
+std::unique_ptr<LocalComponent> sound_localization(Context context) {
     return std::make_unique<Localization>(std::move(context),
                                           Kind{"sound_localized", "sound_ref", Kind::Heading::direction, Sense::sounds});
 }

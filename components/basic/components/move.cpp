@@ -12,15 +12,7 @@ constexpr WorldTime patience{10'000};
 
 class Move final : public DriveAction {
 public:
-    explicit Move(Context context) : DriveAction{std::move(context), "move"} {}
-
-    // The new motion, even if empty, replaces the stored motion of the other kind.
-    void reconcile(ParameterList& stored, ParameterList const& arrived) const override {
-        bool const line = find(arrived, "line") != nullptr;
-        bool const curve = find(arrived, "curve") != nullptr;
-        if (line == curve) return;
-        std::erase_if(stored, [&](Parameter const& p) { return equal_ignoring_case(p.name, line ? "curve" : "line"); });
-    }
+    explicit Move(Context context) : DriveAction{with_alternatives(std::move(context), {"line", "curve"}), "move"} {}
 
 private:
     std::optional<std::string> parameter_problem(ParameterList const& parameters) const override {
@@ -36,20 +28,18 @@ private:
         return negative(parameters, "time");
     }
 
-    std::optional<std::string> start_problem(ParameterList const& parameters) const override {
-        if (!integers_of(parameters, "line").empty() || !integers_of(parameters, "curve").empty()) return {};
-        return "parameter 'line' or 'curve' is mandatory";
-    }
-
-    void begin(ParameterList const& parameters) override {
+    std::variant<Plan, Refused> plan(ParameterList const& parameters) override {
         std::optional<Seconds> duration;
         if (auto const time = integer_of(parameters, "time").value_or(0); time > 0) duration = time / 1000.0;
-        if (auto const line = integers_of(parameters, "line"); !line.empty()) {
-            drive(Line{.distance = line[0] / 1000.0, .turn = from_degrees(line[1]), .duration = duration});
-        } else {
-            auto const curve = integers_of(parameters, "curve");
-            drive(Curve{.radius = curve[0] / 1000.0, .turn = from_degrees(curve[1]), .duration = duration});
-        }
+        if (auto const line = integers_of(parameters, "line"); !line.empty())
+            return way(Line{.distance = line[0] / 1000.0, .turn = from_degrees(line[1]), .duration = duration});
+        if (auto const curve = integers_of(parameters, "curve"); !curve.empty())
+            return way(Curve{.radius = curve[0] / 1000.0, .turn = from_degrees(curve[1]), .duration = duration});
+        return Refused{"parameter 'line' or 'curve' is mandatory"};
+    }
+
+    Plan way(Motion motion) {
+        return [this, motion = std::move(motion)] { drive(motion); };
     }
 
     void act() override {
@@ -62,6 +52,6 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> move(Context context) { return std::make_unique<Move>(std::move(context)); }
+std::unique_ptr<LocalComponent> move(Context context) { return std::make_unique<Move>(std::move(context)); }
 
 }  // namespace rois::basic

@@ -24,21 +24,24 @@ std::optional<std::string> Navigation::parameter_problem(ParameterList const& pa
     return not_targets(*targets);
 }
 
-std::optional<std::string> Navigation::start_problem(ParameterList const& parameters) const {
+std::variant<Navigation::Plan, Refused> Navigation::plan(ParameterList const& parameters) {
     auto const* targets = find(parameters, "target_position");
-    if (targets != nullptr && !targets->values.empty()) return {};
-    return "parameter 'target_position' is mandatory";
+    if (targets == nullptr || targets->values.empty()) return Refused{"parameter 'target_position' is mandatory"};
+    return visit(targets->values, parameters);
 }
 
-void Navigation::begin(ParameterList const& parameters) { visit(find(parameters, "target_position")->values, parameters); }
-
-void Navigation::visit(std::vector<std::string> targets, ParameterList const& parameters) {
-    limit_ = WorldTime{integer_of(parameters, "time_limit").value_or(0)};
-    names_ = std::move(targets);
-    reported_ = 0;
+Navigation::Plan Navigation::visit(std::vector<std::string> targets, ParameterList const& parameters) {
     GoTo way;
     way.policy = text_of(parameters, "routing_policy") == "distance" ? RoutingPolicy::distance : RoutingPolicy::time;
-    for (auto const& name : names_) way.targets.push_back(*target(name));
+    for (auto const& name : targets) way.targets.push_back(*target(name));
+    WorldTime const limit{integer_of(parameters, "time_limit").value_or(0)};
+    return [this, targets = std::move(targets), way = std::move(way), limit] { set_out(targets, way, limit); };
+}
+
+void Navigation::set_out(std::vector<std::string> names, GoTo way, WorldTime limit) {
+    limit_ = limit;
+    names_ = std::move(names);
+    reported_ = 0;
     drive(std::move(way), names_);
 }
 
@@ -60,6 +63,8 @@ void Navigation::report_reached() {
     port().event("reached_target", {{std::move(reached), boolean("is_final_target", reported_ == names_.size())}, {}});
 }
 
-std::unique_ptr<Component> navigation(Context context) { return std::make_unique<Navigation>(std::move(context), "navigation"); }
+std::unique_ptr<LocalComponent> navigation(Context context) {
+    return std::make_unique<Navigation>(std::move(context), "navigation");
+}
 
 }  // namespace rois::basic

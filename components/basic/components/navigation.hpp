@@ -17,14 +17,14 @@ public:
 
 protected:
     std::optional<std::string> parameter_problem(ParameterList const&) const override;
-    std::optional<std::string> start_problem(ParameterList const&) const override;
-    void begin(ParameterList const&) override;
+    std::variant<Plan, Refused> plan(ParameterList const&) override;
 
-    // Visits these positions or places in order, with time_limit and routing_policy of the parameters. Ends with ERROR at once if
-    // the robot can never stand at one of them.
-    void visit(std::vector<std::string> targets, ParameterList const&);
+    // Plans to visit these positions or places in order, with time_limit and routing_policy of the parameters. The action ends
+    // with ERROR at once if the robot can never stand at one of them.
+    Plan visit(std::vector<std::string> targets, ParameterList const&);
 
 private:
+    void set_out(std::vector<std::string> names, GoTo way, WorldTime limit);
     void act() final;
     void report_reached();
 

@@ -30,14 +30,13 @@ private:
                " or a name such as nod (1), bow (9) or wave (28)";
     }
 
-    std::optional<std::string> start_problem(ParameterList const& parameters) const override {
-        if (!text_of(parameters, "reaction_ref").empty()) return {};
-        return "parameter 'reaction_ref' is mandatory";
-    }
-
-    void begin(ParameterList const& parameters) override {
-        code_ = reaction_code(text_of(parameters, "reaction_ref"));
-        go_on();
+    std::variant<Plan, Refused> plan(ParameterList const& parameters) override {
+        auto const wanted = text_of(parameters, "reaction_ref");
+        if (wanted.empty()) return Refused{"parameter 'reaction_ref' is mandatory"};
+        return [this, code = std::string{reaction_code(wanted)}] {
+            code_ = code;
+            go_on();
+        };
     }
 
     Seconds remaining() const { return reaction_type(code_).duration - in_seconds(elapsed()); }
@@ -55,6 +54,6 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> reaction(Context context) { return std::make_unique<Reaction>(std::move(context)); }
+std::unique_ptr<LocalComponent> reaction(Context context) { return std::make_unique<Reaction>(std::move(context)); }
 
 }  // namespace rois::basic

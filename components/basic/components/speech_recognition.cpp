@@ -77,6 +77,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> speech_recognition(Context context) { return std::make_unique<SpeechRecognition>(std::move(context)); }
+std::unique_ptr<LocalComponent> speech_recognition(Context context) {
+    return std::make_unique<SpeechRecognition>(std::move(context));
+}
 
 }  // namespace rois::basic

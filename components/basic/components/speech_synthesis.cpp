@@ -28,16 +28,7 @@ std::optional<std::string> unknown_language(std::string_view language) {
 
 class SpeechSynthesis final : public Action {
 public:
-    using Action::Action;
-
-    // The new text, even if empty, replaces the stored text of the other kind.
-    void reconcile(ParameterList& stored, ParameterList const& arrived) const override {
-        bool const plain = find(arrived, "speech_text") != nullptr;
-        bool const marked_up = find(arrived, "SSML_text") != nullptr;
-        if (plain == marked_up) return;
-        std::erase_if(stored,
-                      [&](Parameter const& p) { return equal_ignoring_case(p.name, plain ? "SSML_text" : "speech_text"); });
-    }
+    explicit SpeechSynthesis(Context context) : Action{with_alternatives(std::move(context), {"speech_text", "SSML_text"})} {}
 
     ParameterList readable_parameters() const override {
         return {texts("synthesizable_languages", {languages.begin(), languages.end()}),
@@ -63,16 +54,15 @@ private:
         return {};
     }
 
-    std::optional<std::string> start_problem(ParameterList const& parameters) const override {
-        if (!text_of(parameters, "speech_text").empty()) return {};
-        if (text_of(parameters, "SSML_text").empty()) return "parameter 'speech_text' or 'SSML_text' is mandatory";
-        auto const& passages = std::get<SpokenText>(marked_up(parameters)).passages;
+    std::variant<Plan, Refused> plan(ParameterList const& parameters) override {
+        if (text_of(parameters, "speech_text").empty() && text_of(parameters, "SSML_text").empty())
+            return Refused{"parameter 'speech_text' or 'SSML_text' is mandatory"};
+        auto utterance = utterance_of(parameters);
         auto const takes_time = [](Passage const& passage) { return passage.duration > 0; };
-        if (std::ranges::none_of(passages, takes_time)) return "parameter 'SSML_text' has no text to speak";
-        return {};
+        if (text_of(parameters, "speech_text").empty() && std::ranges::none_of(utterance.passages, takes_time))
+            return Refused{"parameter 'SSML_text' has no text to speak"};
+        return [this, utterance = std::move(utterance)] { utterance_ = body().speech().speak(utterance); };
     }
-
-    void begin(ParameterList const& parameters) override { utterance_ = body().speech().speak(utterance_of(parameters)); }
 
     Utterance utterance_of(ParameterList const& parameters) const {
         auto const loudness = integer_of(parameters, "volume").value_or(default_volume) / 100.0;
@@ -130,6 +120,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> speech_synthesis(Context context) { return std::make_unique<SpeechSynthesis>(std::move(context)); }
+std::unique_ptr<LocalComponent> speech_synthesis(Context context) {
+    return std::make_unique<SpeechSynthesis>(std::move(context));
+}
 
 }  // namespace rois::basic

@@ -9,10 +9,6 @@ class SystemInformation final : public RobotComponent {
 public:
     using RobotComponent::RobotComponent;
 
-    // Never called: the component has no methods of RoIS_Common.
-    void start(CommandHandle command, ParameterList const&, Instant) override {
-        port().completed(command, CompletedStatus::error, {}, Afterwards::as_before, "there is nothing to start");
-    }
     Halted halt(Instant) override { return Halted::confirmed; }
     void suspend(Instant) override {}
     void resume(Instant) override {}
@@ -24,6 +20,9 @@ public:
     }
 
 private:
+    // Never called: the component has no methods of RoIS_Common.
+    Prepared prepare_start(ParameterList const&) override { return Refused{"there is nothing to start"}; }
+
     void on_step(Instant when) override {
         if (!operable_time_) operable_time_ = date_time("operable_time", when.utc);
     }
@@ -54,6 +53,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> system_information(Context context) { return std::make_unique<SystemInformation>(std::move(context)); }
+std::unique_ptr<LocalComponent> system_information(Context context) {
+    return std::make_unique<SystemInformation>(std::move(context));
+}
 
 }  // namespace rois::basic

@@ -52,6 +52,6 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> audio_streaming(Context context) { return std::make_unique<AudioStreaming>(std::move(context)); }
+std::unique_ptr<LocalComponent> audio_streaming(Context context) { return std::make_unique<AudioStreaming>(std::move(context)); }
 
 }  // namespace rois::basic

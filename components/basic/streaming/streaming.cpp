@@ -44,9 +44,11 @@ std::optional<std::string> unknown(std::string_view name, std::vector<std::strin
 
 }  // namespace
 
-void Streaming::start(CommandHandle command, ParameterList const& parameters, Instant) {
-    parameters_ = parameters;
-    port().completed(command, CompletedStatus::ok);
+Prepared Streaming::prepare_start(ParameterList const& parameters) {
+    return [this, parameters](CommandHandle command, Instant) {
+        parameters_ = parameters;
+        port().completed(command, CompletedStatus::ok);
+    };
 }
 
 Halted Streaming::halt(Instant now) {
@@ -70,9 +72,8 @@ void Streaming::resume(Instant now) {
         if (std::exchange(stream.held_with_all, false)) go_on(stream, now);
 }
 
-void Streaming::perform(CommandHandle command, std::string_view command_type, ParameterList const& arguments, Instant now) {
-    if (command_type == "connect_stream") return connect(command, now);
-    auto* const stream = find(text_of(arguments, "stream_id"));
+void Streaming::change(CommandHandle command, std::string_view command_type, std::string_view stream_id, Instant now) {
+    auto* const stream = find(stream_id);
     // The stream may have changed since the command was accepted.
     bool const held = stream != nullptr && stream->status == StreamStatus::suspended;
     auto const failed = [&](std::string reason) {
@@ -122,13 +123,17 @@ std::optional<std::string> Streaming::parameter_problem(ParameterList const& par
     return {};
 }
 
-std::optional<std::string> Streaming::command_problem(std::string_view command_type, ParameterList const& arguments) const {
-    if (!command_type.ends_with("_stream") || command_type == "connect_stream") return {};
-    auto const id = text_of(arguments, "stream_id");
-    if (std::ranges::find(streams_, id, &Stream::id) != streams_.end()) return {};
-    auto const there_are = listed(streams_, &Stream::id);
-    return "argument 'stream_id': stream " + quoted(id) +
-           " is not connected; connected: " + (there_are.empty() ? "none" : there_are);
+Prepared Streaming::prepare_command(std::string_view command_type, ParameterList const& arguments) {
+    if (command_type == "connect_stream") return [this](CommandHandle command, Instant now) { connect(command, now); };
+    std::string id{text_of(arguments, "stream_id")};
+    if (find(id) == nullptr) {
+        auto const there_are = listed(streams_, &Stream::id);
+        return Refused{"argument 'stream_id': stream " + quoted(id) +
+                       " is not connected; connected: " + (there_are.empty() ? "none" : there_are)};
+    }
+    return [this, type = std::string{command_type}, id = std::move(id)](CommandHandle command, Instant now) {
+        change(command, type, id, now);
+    };
 }
 
 // Returns the first supported pair; the order of the transports comes first.

@@ -22,12 +22,10 @@ class Streaming : public RobotComponent {
 public:
     using RobotComponent::RobotComponent;
 
-    void start(CommandHandle, ParameterList const&, Instant now) final;
     Halted halt(Instant now) final;
     void suspend(Instant now) final;
     void resume(Instant now) final;
     void parameters_changed(ParameterList const& parameters, Instant) final { parameters_ = parameters; }
-    void perform(CommandHandle, std::string_view command_type, ParameterList const& arguments, Instant now) final;
     ParameterList readable_parameters() const final;
     std::vector<Results> query(std::string_view query_type, Instant now) final;
 
@@ -64,7 +62,9 @@ private:
     void on_step(Instant when) final;
     void time_passed(Instant now) final;
     std::optional<std::string> parameter_problem(ParameterList const&) const final;
-    std::optional<std::string> command_problem(std::string_view command_type, ParameterList const& arguments) const final;
+    Prepared prepare_start(ParameterList const&) final;
+    Prepared prepare_command(std::string_view command_type, ParameterList const& arguments) final;
+    void change(CommandHandle, std::string_view command_type, std::string_view stream_id, Instant now);
 
     std::variant<Opening, std::string> negotiated(ParameterList const&) const;
     void connect(CommandHandle, Instant now);

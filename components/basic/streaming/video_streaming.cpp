@@ -42,6 +42,6 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> video_streaming(Context context) { return std::make_unique<VideoStreaming>(std::move(context)); }
+std::unique_ptr<LocalComponent> video_streaming(Context context) { return std::make_unique<VideoStreaming>(std::move(context)); }
 
 }  // namespace rois::basic

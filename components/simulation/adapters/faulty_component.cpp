@@ -17,7 +17,9 @@ public:
     FaultyComponent(std::unique_ptr<Component> component, std::shared_ptr<Simulation> simulation, std::vector<Fault> faults)
         : simulation_{std::move(simulation)}, faults_{std::move(faults)}, component_{std::move(component)} {}
 
-    ~FaultyComponent() override { simulation_->part(*this); }
+    ~FaultyComponent() override {
+        if (port_ != nullptr) simulation_->part(*this);
+    }
     FaultyComponent(FaultyComponent const&) = delete;
     FaultyComponent& operator=(FaultyComponent const&) = delete;
 
@@ -29,42 +31,26 @@ public:
         simulation_->join(*this);
     }
 
-    ComponentStatus status() const override {
-        if (is(Fault::Kind::failed)) return ComponentStatus::error;
-        auto const status = component_->status();
-        bool const warns = status == ComponentStatus::ready && is(Fault::Kind::complaining);
-        return warns ? ComponentStatus::warning : status;
+    void prepare(Ticket ticket, std::string_view command_type, ParameterList const& parameters, Instant now) override {
+        asked_ = command_type;
+        component_->prepare(ticket, command_type, parameters, now);
     }
 
-    std::optional<std::string> refusal(std::string_view command_type, ParameterList const& parameters) const override {
-        return component_->refusal(command_type, parameters);
-    }
-
-    void reconcile(ParameterList& stored, ParameterList const& arrived) const override { component_->reconcile(stored, arrived); }
-
-    void start(CommandHandle command, ParameterList const& parameters, Instant now) override {
-        fail_when_failed();
-        if (is(Fault::Kind::silent)) return;
-        running_ = command;
-        component_->start(command, parameters, now);
-    }
-
-    Halted halt(Instant now) override {
-        if (is(Fault::Kind::unstoppable)) return Halted::not_yet;
+    void halt(Ticket ticket, Instant now) override {
+        if (is(Fault::Kind::unstoppable)) return;
         running_.reset();
-        auto const answer = component_->halt(now);
-        halting_ = answer == Halted::not_yet;
-        return answer;
+        halting_ = ticket;
+        component_->halt(ticket, now);
     }
 
-    void suspend(Instant now) override {
+    void suspend(Ticket ticket, Instant now) override {
         fail_when_failed();
-        component_->suspend(now);
+        component_->suspend(ticket, now);
     }
 
-    void resume(Instant now) override {
+    void resume(Ticket ticket, Instant now) override {
         fail_when_failed();
-        component_->resume(now);
+        component_->resume(ticket, now);
     }
 
     void parameters_changed(ParameterList const& parameters, Instant now) override {
@@ -72,47 +58,62 @@ public:
         component_->parameters_changed(parameters, now);
     }
 
-    void perform(CommandHandle command, std::string_view command_type, ParameterList const& arguments, Instant now) override {
+    void query(Ticket ticket, std::string_view query_type, Instant now) override {
         fail_when_failed();
-        if (!is(Fault::Kind::silent)) component_->perform(command, command_type, arguments, now);
+        if (is(Fault::Kind::silent)) return;
+        asked_ = query_type;
+        component_->query(ticket, query_type, now);
     }
 
-    std::optional<Located> location() const override { return component_->location(); }
-    CompletedStatus status_when_stopped() const override { return component_->status_when_stopped(); }
-
-    ParameterList readable_parameters() const override {
-        fail_when_failed();
-        return component_->readable_parameters();
-    }
-
-    std::vector<Results> query(std::string_view query_type, Instant now) override {
-        fail_when_failed();
-        if (!is(Fault::Kind::silent)) return with_status(query_type, component_->query(query_type, now));
-        port_->error(ErrorType::component_not_responding, "the component does not answer queries: a fault of the scenario",
-                     Report::once);
-        return {};
+    void after_call() override {
+        component_->after_call();
+        report_state();
     }
 
 private:
-    void started(CommandHandle command) override { port_->started(command); }
-
-    void completed(CommandHandle command, CompletedStatus status, Results results, Afterwards afterwards,
-                   std::string text) override {
-        if (running_ == command) running_.reset();
-        port_->completed(command, status, std::move(results), afterwards, std::move(text));
+    // Of the component: some reports are changed by the faults.
+    void report(ComponentReport report) override {
+        if (auto* state = std::get_if<ComponentState>(&report)) {
+            state_ = std::move(*state);
+            return report_state();
+        }
+        if (auto const* confirmed = std::get_if<HaltConfirmed>(&report)) {
+            if (confirmed->ticket == own_halt) return;
+            halting_.reset();
+        }
+        if (auto const* ended = std::get_if<CommandEnded>(&report); ended && running_ == ended->command) running_.reset();
+        if (auto* answered = std::get_if<Answered>(&report)) change(answered->answer);
+        port_->report(std::move(report));
     }
 
-    void halted() override {
-        if (std::exchange(halting_, false)) port_->halted();
+    // The faults at the time when a command begins decide, not those when it was prepared.
+    void change(ComponentAnswer& answer) {
+        if (auto* rows = std::get_if<std::vector<Results>>(&answer)) *rows = with_status(std::move(*rows));
+        auto* begin = std::get_if<Begin>(&answer);
+        if (begin == nullptr) return;
+        answer = [this, begin = std::move(*begin), starts = asked_ == "start"](CommandHandle command, Instant now) {
+            fail_when_failed();
+            if (is(Fault::Kind::silent)) return;
+            if (starts) running_ = command;
+            begin(command, now);
+        };
     }
-    void event(std::string_view event_type, Results results) override { port_->event(event_type, std::move(results)); }
-    void error(ErrorType type, std::string text, Report report) override { port_->error(type, std::move(text), report); }
+
+    void report_state() {
+        auto now = state_;
+        if (is(Fault::Kind::failed)) now.status = ComponentStatus::error;
+        if (now.status == ComponentStatus::ready && is(Fault::Kind::complaining)) now.status = ComponentStatus::warning;
+        if (reported_ == now) return;
+        port_->changed(now);
+        reported_ = std::move(now);
+    }
 
     void observe(Instant when) override {
         if (!std::exchange(had_complained_, is(Fault::Kind::complaining)) && had_complained_)
             port_->error(ErrorType::user_defined_error, "the component complains: a fault of the scenario");
         if (std::exchange(had_failed_, is(Fault::Kind::failed)) || !had_failed_) return;
-        component_->halt(when);
+        component_->after_call();  // a command that has ended in this step does not fail
+        component_->halt(halting_.value_or(own_halt), when);
         if (auto const command = std::exchange(running_, {}))
             port_->completed(*command, CompletedStatus::error, {}, Afterwards::as_before, reason);
         port_->error(ErrorType::component_internal_error, reason);
@@ -126,11 +127,11 @@ private:
     }
 
     // Replaces the status in an answer of engine_status by the status with faults.
-    std::vector<Results> with_status(std::string_view query_type, std::vector<Results> rows) const {
-        if (query_type != "engine_status") return rows;
+    std::vector<Results> with_status(std::vector<Results> rows) const {
+        if (asked_ != "engine_status" || !reported_) return rows;
         for (auto& row : rows)
             for (auto& parameter : row.parameters)
-                if (parameter.name == "status") parameter = status_of("status", status());
+                if (parameter.name == "status") parameter = status_of("status", reported_->status);
         return rows;
     }
 
@@ -139,12 +140,16 @@ private:
     }
 
     static constexpr auto reason = "the component has failed: a fault of the scenario";
+    static constexpr Ticket own_halt{};  // of a halt that the engine has not asked for
 
     std::shared_ptr<Simulation> simulation_;
     std::vector<Fault> faults_;
     ComponentPort* port_ = nullptr;
+    std::string asked_;  // the last command or query: the component answers at once
     std::optional<CommandHandle> running_;
-    bool halting_ = false;  // the engine waits for halted()
+    std::optional<Ticket> halting_;  // the engine waits for the confirmation
+    ComponentState state_;           // without faults
+    std::optional<ComponentState> reported_;
     bool had_failed_ = false;
     bool had_complained_ = false;
     std::unique_ptr<Component> component_;

@@ -36,7 +36,7 @@ Parameter truths(std::string name, std::span<Person const> people, Is is) {
     return {.name = std::move(name), .data_type_ref = std::move(type), .values = {std::move(text)}};
 }
 
-class SimulatedHall final : public Component, private Observer {
+class SimulatedHall final : public LocalComponent, private Observer {
 public:
     SimulatedHall(std::shared_ptr<Simulation> simulation, ComponentProfile profile) : simulation_{std::move(simulation)} {
         description_.ref = {.code = std::string{simulated_hall_ref},
@@ -45,23 +45,40 @@ public:
                             .version = {}};
         description_.profile = std::make_shared<ComponentProfile const>(std::move(profile));
         description_.positions = {"target_position"};
+        description_.provider = Simulation::provider;
+        description_.returns_at_once = true;
         for (Place const& place : hall().plan().places) places_.push_back({place.name, place.pose});
     }
 
-    ~SimulatedHall() override { simulation_->part(*this); }
+    ~SimulatedHall() override {
+        if (is_attached()) simulation_->part(*this);
+    }
     SimulatedHall(SimulatedHall const&) = delete;
     SimulatedHall& operator=(SimulatedHall const&) = delete;
 
     ComponentDescription const& description() const override { return description_; }
 
     void attach(ComponentPort& port) override {
-        port_ = &port;
+        LocalComponent::attach(port);
         simulation_->join(*this);
     }
 
     ComponentStatus status() const override { return stepped_ ? ComponentStatus::ready : ComponentStatus::uninitialized; }
 
-    std::optional<std::string> refusal(std::string_view command_type, ParameterList const& arguments) const override {
+    // `start` does nothing: visitors can be steered without it.
+    Prepared prepare(std::string_view command_type, ParameterList const& arguments) override {
+        if (command_type == "set_parameter") return [](CommandHandle, Instant) {};
+        if (command_type == "start")
+            return [this](CommandHandle command, Instant) {
+                port().completed(command, CompletedStatus::ok, {}, Afterwards::active);
+            };
+        if (auto problem = problem_of(command_type, arguments)) return Refused{std::move(*problem)};
+        return [this, type = std::string{command_type}, arguments](CommandHandle command, Instant) {
+            perform(command, type, arguments);
+        };
+    }
+
+    std::optional<std::string> problem_of(std::string_view command_type, ParameterList const& arguments) const {
         if (command_type == "let_pass") return no_time(arguments);
         if (auto const* visitor = find(arguments, "visitor_ref"))
             if (auto problem = no_visitor(text_of(arguments, visitor->name))) return problem;
@@ -73,10 +90,6 @@ public:
         return language.empty() && command_type != "enter" ? std::nullopt : no_language(language);
     }
 
-    // Does nothing: visitors can be steered without it.
-    void start(CommandHandle command, ParameterList const&, Instant) override {
-        port_->completed(command, CompletedStatus::ok, {}, Afterwards::active);
-    }
     Halted halt(Instant) override {
         orders_.clear();
         passing_.clear();
@@ -87,8 +100,8 @@ public:
     void suspend(Instant) override {}
     void resume(Instant) override {}
 
-    void perform(CommandHandle command, std::string_view command_type, ParameterList const& arguments, Instant) override {
-        port_->started(command);
+    void perform(CommandHandle command, std::string_view command_type, ParameterList const& arguments) {
+        port().started(command);
         if (command_type == "let_pass") {
             passing_.push_back({command, simulation_->let_pass(WorldTime{integer_of(arguments, "time").value_or(0)})});
         } else if (Ordered ordered{command, order(command_type, arguments)}; !completed_if_over(ordered)) {
@@ -188,13 +201,13 @@ private:
             case OrderStatus::State::running:
                 return false;
             case OrderStatus::State::done:
-                port_->completed(ordered.command, CompletedStatus::ok);
+                port().completed(ordered.command, CompletedStatus::ok);
                 break;
             case OrderStatus::State::failed:
-                port_->completed(ordered.command, CompletedStatus::error, {}, Afterwards::as_before, ordered.status->reason);
+                port().completed(ordered.command, CompletedStatus::error, {}, Afterwards::as_before, ordered.status->reason);
                 break;
             case OrderStatus::State::dropped:
-                port_->completed(ordered.command, CompletedStatus::abort);
+                port().completed(ordered.command, CompletedStatus::abort);
                 break;
         }
         return true;
@@ -204,13 +217,12 @@ private:
         stepped_ = true;
         std::erase_if(orders_, [&](Ordered const& ordered) { return completed_if_over(ordered); });
         for (; !passing_.empty() && passing_.front().until <= hall().now(); passing_.pop_front())
-            port_->completed(passing_.front().command, CompletedStatus::ok);
+            port().completed(passing_.front().command, CompletedStatus::ok);
     }
 
     std::shared_ptr<Simulation> simulation_;
     ComponentDescription description_;
     std::vector<basic::NamedPlace> places_;
-    ComponentPort* port_ = nullptr;
     bool stepped_ = false;
     std::vector<Ordered> orders_;  // running
     std::deque<Passing> passing_;
@@ -218,7 +230,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Component> simulated_hall(std::shared_ptr<Simulation> simulation, ComponentProfile profile) {
+std::unique_ptr<LocalComponent> simulated_hall(std::shared_ptr<Simulation> simulation, ComponentProfile profile) {
     return std::make_unique<SimulatedHall>(std::move(simulation), std::move(profile));
 }
 

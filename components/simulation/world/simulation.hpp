@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "basic/body/body.hpp"
@@ -15,9 +16,11 @@ namespace rois::simulation {
 // Receives every step of the world (20 ms of world time).
 using basic::Observer;
 
-// Shared by its components. Used by the engine's thread only.
+// Shared by its components. The engine calls one of them, or the simulation, at a time: they have the same provider.
 class Simulation : public Device {
 public:
+    static constexpr std::string_view provider = "simulation";
+
     // `speed`: simulated seconds per real second. With 0, world time passes only by let_pass().
     Simulation(FloorPlan, Scenario, std::uint64_t seed, double speed);
 

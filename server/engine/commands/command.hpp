@@ -26,6 +26,9 @@ struct Command {
     CommandId id;
     std::string type;
     ParameterList arguments;                         // with the profile's names
+    Begin begin;                                     // what the component has prepared; empty for stop, suspend and resume
+    ParameterList prepared_for;                      // the parameters that were prepared
+    std::uint64_t hold = 0;                          // the answer of `execute`, which is sent before the command's notifications
     Session* session = nullptr;                      // receives the notifications; null once the session has ended
     std::shared_ptr<RegisteredComponent> component;  // valid also after it has left the engine
     bool binding_lost = false;                       // released before the command's turn came (decision 13)

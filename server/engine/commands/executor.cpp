@@ -44,23 +44,26 @@ CommandId Executor::fresh_id(Session const& session, std::set<CommandId> const& 
     }
 }
 
-Executor::SharedCommand Executor::make(Session& session, CommandMessage const& message) {
+Executor::SharedCommand Executor::make(Session& session, CommandMessage const& message, Preparation&& prepared) {
     auto command = std::make_shared<Command>();
-    auto const component = registry_.find(message.component_ref.code)->shared_from_this();
+    auto const& component = prepared.component;
     auto const& profiles = *arguments_of(*component, message.command_type);
     command->handle = CommandHandle{++last_handle_};
     command->id = message.command_id;
     command->type = message.command_type;
     command->session = &session;
+    command->hold = session.notifications->current();
     command->component = component;
     command->arguments = normalized(profiles, message.arguments);
     if (!stores_arguments(message.command_type)) command->arguments = with_defaults(profiles, command->arguments);
+    command->begin = std::move(prepared.begin);
+    command->prepared_for = std::move(prepared.parameters);
     live_.emplace(last_handle_, command);
     session.commands.emplace(command->id, command);
     return command;
 }
 
-void Executor::execute(Session& session, CommandUnitSequence const& sequence, Instant now) {
+void Executor::execute(Session& session, CommandUnitSequence const& sequence, std::vector<Preparation> prepared, Instant now) {
     auto const before = last_handle_;
     // When the sequence ends, cancels the delays that are not over.
     auto const give_up = [this](Execution* over) {
@@ -69,7 +72,9 @@ void Executor::execute(Session& session, CommandUnitSequence const& sequence, In
     };
     std::shared_ptr<Execution> execution;
     try {
-        auto made = std::make_unique<Execution>(sequence, [&](CommandMessage const& message) { return make(session, message); });
+        auto next = prepared.begin();
+        auto made = std::make_unique<Execution>(
+            sequence, [&](CommandMessage const& message) { return make(session, message, std::move(*next++)); });
         execution = {made.release(), give_up};
     } catch (...) {
         forget_made(session, before);
@@ -85,11 +90,11 @@ void Executor::execute(Session& session, CommandUnitSequence const& sequence, In
     run_ready(now);
 }
 
-void Executor::run_alone(Session& session, CommandMessage const& message, Instant now) {
+void Executor::run_alone(Session& session, CommandMessage const& message, Preparation prepared, Instant now) {
     auto const before = last_handle_;
     SharedCommand command;
     try {
-        command = make(session, message);
+        command = make(session, message, std::move(prepared));
     } catch (...) {
         forget_made(session, before);
         throw;
@@ -149,24 +154,15 @@ void Executor::run(SharedCommand const& command, Instant now) {
 }
 
 void Executor::run_set_parameter(SharedCommand const& command, Instant now) {
-    auto const& component = *command->component;
-    auto called = store(*command);
-    auto const changed = component.in_own_frame(component.parameters);
-    auto const& parameters = changed ? *changed : component.parameters;
-    if (called == Called::ok) called = component.call([&](Component& c) { c.parameters_changed(parameters, now); });
-    end(command, called, now);
-}
-
-Executor::Called Executor::store(Command const& command) {
-    auto& component = *command.component;
-    auto merged = component.merged(component.parameters, command.arguments);
-    if (!merged) return Called::failed;
-    component.parameters = std::move(*merged);
-    return Called::ok;
+    auto& component = *command->component;
+    component.parameters = component.merged(std::move(component.parameters), command->arguments);
+    await_start(command, now);
+    begin(command, component.parameters, now);
 }
 
 void Executor::run_start(SharedCommand const& command, Instant now) {
-    if (store(*command) == Called::failed) return end(command, Called::failed, now);
+    auto& component = *command->component;
+    component.parameters = component.merged(std::move(component.parameters), command->arguments);
     go_on_with_start(command, now);
 }
 
@@ -180,23 +176,61 @@ void Executor::go_on_with_start(SharedCommand const& command, Instant now) {
     component.start = command;
     component.something_begins();
     await_start(command, now);
-    auto const arguments = component.for_start(component.parameters, command->arguments);
-    auto const changed = component.in_own_frame(arguments);
-    auto const& parameters = changed ? *changed : arguments;
-    if (component.call([&](Component& c) { c.start(command->handle, parameters, now); }) == Called::ok) return;
-    component.activity = RegisteredComponent::Activity::idle;
-    component.start = nullptr;
-    halt_if_it_moves(component, now);
-    end(command, Called::failed, now);
+    begin(command, component.for_start(component.parameters, command->arguments), now);
+}
+
+// If another command has changed the stored parameters since the command was prepared, it is prepared again.
+void Executor::begin(SharedCommand const& command, ParameterList parameters, Instant now) {
+    if (parameters == command->prepared_for) return begin(command, now);
+    auto& component = *command->component;
+    auto then = [this, command](std::optional<ComponentAnswer>& answer, Instant when) {
+        if (command->state != Command::State::running || !answer) return;
+        if (auto* prepared = std::get_if<Begin>(&*answer)) {
+            command->begin = std::move(*prepared);
+            return begin(command, when);
+        }
+        auto const* refused = std::get_if<Refused>(&*answer);
+        begin_failed(command, refused == nullptr ? "the component failed" : refused->reason, when);
+        run_ready(when);
+    };
+    auto const due = now.steady + settings_.question_deadline;
+    auto const ticket =
+        questions_.ask(component, due, "the component did not answer whether a command is possible", std::move(then));
+    auto changed = component.in_own_frame(parameters);
+    component.hosted().prepare(ticket, command->type, changed ? std::move(*changed) : std::move(parameters), now);
+}
+
+void Executor::begin(SharedCommand const& command, Instant now) {
+    command->component->hosted().begin(command->handle, std::exchange(command->begin, {}), now);
+}
+
+void Executor::begin_failed(SharedCommand const& command, std::string_view reason, Instant now) {
+    auto& component = *command->component;
+    if (component.start == command) {
+        component.activity = RegisteredComponent::Activity::idle;
+        component.start = nullptr;
+    }
+    std::erase(component.functions, command);
+    Attempts attempts;
+    if (command->type != "set_parameter") attempts([&] { halt_if_it_moves(component, now); });
+    attempts([&] { end(command, CompletedStatus::error, reason, now); });
+    attempts.rethrow();
+}
+
+void Executor::failed(CommandHandle handle, Instant now) {
+    auto const found = live_.find(static_cast<std::uint64_t>(handle));
+    if (found == live_.end() || found->second->state != Command::State::running) return;
+    auto const command = found->second;
+    begin_failed(command, "the component failed", now);
+    run_ready(now);
 }
 
 void Executor::run_stop(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
-    auto status_of_start = CompletedStatus::abort;
-    if (component.start) component.call([&](Component& c) { status_of_start = c.status_when_stopped(); });
+    auto const status_of_start = component.status_when_stopped();
     halt(component, status_of_start, status_of_start == CompletedStatus::ok ? "" : "it was stopped", now);
     if (component.halting) return wait_for_halt(command, now);
-    end(command, Called::ok, now);
+    end(command, CompletedStatus::ok, {}, now);
 }
 
 void Executor::run_suspend(SharedCommand const& command, Instant now) {
@@ -204,20 +238,36 @@ void Executor::run_suspend(SharedCommand const& command, Instant now) {
     if (!component.works())
         return end(command, CompletedStatus::error,
                    component.suspended == Suspended::all ? "the component is suspended already" : "nothing is running", now);
-    auto const called = component.call([&](Component& c) { c.suspend(now); });
-    if (called == Called::ok) component.suspended = Suspended::all;
-    end(command, called, now);
+    auto const ticket = ask_to_confirm(command, Suspended::all, now);
+    component.hosted().suspend(ticket, now);
 }
 
 void Executor::run_resume(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
     if (component.suspended == Suspended::nothing) return end(command, CompletedStatus::error, "nothing is suspended", now);
-    auto const called = component.call([&](Component& c) { c.resume(now); });
-    if (called == Called::ok)
-        component.suspended = Suspended::nothing;
-    else
-        halt_if_it_moves(component, now);
-    end(command, called, now);
+    auto const ticket = ask_to_confirm(command, Suspended::nothing, now);
+    component.hosted().resume(ticket, now);
+}
+
+// A suspend or resume completes when the component has confirmed it. If it does not, its state is unknown.
+Ticket Executor::ask_to_confirm(SharedCommand const& command, Suspended afterwards, Instant now) {
+    auto then = [this, command, afterwards, halts = command->component->halts](std::optional<ComponentAnswer>& answer,
+                                                                               Instant when) {
+        auto& component = *command->component;
+        bool const confirmed = answer && std::holds_alternative<Done>(*answer);
+        if (confirmed && component.halts == halts) component.suspended = afterwards;
+        Attempts attempts;
+        if (!answer || (!confirmed && afterwards == Suspended::nothing)) attempts([&] { halt_if_it_moves(component, when); });
+        attempts([&] {
+            if (confirmed) return end(command, CompletedStatus::ok, {}, when);
+            if (answer) return end(command, CompletedStatus::error, "the component failed", when);
+            end(command, CompletedStatus::timeout, "the component did not confirm it", when);
+        });
+        attempts([&] { run_ready(when); });
+        attempts.rethrow();
+    };
+    auto const* what = "the component did not confirm that it is suspended or resumed";
+    return questions_.ask(*command->component, now.steady + time_to_confirm, what, std::move(then));
 }
 
 void Executor::run_function(SharedCommand const& command, Instant now) {
@@ -227,13 +277,7 @@ void Executor::run_function(SharedCommand const& command, Instant now) {
     component.functions.push_back(command);
     component.something_begins();
     await_start(command, now);
-    auto const changed = component.in_own_frame(command->arguments);
-    auto const& arguments = changed ? *changed : command->arguments;
-    auto const called = component.call([&](Component& c) { c.perform(command->handle, command->type, arguments, now); });
-    if (called != Called::failed) return;
-    std::erase(component.functions, command);
-    halt_if_it_moves(component, now);
-    end(command, called, now);
+    begin(command, now);
 }
 
 void Executor::await_start(SharedCommand const& command, Instant now) {
@@ -249,7 +293,7 @@ void Executor::start_timed_out(CommandHandle handle, Instant now) {
     auto const command = found->second;
     auto& component = *command->component;
     std::string const reason = "the command '" + command->type + "' did not start in time";
-    agenda_.add(ErrorOccurred{&component, ErrorType::component_not_responding, reason});
+    agenda_.add({command->component, ErrorType::component_not_responding, reason});
     command->start_deadline.reset();
     bool const is_start = component.start == command;
     std::erase(component.functions, command);
@@ -277,7 +321,8 @@ void Executor::completed(CommandEnded& report, Instant now) {
     }
     auto const command = found->second;
     auto& component = *command->component;
-    if (component.check(MessageKind::command, command->type, report.results) == RegisteredComponent::Answer::wrong) {
+    component.accept(report);
+    if (component.check(MessageKind::command, command->type, report.results) == RegisteredComponent::Fit::wrong) {
         report.status = CompletedStatus::error;
         report.results = {};
         report.reason = "its results do not fit the profile";
@@ -302,11 +347,6 @@ void Executor::follow_up(RegisteredComponent& component, SharedCommand const& co
     if (!active && component.functions.empty()) component.suspended = Suspended::nothing;
 }
 
-void Executor::end(SharedCommand const& command, Called called, Instant now) {
-    bool const ok = called == Called::ok;
-    end(command, ok ? CompletedStatus::ok : CompletedStatus::error, ok ? "" : "the component failed", now);
-}
-
 // Sets the command's state first. If a later step fails, the next tick finishes it.
 void Executor::end(SharedCommand const& command, CompletedStatus status, std::string_view reason, Instant now, Results results) {
     if (command->state == Command::State::ended) return;
@@ -326,10 +366,13 @@ void Executor::end(SharedCommand const& command, CompletedStatus status, std::st
 void Executor::finish(SharedCommand const& command, Instant now) {
     if (!command->reported) {
         journal_->command_ended(*command);
-        if (command->session != nullptr) notifier_.notify(*command->session, Completed{command->id, command->status});
+        if (command->session != nullptr)
+            notifier_.notify(*command->session, Completed{command->id, command->status}, command->hold);
         command->reported = true;
     }
     ParameterList{}.swap(command->arguments);  // from now on, only its results are needed
+    ParameterList{}.swap(command->prepared_for);
+    command->begin = {};
     if (command->session != nullptr) remember(command, now);
     if (auto const execution = std::exchange(command->execution, nullptr)) {
         try {

@@ -15,8 +15,10 @@
 
 #include "engine/commands/deadlines.hpp"
 #include "engine/commands/execution.hpp"
+#include "engine/commands/sequence_check.hpp"
 #include "engine/journal.hpp"
 #include "engine/notifications/notifier.hpp"
+#include "engine/questions.hpp"
 #include "engine/registry.hpp"
 #include "engine/settings.hpp"
 
@@ -25,22 +27,23 @@ namespace rois {
 class Executor {
 public:
     Executor(EngineSettings const& settings, Registry const& registry, Agenda& agenda, Deadlines& deadlines, Notifier& notifier,
-             Journal* const& journal)
+             Questions& questions, Journal* const& journal)
         : settings_{settings},
           registry_{registry},
           agenda_{agenda},
           deadlines_{deadlines},
           notifier_{notifier},
+          questions_{questions},
           journal_{journal} {}
     ~Executor();
     Executor(Executor const&) = delete;
     Executor& operator=(Executor const&) = delete;
 
-    // Begins a sequence. It must have passed SequenceCheck, and all its commands must have ids.
-    void execute(Session&, CommandUnitSequence const&, Instant now);
+    // Begins a sequence. It must have passed SequenceCheck, all its commands must have ids, and be prepared.
+    void execute(Session&, CommandUnitSequence const&, std::vector<Preparation>, Instant now);
 
     // Runs a single command.
-    void run_alone(Session&, CommandMessage const&, Instant now);
+    void run_alone(Session&, CommandMessage const&, Preparation, Instant now);
 
     // Returns an id that is new to this session and not in `taken`.
     CommandId fresh_id(Session const&, std::set<CommandId> const& taken);
@@ -48,7 +51,12 @@ public:
     // Called when a component reports through its port.
     void started(CommandHandle);
     void completed(CommandEnded&, Instant now);
-    void halted(RegisteredComponent&, Instant now);
+    void halted(RegisteredComponent&, Ticket, Instant now);
+
+    // Called when a call to the component has thrown: the call that began a command, or that halted the component.
+    void failed(CommandHandle, Instant now);
+    void halt_failed(RegisteredComponent&, Ticket, Instant now);
+    void count_stray_answer() { ++stray_answers_; }
 
     // Halts the component, even if the engine believes that it is idle, and repeats this until the halt is confirmed (decision
     // 35). Ends the commands that run there: `start` with this status, commands of the component's own profile with ABORT. Halts
@@ -79,7 +87,8 @@ public:
 
     // Continues work that an exception interrupted: ends the commands that were given up, and halts their components. Call at
     // each tick.
-    void repair(Instant now);
+    // `reports_lost`: some component could not store a report.
+    void repair(Instant now, bool reports_lost);
     // Keeps only the results of the session's last `most` commands.
     void keep_results(Session&, std::size_t most);
 
@@ -90,12 +99,14 @@ public:
     std::uint64_t stray_answers() const { return stray_answers_; }
 
 private:
+    // For halt, suspend and resume (decision 35).
+    static constexpr std::chrono::milliseconds time_to_confirm{500};
+
     using SharedCommand = std::shared_ptr<Command>;
 
-    using Called = RegisteredComponent::Called;
     using Suspended = RegisteredComponent::Suspended;
 
-    SharedCommand make(Session&, CommandMessage const&);
+    SharedCommand make(Session&, CommandMessage const&, Preparation&&);
     void give_turns(std::shared_ptr<Execution> const&, std::vector<Execution::Turn> const&, Instant now);
     void run_ready(Instant now);
     void run(SharedCommand const&, Instant now);
@@ -106,6 +117,11 @@ private:
     void run_resume(SharedCommand const&, Instant now);
     void run_function(SharedCommand const&, Instant now);
     void go_on_with_start(SharedCommand const&, Instant now);
+    void begin(SharedCommand const&, Instant now);
+    void begin(SharedCommand const&, ParameterList parameters, Instant now);
+    Ticket ask_to_confirm(SharedCommand const&, Suspended afterwards, Instant now);
+    void begin_failed(SharedCommand const&, std::string_view reason, Instant now);
+    void stop_instead_of_hold(RegisteredComponent&, std::string_view reason, Instant now);
     void halt_if_it_moves(RegisteredComponent&, Instant now);
     void ask_to_halt(RegisteredComponent&, Instant now);
     void await_confirmation(RegisteredComponent&, Instant now);
@@ -119,7 +135,6 @@ private:
     static void follow_up(RegisteredComponent&, SharedCommand const&, Afterwards);
     // `reason`: why the status is not OK, for people.
     void end(SharedCommand const&, CompletedStatus, std::string_view reason, Instant now, Results = {});
-    void end(SharedCommand const& command, Called called, Instant now);
     void end_each(std::vector<SharedCommand> const&, CompletedStatus, std::string_view reason, Instant now);
     void finish(SharedCommand const&, Instant now);
     void go_on_in_sequence(std::shared_ptr<Execution> const&, Command const& ended, Instant now);
@@ -131,7 +146,6 @@ private:
     void end_given_up(SharedCommand const&, Instant now);
     void forget_made(Session&, std::uint64_t after) noexcept;
     void forget_while(Session&, std::function<bool(Command const&)> const& is_old);
-    Called store(Command const&);
     void remember(SharedCommand const&, Instant now);
 
     EngineSettings const& settings_;
@@ -139,6 +153,7 @@ private:
     Agenda& agenda_;
     Deadlines& deadlines_;
     Notifier& notifier_;
+    Questions& questions_;
     Journal* const& journal_;                                // the engine's; may be replaced before the first session
     std::unordered_map<std::uint64_t, SharedCommand> live_;  // waiting or running, by handle
     std::deque<std::pair<std::shared_ptr<Execution>, std::size_t>> ready_;  // units whose turn has come

@@ -7,7 +7,6 @@ namespace rois {
 
 namespace {
 
-constexpr std::chrono::milliseconds time_to_confirm{500};
 constexpr std::chrono::milliseconds between_attempts{200};
 
 }  // namespace
@@ -32,15 +31,14 @@ void Executor::halt_if_it_moves(RegisteredComponent& component, Instant now) {
     if (component.moves()) halt(component, CompletedStatus::abort, "the component failed", now);
 }
 
+// Needs no memory before the component is called.
 void Executor::ask_to_halt(RegisteredComponent& component, Instant now) {
-    auto answer = Halted::not_yet;
-    auto const report = component.halting ? Report::once : Report::each;
-    auto const called = component.call([&](Component& c) { answer = c.halt(now); }, report);
     if (component.has_departed()) return;
-    if (called == Called::ok && answer == Halted::confirmed) return go_on(component, now);
-    if (called == Called::failed) return halt_failed(component, CompletedStatus::error, "the component failed to halt", now);
+    auto const ticket = questions_.fresh_ticket();
+    component.hosted().halt(ticket, now);
+    ++component.halts;
     if (component.halting && component.halting->failed) return halt_again_later(component, now);
-    if (!component.halting) component.halting.emplace();
+    if (!component.halting) component.halting.emplace().first = ticket;
     if (component.halting->due == Deadlines::Ticket{}) await_confirmation(component, now);
 }
 
@@ -51,7 +49,7 @@ void Executor::await_confirmation(RegisteredComponent& component, Instant now) {
             auto const late = weak.lock();
             if (!late || !late->halting || late->halting->failed) return;
             std::string const reason = "the component did not confirm that it stands still";
-            agenda_.add(ErrorOccurred{late.get(), ErrorType::component_not_responding, reason});
+            agenda_.add({late, ErrorType::component_not_responding, reason});
             halt_failed(*late, CompletedStatus::timeout, reason, then);
             run_ready(then);
         });
@@ -75,14 +73,25 @@ void Executor::halt_again_later(RegisteredComponent& component, Instant now) {
     due = deadlines_.add(now.steady + between_attempts, [this, weak = component.weak_from_this()](Instant then) {
         auto const failed = weak.lock();
         if (!failed || !failed->halting) return;
-        ask_to_halt(*failed, then);
-        run_ready(then);
+        Attempts attempts;
+        attempts([&] {
+            end_each(std::exchange(failed->halting->waiting, {}), CompletedStatus::timeout, "the component failed to halt", then);
+        });
+        attempts([&] { ask_to_halt(*failed, then); });
+        attempts([&] { run_ready(then); });
+        attempts.rethrow();
     });
 }
 
-void Executor::halted(RegisteredComponent& component, Instant now) {
-    if (!component.halting) ++stray_answers_;
+void Executor::halted(RegisteredComponent& component, Ticket ticket, Instant now) {
+    if (!component.halting || ticket < component.halting->first) return count_stray_answer();
     go_on(component, now);
+}
+
+void Executor::halt_failed(RegisteredComponent& component, Ticket ticket, Instant now) {
+    if (!component.halting || ticket < component.halting->first) return;
+    halt_failed(component, CompletedStatus::error, "the component failed to halt", now);
+    run_ready(now);
 }
 
 void Executor::go_on(RegisteredComponent& component, Instant now) {
@@ -109,10 +118,12 @@ void Executor::go_on(RegisteredComponent& component, Instant now) {
     attempts.rethrow();
 }
 
-// A `stop`, or a `start` that replaces another one, continues when the halt is confirmed.
+// A `stop`, or a `start` that replaces another one, continues when the halt is confirmed. If the halt has failed, a `stop` waits
+// for the next attempt, which it has caused.
 void Executor::wait_for_halt(SharedCommand const& command, Instant now) {
     auto& halting = *command->component->halting;
-    if (halting.failed) return end(command, CompletedStatus::error, "the component failed to halt", now);
+    if (halting.failed && command->type != "stop")
+        return end(command, CompletedStatus::error, "the component failed to halt", now);
     halting.waiting.push_back(command);
 }
 
@@ -125,14 +136,35 @@ void Executor::forget_halt(RegisteredComponent& component, Instant now) {
 }
 
 void Executor::hold(RegisteredComponent& component, std::string_view reason, Instant now) {
-    bool const held = component.call([&](Component& c) { c.suspend(now); }) == Called::ok;
-    if (held) component.suspended = Suspended::all;
+    auto then = [this, shared = component.shared_from_this(), reason = std::string{reason}, halts = component.halts](
+                    std::optional<ComponentAnswer>& answer, Instant when) {
+        shared->is_being_held = false;
+        if (shared->halts != halts) return;
+        if (answer && std::holds_alternative<Done>(*answer)) {
+            shared->suspended = Suspended::all;
+            agenda_.add({shared, ErrorType::user_defined_error,
+                         "its motion is held: " + reason + "; to continue, send resume or a new command"});
+            return;
+        }
+        stop_instead_of_hold(*shared, reason, when);
+    };
+    try {
+        auto const* what = "the component did not confirm that its motion is held";
+        auto const ticket = questions_.ask(component, now.steady + time_to_confirm, what, std::move(then));
+        component.hosted().suspend(ticket, now);
+        component.is_being_held = true;
+    } catch (...) {  // a halt needs no memory
+        stop_instead_of_hold(component, reason, now);
+        throw;
+    }
+}
+
+void Executor::stop_instead_of_hold(RegisteredComponent& component, std::string_view reason, Instant now) {
     Attempts attempts;
-    if (!held) attempts([&] { halt(component, CompletedStatus::abort, reason, now); });
+    attempts([&] { halt(component, CompletedStatus::abort, reason, now); });
     attempts([&] {
-        agenda_.add(ErrorOccurred{&component, ErrorType::user_defined_error,
-                                  std::string{held ? "its motion is held: " : "its motion was stopped: "}.append(reason).append(
-                                      held ? "; to continue, send resume or a new command" : "")});
+        agenda_.add(
+            {component.shared_from_this(), ErrorType::user_defined_error, "its motion was stopped: " + std::string{reason}});
     });
     attempts([&] { run_ready(now); });
     attempts.rethrow();

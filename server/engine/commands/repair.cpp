@@ -53,15 +53,14 @@ void Executor::end_given_up(SharedCommand const& command, Instant now) {
 
 // Halts a component whose answer was lost, or whose halt has no deadline.
 void Executor::repair(RegisteredComponent& component, Instant now) {
-    if (std::exchange(component.answer_lost, false)) halt(component, CompletedStatus::error, interrupted, now);
+    if (component.hosted().take_lost_report()) halt(component, CompletedStatus::error, interrupted, now);
     if (component.halting && component.halting->due == Deadlines::Ticket{}) ask_to_halt(component, now);
 }
 
-void Executor::repair(Instant now) {
+void Executor::repair(Instant now, bool reports_lost) {
     Attempts attempts;
     if (!ready_.empty()) attempts([&] { run_ready(now); });
-    bool const answers_lost = agenda_.take_lost_answers();
-    if (std::exchange(needs_repair_, false) || answers_lost) {
+    if (std::exchange(needs_repair_, false) || reports_lost) {
         std::vector<SharedCommand> given_up;
         bool const listed = attempts([&] {
             for (auto const& [handle, command] : live_)

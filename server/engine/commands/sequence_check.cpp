@@ -23,10 +23,6 @@ std::string command_types_of(ComponentProfile const& profile) {
 
 Objection bad_parameter(std::string reason) { return {ReturnCode::bad_parameter, std::move(reason)}; }
 
-Objection failed(RegisteredComponent const& component) {
-    return {ReturnCode::error, "the component " + quoted(component.ref().code) + " failed"};
-}
-
 }  // namespace
 
 std::vector<ParameterProfile> const* arguments_of(RegisteredComponent const& component, std::string_view command_type) {
@@ -50,10 +46,10 @@ std::optional<Objection> SequenceCheck::in_list(std::vector<CommandUnit> const& 
                                                 std::string_view name) {
     auto const around = path.empty() ? "" : path + ": ";
     if (units.empty()) return bad_parameter(around + "there is no " + std::string{name});
-    auto const before = commands_;
+    auto const before = commands();
     for (std::size_t i = 0; i < units.size(); ++i)
         if (auto problem = in_unit(units[i], element(path, name, i))) return problem;
-    if (commands_ == before)  // tables 10 and 13
+    if (commands() == before)  // tables 10 and 13
         return bad_parameter(around + "there is no command message in the " + std::string{name} +
                              ", only delays; at least one is expected");
     return {};
@@ -64,7 +60,7 @@ std::optional<Objection> SequenceCheck::in_unit(CommandUnit const& unit, std::st
         return bad_parameter(path + ": delay_time must be 0 to " + std::to_string(max_delay_time) + " milliseconds");
     delays_something_ = delays_something_ || unit.delay_time.value_or(0) > 0;
     if (auto const* message = std::get_if<CommandMessage>(&unit.unit)) {
-        auto problem = objection(*message);
+        auto problem = command(*message, path);
         if (problem) problem->reason.insert(0, path + ": ");
         return problem;
     }
@@ -88,18 +84,20 @@ std::optional<Objection> SequenceCheck::in_branches(ConcurrentCommands const& co
     return {};
 }
 
-std::optional<Objection> SequenceCheck::objection(CommandMessage const& message) {
-    ++commands_;
+std::optional<Objection> SequenceCheck::objection(CommandMessage const& message) { return command(message, {}); }
+
+std::optional<Objection> SequenceCheck::command(CommandMessage const& message, std::string const& path) {
     begins_something_ = begins_something_ || begins_action(message.command_type);
     auto [component, problem_of_ref] = registry_.meant(message.component_ref);
     if (component == nullptr) return bad_parameter(std::move(problem_of_ref));
     if (component->bound_to != &session_)
         return Objection{ReturnCode::error, "the component " + quoted(component->ref().code) + " is not bound by this session"};
-    if (auto problem = values(message, *component)) return problem;
+    if (auto problem = values(message, *component, path)) return problem;
     return id(message.command_id);
 }
 
-std::optional<Objection> SequenceCheck::values(CommandMessage const& message, RegisteredComponent& component) {
+std::optional<Objection> SequenceCheck::values(CommandMessage const& message, RegisteredComponent& component,
+                                               std::string const& path) {
     auto const* profiles = arguments_of(component, message.command_type);
     if (profiles == nullptr)
         return bad_parameter("the component " + quoted(component.ref().code) + " has no command " + quoted(message.command_type) +
@@ -112,20 +110,17 @@ std::optional<Objection> SequenceCheck::values(CommandMessage const& message, Re
         bool const starts = message.command_type == "start";
         if (auto problem = starts ? component.why_no_start(parameters) : std::nullopt) return bad_parameter(std::move(*problem));
         auto const stored = stored_.try_emplace(&component, component.parameters).first;
-        auto merged = component.merged(stored->second, parameters);
-        if (!merged) return failed(component);
-        stored->second = std::move(*merged);
+        stored->second = component.merged(std::move(stored->second), parameters);
         parameters = starts ? component.for_start(stored->second, parameters) : stored->second;
     } else {
         if (auto problem = why_incomplete(*profiles, parameters)) return bad_parameter(std::move(*problem));
         parameters = with_defaults(*profiles, parameters);
     }
-    std::optional<std::string> refusal;
-    auto const changed = component.in_own_frame(parameters);
-    auto const& taken = changed ? *changed : parameters;
-    auto const called = component.call([&](Component& c) { refusal = c.refusal(message.command_type, taken); });
-    if (called == RegisteredComponent::Called::failed) return failed(component);
-    if (refusal) return bad_parameter(std::move(*refusal));
+    preparations_.push_back({.component = component.shared_from_this(),
+                             .command_type = message.command_type,
+                             .parameters = std::move(parameters),
+                             .path = path,
+                             .halts = component.halts});
     return {};
 }
 

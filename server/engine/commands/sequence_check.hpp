@@ -1,10 +1,13 @@
 // Checks whether commands may run, before any of them does (decision 10).
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "engine/registry.hpp"
 #include "engine/session.hpp"
@@ -15,6 +18,19 @@ namespace rois {
 struct Objection {
     ReturnCode return_code = ReturnCode::bad_parameter;
     std::string reason;
+};
+
+// A command that passed the checks of the engine. The component has still to be asked (Component::prepare).
+struct Preparation {
+    std::shared_ptr<RegisteredComponent> component;
+    std::string command_type;
+    ParameterList parameters;  // for Component::prepare, in the engine's frame
+    std::string path;          // of its unit: "command_unit_list[2]"; empty without a sequence
+    std::uint64_t halts = 0;   // RegisteredComponent::halts, when it was checked
+    Begin begin{};             // the answer of the component
+
+    // Returns whether the component is asked: it cannot refuse to stop, to suspend or to resume.
+    bool asks() const { return command_type != "stop" && command_type != "suspend" && command_type != "resume"; }
 };
 
 // Checks the units of one document in order. Takes into account what earlier units will have stored.
@@ -28,7 +44,9 @@ public:
     // Checks one command: known, bound, type, values, in this order.
     std::optional<Objection> objection(CommandMessage const&);
 
-    std::size_t commands() const { return commands_; }
+    // The commands that were checked, in document order.
+    std::vector<Preparation>& preparations() { return preparations_; }
+    std::size_t commands() const { return preparations_.size(); }
 
     // Returns whether one of the commands begins or resumes an action.
     bool begins_something() const { return begins_something_; }
@@ -43,12 +61,13 @@ private:
     std::optional<Objection> in_list(std::vector<CommandUnit> const&, std::string const& path, std::string_view element);
     std::optional<Objection> in_unit(CommandUnit const&, std::string const& path);
     std::optional<Objection> in_branches(ConcurrentCommands const&, std::string const& path);
-    std::optional<Objection> values(CommandMessage const&, RegisteredComponent&);
+    std::optional<Objection> command(CommandMessage const&, std::string const& path);
+    std::optional<Objection> values(CommandMessage const&, RegisteredComponent&, std::string const& path);
     std::optional<Objection> id(CommandId const&);
 
     Session const& session_;
     Registry const& registry_;
-    std::size_t commands_ = 0;
+    std::vector<Preparation> preparations_;
     bool begins_something_ = false;
     bool delays_something_ = false;
     std::set<CommandId> ids_;

@@ -126,9 +126,6 @@ Parameter const* ComponentCandidate::parameter(std::string_view name) const {
     return find(*all_parameters_, name);
 }
 
-std::optional<Located> const& ComponentCandidate::location() const {
-    if (!location_) location_ = component_.location();
-    return *location_;
-}
+std::optional<Located> const& ComponentCandidate::location() const { return component_.location(); }
 
 }  // namespace rois

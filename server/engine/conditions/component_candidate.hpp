@@ -35,7 +35,6 @@ private:
     RegisteredComponent const& component_;
     Perspective& perspective_;
     mutable std::optional<ParameterList> all_parameters_;
-    mutable std::optional<std::optional<Located>> location_;
 };
 
 }  // namespace rois

@@ -92,7 +92,15 @@ struct Frames::Step {
     }
 };
 
-Frames::Frames(std::string own, std::vector<Frame> others) : own_{std::move(own)} {
+Frames::Frames(std::string own, std::vector<Frame> others) : own_{std::move(own)} { add(std::move(others)); }
+
+Frames Frames::with(std::vector<Frame> others) const {
+    auto all = *this;
+    all.add(std::move(others));
+    return all;
+}
+
+void Frames::add(std::vector<Frame> others) {
     for (auto& frame : others) {
         if (own_.empty() || frame.crs.empty()) throw std::invalid_argument("a frame, or the engine's own frame, has no name");
         auto const placement = Placement::of(frame);

@@ -46,6 +46,9 @@ public:
 
     std::string const& own() const { return own_; }
 
+    // Returns these frames and others. Throws as the constructor does.
+    Frames with(std::vector<Frame> others) const;
+
     // Returns whether the engine's frame is the only one. Then no value needs a conversion.
     bool are_one() const { return placed_.empty(); }
     bool know(std::string_view crs) const;
@@ -75,6 +78,7 @@ private:
     struct Placed;
     struct Step;
 
+    void add(std::vector<Frame>);
     Placed const* find(std::string_view crs) const;  // null for the engine's frame
     std::vector<Placed const*> ancestry(std::string_view crs) const;
     std::optional<std::vector<Step>> way(std::string_view from, std::string_view to) const;

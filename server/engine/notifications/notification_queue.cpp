@@ -21,14 +21,47 @@ std::uint64_t before(Numbered const& entry) {
 
 }  // namespace
 
-NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotification const> notification) {
+NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotification const> notification, Hold cause) {
     std::lock_guard const lock{mutex_};
     if (waiting_ >= max_waiting_ && !make_room()) overflowed_ = true;
-    if (overflowed_ && std::holds_alternative<ReceiveEvent>(notification->body)) return Pushed::overflow;
-    entries_.push_back({last_sequence_ + 1, std::move(notification)});
-    ++last_sequence_;
+    if (overflowed_ && std::holds_alternative<ReceiveEvent>(notification->body)) return Pushed::dropped;
+    auto const hold = is_held(cause) ? cause : current_;
+    reserve_for_held(1);
+    if (is_held(hold)) {
+        held_.push_back({hold, std::move(notification)});
+        ++waiting_;
+        return overflowed_ ? Pushed::overflow : Pushed::held;
+    }
+    entries_.push_back({++last_sequence_, std::move(notification)});
     ++waiting_;
     return overflowed_ ? Pushed::overflow : Pushed::ok;
+}
+
+bool NotificationQueue::is_held(Hold hold) const { return hold != 0 && std::ranges::binary_search(holds_, hold); }
+
+// Makes room in entries_ for this many more entries and for all held ones.
+void NotificationQueue::reserve_for_held(std::size_t more) {
+    auto const room = entries_.size() + held_.size() + more;
+    if (entries_.capacity() < room) entries_.reserve(2 * room);
+}
+
+// Replaces the oldest held event of the oldest hold by a `Lost`, merged with a `Lost` right before it.
+bool NotificationQueue::make_room_among_held() {
+    auto const event = std::ranges::find_if(
+        held_, [](Held const& held) { return std::holds_alternative<ReceiveEvent>(held.notification->body); });
+    if (event == held_.end()) return false;
+    auto const before = event == held_.begin() ? held_.end() : std::prev(event);
+    auto const* gap = before == held_.end() || before->by != event->by ? nullptr : std::get_if<Lost>(&before->notification->body);
+    auto lost = std::make_shared<OutgoingNotification const>(Lost{gap == nullptr ? 1 : gap->count + 1});
+    --waiting_;
+    ++lost_;
+    if (gap == nullptr) {
+        event->notification = std::move(lost);
+    } else {
+        before->notification = std::move(lost);
+        held_.erase(event);
+    }
+    return true;
 }
 
 // Replaces the oldest waiting event by a `Lost`, merged with a `Lost` right before it. Returns false if there is no waiting
@@ -38,7 +71,7 @@ bool NotificationQueue::make_room() {
     auto const event = std::find_if(first_waiting, entries_.end(), [](Numbered const& entry) {
         return std::holds_alternative<ReceiveEvent>(entry.notification->body);
     });
-    if (event == entries_.end()) return false;
+    if (event == entries_.end()) return make_room_among_held();
     auto const* const gap_before = event == first_waiting ? nullptr : as_lost(*std::prev(event));
     auto gap = gap_until(event->sequence, gap_before == nullptr ? 1 : gap_before->count + 1);
     --waiting_;
@@ -56,7 +89,7 @@ void NotificationQueue::keep_last(std::size_t events) {
     std::lock_guard const lock{mutex_};
     auto const is_event = [](Numbered const& entry) { return std::holds_alternative<ReceiveEvent>(entry.notification->body); };
     std::vector<Numbered> kept;
-    kept.reserve(entries_.size() - sent_);
+    kept.reserve(entries_.size() - sent_ + held_.size());
     std::size_t dropped = 0;
     auto const first_waiting = entries_.begin() + static_cast<std::ptrdiff_t>(sent_);
     auto too_many = std::count_if(first_waiting, entries_.end(), is_event) - static_cast<std::ptrdiff_t>(events);
@@ -89,16 +122,15 @@ std::vector<Numbered> NotificationQueue::read(std::uint64_t after, std::size_t m
 
 NotificationQueue::Next NotificationQueue::read(std::uint64_t after, std::size_t most, std::vector<Numbered>& into) {
     std::lock_guard const lock{mutex_};
-    auto const until = visible_until();
     auto entry = first_after(after);
     auto const begin = into.size();
-    if (entry != entries_.end() && entry->sequence <= until && before(*entry) != after) {
+    if (entry != entries_.end() && before(*entry) != after) {
         // The position is before the oldest entry, or inside a gap: begin with a `Lost` that counts from the position.
         auto const missing_until = as_lost(*entry) == nullptr ? before(*entry) : entry->sequence;
         if (missing_until > after) into.push_back(gap_until(missing_until, missing_until - after));
         if (as_lost(*entry) != nullptr) ++entry;
     }
-    for (; entry != entries_.end() && entry->sequence <= until && into.size() - begin < most; ++entry) into.push_back(*entry);
+    for (; entry != entries_.end() && into.size() - begin < most; ++entry) into.push_back(*entry);
     if (into.size() == begin) return after_locked(after);
     mark_sent(into.back().sequence);
     forget();
@@ -120,20 +152,44 @@ NotificationQueue::Next NotificationQueue::next(std::uint64_t after) const {
 
 NotificationQueue::Next NotificationQueue::after_locked(std::uint64_t sequence) const {
     auto const entry = first_after(sequence);
-    if (entry != entries_.end() && entry->sequence <= visible_until()) return Next::more;
+    if (entry != entries_.end()) return Next::more;
     if (!shows_closed()) return Next::wait;
     return overflowed_ ? Next::overflowed : Next::ended;
 }
 
 NotificationQueue::Hold NotificationQueue::hold() {
     std::lock_guard const lock{mutex_};
-    return holds_.emplace_back(last_sequence_);
+    holds_.push_back(last_hold_ + 1);
+    return current_ = ++last_hold_;
 }
 
-bool NotificationQueue::release(Hold hold) {
+void NotificationQueue::leave(Hold hold) {
+    std::lock_guard const lock{mutex_};
+    if (current_ == hold) current_ = 0;
+}
+
+void NotificationQueue::enter(Hold hold) {
+    std::lock_guard const lock{mutex_};
+    current_ = hold;
+}
+
+bool NotificationQueue::release(Hold hold) noexcept {
     std::lock_guard const lock{mutex_};
     holds_.erase(std::ranges::lower_bound(holds_, hold));
-    return last_sequence_ > hold || shows_closed();
+    auto const before = last_sequence_;
+    for (auto& held : held_) {
+        if (held.by != hold) continue;
+        auto const* lost = std::get_if<Lost>(&held.notification->body);
+        last_sequence_ += lost == nullptr ? 1 : lost->count;
+        entries_.push_back({last_sequence_, std::move(held.notification)});
+    }
+    std::erase_if(held_, [&](Held const& held) { return held.by == hold; });
+    return last_sequence_ > before || shows_closed();
+}
+
+std::uint64_t NotificationQueue::last_sequence() const {
+    std::lock_guard const lock{mutex_};
+    return last_sequence_;
 }
 
 void NotificationQueue::close() {

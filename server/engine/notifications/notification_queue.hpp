@@ -42,9 +42,9 @@ struct Numbered {
 // Holds a session's notifications: those that are waiting (never read), and those that were sent (read once), for reading again.
 // Any number of readers, each with its own position. Reading marks notifications as sent.
 //
-// `session`, `read`, `next`, `has_after`, `hold`, `release`, `closed`, `waiting` and `wants_signs_of_life` are thread-safe: the
-// queue's own mutex guards them, so readers never wait for a call to the engine. All other functions need the lock that
-// serializes the calls to the engine.
+// `session`, `last_sequence`, `read`, `next`, `has_after`, `release`, `closed`, `waiting` and `wants_signs_of_life` are
+// thread-safe: the queue's own mutex guards them, so readers never wait for a call to the engine. All other functions need the
+// lock that serializes the calls to the engine.
 class NotificationQueue {
 public:
     NotificationQueue(SessionId session, std::size_t max_waiting, std::size_t max_sent)
@@ -52,11 +52,17 @@ public:
 
     SessionId const& session() const { return session_; }
 
-    enum class Pushed : std::uint8_t { ok, overflow };
+    // The number of an answer that must be sent before the notifications that its operation causes (decision 22). 0: none.
+    using Hold = std::uint64_t;
 
-    // Numbers and stores the notification. If too many wait, replaces the oldest waiting event by a `Lost`. Returns `overflow` if
-    // there is no event to replace: the session must then end, and the queue accepts no more events.
-    Pushed push(std::shared_ptr<OutgoingNotification const>);
+    // `held`: the notification is numbered and visible when its hold is released. `overflow`, `dropped`: too many wait, so the
+    // session must end.
+    enum class Pushed : std::uint8_t { ok, held, overflow, dropped };
+
+    // Numbers and stores the notification, or holds it if `cause`, or else the current hold, is not released yet. If too many
+    // wait, replaces the oldest waiting event by a `Lost`. If there is no event to replace, the queue overflows, and events are
+    // dropped from then on.
+    Pushed push(std::shared_ptr<OutgoingNotification const>, Hold cause = 0);
 
     // Drops the sent notifications. Replaces the oldest waiting events by `Lost` until `events` are left.
     void keep_last(std::size_t events);
@@ -64,7 +70,7 @@ public:
     // Marks the end: the session has ended. Holds hide the end, too.
     void close();
 
-    std::uint64_t last_sequence() const { return last_sequence_; }
+    std::uint64_t last_sequence() const;
 
     // The number of notifications that were dropped.
     std::uint64_t lost() const { return lost_; }
@@ -85,12 +91,14 @@ public:
     std::vector<Numbered> read(std::uint64_t after, std::size_t most);
     bool has_after(std::uint64_t after) const { return next(after) == Next::more; }
 
-    // While a hold exists, notifications that are pushed later are invisible: an answer must be sent before them (decision 22).
-    // Holds may overlap. Release each one once.
-    using Hold = std::uint64_t;  // the last visible sequence
+    // Begins a hold, and makes it the current one. Holds may overlap. Release each one once.
     Hold hold();
-    // Returns whether the hold has hidden an entry or the end.
-    bool release(Hold);
+    // From now on, only notifications that name the hold as their cause are held. `enter` makes the hold current again.
+    void leave(Hold);
+    void enter(Hold);
+    Hold current() const { return current_; }
+    // Makes the held notifications visible. Cannot fail. Returns whether there are some, or the hold has hidden the end.
+    bool release(Hold) noexcept;
 
     bool closed() const;
 
@@ -103,8 +111,10 @@ public:
     void attach(std::shared_ptr<void> attachment) { attachment_ = std::move(attachment); }
 
 private:
-    std::uint64_t visible_until() const { return holds_.empty() ? last_sequence_ : holds_.front(); }
     bool make_room();
+    bool make_room_among_held();
+    bool is_held(Hold) const;
+    void reserve_for_held(std::size_t more);
     bool shows_closed() const { return closed_ && holds_.empty(); }
     std::vector<Numbered>::const_iterator first_after(std::uint64_t sequence) const;
     Next after_locked(std::uint64_t sequence) const;
@@ -112,17 +122,24 @@ private:
     void forget();
 
     std::shared_ptr<void> attachment_;
-    // Guards the members below. last_sequence_, lost_ and overflowed_ change only under the engine's lock as well, so its holder
-    // may read them without this mutex.
+    // Guards the members below. lost_, overflowed_ and current_ change only under the engine's lock as well, so its holder may
+    // read them without this mutex.
     mutable std::mutex mutex_;
     // Ordered by sequence: forgotten entries, then sent ones, then waiting ones. A `Lost` counts for several.
     std::vector<Numbered> entries_;
     std::size_t forgotten_ = 0;        // forgotten entries that are still in entries_
     std::size_t sent_ = 0;             // entries that were forgotten or sent
-    std::size_t waiting_ = 0;          // waiting entries, without `Lost`
+    std::size_t waiting_ = 0;          // waiting and held entries, without `Lost`
     std::uint64_t last_sequence_ = 0;  // of the newest entry
     std::uint64_t lost_ = 0;
+    struct Held {
+        Hold by;
+        std::shared_ptr<OutgoingNotification const> notification;
+    };
+    std::vector<Held> held_;   // entries_ has room for them
     std::vector<Hold> holds_;  // ascending
+    Hold last_hold_ = 0;
+    Hold current_ = 0;
     bool closed_ = false;
     bool overflowed_ = false;
 

@@ -16,23 +16,25 @@ class Notifier {
 public:
     explicit Notifier(Outbox& outbox) : outbox_{outbox} {}
 
-    void notify(Session& session, Notification notification) {
-        notify(session, std::make_shared<OutgoingNotification const>(std::move(notification)));
+    // `cause`: the answer that must be sent first.
+    void notify(Session& session, Notification notification, NotificationQueue::Hold cause = 0) {
+        notify(*session.notifications, std::make_shared<OutgoingNotification const>(std::move(notification)), cause);
     }
 
     void notify(Session& session, SharedNotification notification) { notify(*session.notifications, std::move(notification)); }
 
-    void notify(NotificationQueue& queue, SharedNotification notification) {
-        auto const lost = queue.lost(), last = queue.last_sequence();
+    void notify(NotificationQueue& queue, SharedNotification notification, NotificationQueue::Hold cause = 0) {
+        auto const lost = queue.lost();
         bool const known = queue.overflowed();
-        if (queue.push(std::move(notification)) == NotificationQueue::Pushed::overflow && !known) {
+        auto const pushed = queue.push(std::move(notification), cause);
+        if (queue.overflowed() && !known) {
             overflowed_ = true;
             ++overflows_;
         }
-        if (queue.last_sequence() == last) return;
+        if (pushed == NotificationQueue::Pushed::dropped) return;
         ++pushed_;
         lost_ += queue.lost() - lost;
-        outbox_.notify(queue);
+        if (pushed != NotificationQueue::Pushed::held) outbox_.notify(queue);
     }
 
     // Drops the session's sent notifications, and the oldest waiting events until `events` are left.

@@ -26,6 +26,19 @@ Fault too_slow() { return {FaultCode::too_slow, "the request did not arrive in t
 
 }  // namespace
 
+// Lets a connection take the answers that have come. It may outlive the connection.
+class Connection::Waker final : public Reader {
+public:
+    Waker(Wakes& wakes, std::weak_ptr<Connection> of) : Reader{wakes}, of_{std::move(of)} {}
+
+private:
+    void woken() override {
+        if (auto const connection = of_.lock()) connection->answers_came();
+    }
+
+    std::weak_ptr<Connection> of_;
+};
+
 Connection::Connection(Loop& loop, Socket socket, Admission::Place place)
     : loop_{loop},
       place_{std::move(place)},
@@ -43,6 +56,7 @@ Task<> Connection::run() {
     if (!loop_.draining()) then = co_await serve();
     if (then == Then::websocket) co_await serve_websocket();
     if (then == Then::linger) {
+        co_await await_answers();
         co_await flush();
         co_await wire_.linger(now() + longest_linger);
     }
@@ -91,20 +105,24 @@ Task<Connection::Then> Connection::serve() {
         if (whole && !is_request) then = co_await serve_other();
         if (whole && is_request) {
             auto const body = wire_.text().substr(0, head_.content_length);
-            Answer answer;
+            if (!waker_) waker_ = std::make_shared<Waker>(loop_.wakes(), weak_from_this());
+            PendingAnswer answer;
             if (LongDocuments::is_long(body.size())) {
                 co_await flush();  // answers to earlier requests do not wait for this one
-                answer = co_await shared.long_documents.answer(shared.gateway, session_, body, Via::http, opener_, loop_.wakes());
+                answer = co_await shared.long_documents.answer(shared.gateway, session_, body, Via::http, waker_, opener_,
+                                                               loop_.wakes());
             } else {
-                answer = shared.gateway.answer(loop_.reader(), session_, body, Via::http, opener_);
+                answer = shared.gateway.answer(loop_.reader(), session_, body, Via::http, waker_, opener_);
             }
             wire_.use(head_.content_length);
-            if (answer.turn == Answer::Turn::disconnected) {
+            if (answer.is_disconnect()) {
+                co_await await_answers();
                 co_await flush();
                 co_await others_heard(shared.gateway, session_, loop_.executor(), loop_.wakes());
             }
-            then = reply(std::move(answer));
+            then = take(std::move(answer));
         }
+        if (waiting_.size() >= shared.settings.max_requests_in_flight) co_await await_answers();
         if (out_.size() > most_to_gather || holds_.size() >= shared.settings.max_requests_in_flight) co_await flush();
         ++in_a_row;
         if (in_a_row % most_in_a_row == 0) co_await asio::post(loop_.executor(), asio::use_awaitable_t<Executor>{});
@@ -163,7 +181,7 @@ Task<Connection::Then> Connection::receive() {
     auto const& settings = loop_.shared().settings;
     if (!flush_at_once()) co_await flush();
     idle_ = !has_head_ && wire_.received().empty();
-    if (idle_ && loop_.draining()) co_return Then::end;
+    if (idle_ && loop_.draining() && waiting_.empty()) co_return Then::end;
     if (idle_) request_due_ = Steady::max();
     if (idle_ && head_.text.capacity() > most_to_keep_of_head) head_ = {};
     if (!idle_ && request_due_ == Steady::max()) request_due_ = now() + settings.request_timeout;
@@ -179,12 +197,46 @@ Task<Connection::Then> Connection::receive() {
     co_return Then::next;
 }
 
-Connection::Then Connection::reply(Answer&& answer) {
+// An answer that comes later, or after one that comes later, waits for its turn.
+Connection::Then Connection::take(PendingAnswer answer) {
+    if (waiting_.empty() && answer.has_come()) return reply(made_of(answer.take()));
+    bool const close = !head_.keep_alive() || loop_.draining();
+    waiting_.push_back({std::move(answer), {Framing::Body::sent, close}});
+    return close ? Then::linger : Then::next;
+}
+
+bool Connection::take_answers() {
+    for (; !waiting_.empty(); waiting_.pop_front()) {
+        auto& [answer, framing] = waiting_.front();
+        auto* pending = std::get_if<PendingAnswer>(&answer);
+        if (pending != nullptr && !pending->has_come()) return false;
+        append(out_, pending != nullptr ? made_of(pending->take()) : std::get<HttpAnswer>(answer), framing);
+    }
+    return true;
+}
+
+// Lets a receive that waits go on, if the socket does not take all at once.
+void Connection::answers_came() {
+    if (wire_.waits_for_reader()) return;  // `flush` goes on with them
+    take_answers();
+    if (!flush_at_once()) wire_.interrupt();
+    if (answers_signal_) answers_signal_->raise();
+}
+
+Task<> Connection::await_answers() {
+    while (!take_answers()) {
+        answers_signal_ = std::make_shared<Signal>(loop_.executor(), loop_.wakes());
+        co_await answers_signal_->wait_until(Steady::max());
+        answers_signal_.reset();
+    }
+}
+
+HttpAnswer Connection::made_of(Answer&& answer) {
     HttpAnswer http{.body = std::move(answer.document)};
     if (answer.fault) {
         http.status = http::int_to_status(static_cast<unsigned>(http_status_of(answer.fault->code)));
         if (answer.fault->code == FaultCode::too_many) http.fields.set(http::field::retry_after, "1");
-        log(*answer.fault, request_line());
+        log(*answer.fault, "POST /rois");
     }
     if (answer.turn == Answer::Turn::connected) http.fields.set("RoIS-Session", answer.session.text);
     if (answer.session_number != 0) {
@@ -192,14 +244,17 @@ Connection::Then Connection::reply(Answer&& answer) {
         log_joined(answer.session_number, "opened over HTTP", wire_.peer());
     }
     holds_.push_back(std::move(answer.hold));
-    return reply(http);
+    return http;
 }
 
 // Serves a request that is not an operation.
 Task<Connection::Then> Connection::serve_other() {
     auto& shared = loop_.shared();
     wire_.use(head_.content_length);
-    if (route_.endpoint == Endpoint::rois) co_return serve_upgrade();
+    if (route_.endpoint == Endpoint::rois) {
+        co_await await_answers();
+        co_return serve_upgrade();
+    }
     // Decision 34. Stops first: the log and the answer need memory.
     if (route_.endpoint == Endpoint::stop) {
         auto const state = shared.gateway.stop_everything();
@@ -242,6 +297,7 @@ Task<Connection::Then> Connection::serve_notifications() {
     if (auto const* fault = std::get_if<Fault>(&read)) co_return reply(answer_of(*fault));
     if (shared.gateway.shutting_down()) co_return reply(answer_of(shutting_down()));
     auto wanted = std::get<NotificationsWanted>(read);
+    co_await await_answers();
     co_await flush();
     if (wanted.as == NotificationsWanted::As::stream && head_.verb == http::verb::get) {
         counted_.emplace(shared.telemetry, Telemetry::Kind::stream);
@@ -254,14 +310,17 @@ Task<Connection::Then> Connection::serve_notifications() {
     co_return reply(answer);
 }
 
-Connection::Then Connection::reply(HttpAnswer const& answer, Framed framed) {
+Connection::Then Connection::reply(HttpAnswer answer, Framed framed) {
     if (answer.fault) {
         loop_.shared().telemetry.faulted(answer.fault->code);
         log(*answer.fault, request_line());
     }
     bool const close = framed == Framed::last || !head_.keep_alive() || loop_.draining();
     auto const body = head_.verb == http::verb::head ? Framing::Body::omitted : Framing::Body::sent;
-    append(out_, answer, {body, close});
+    if (waiting_.empty())
+        append(out_, answer, {body, close});
+    else
+        waiting_.push_back({std::move(answer), {body, close}});
     return close ? Then::linger : Then::next;
 }
 
@@ -273,7 +332,8 @@ Connection::Then Connection::refuse(Fault const& fault) {
     bool const asks_for_head = has_head_ ? head_.verb == http::verb::head : wire_.text().starts_with("HEAD ");
     auto answer = answer_of(fault);
     if (fault.code == FaultCode::too_many) answer.fields.set(http::field::retry_after, "1");
-    append(out_, answer, {asks_for_head ? Framing::Body::omitted : Framing::Body::sent, true});
+    waiting_.push_back({std::move(answer), {asks_for_head ? Framing::Body::omitted : Framing::Body::sent, true}});
+    take_answers();
     return Then::linger;
 }
 
@@ -293,13 +353,16 @@ bool Connection::flush_at_once() {
 
 // Waits until the peer has taken all answers. Cuts the connection instead while memory_budget is used up.
 Task<> Connection::flush() {
-    if (flush_at_once()) co_return;
-    auto& memory = loop_.shared().gateway.memory();
-    memory.took(out_.size());
-    if (memory.full()) cut_for_memory();
-    co_await wire_.send(out_);
-    out_.clear();
-    forget_out();
+    auto outcome = Wire::Outcome::done;
+    while (outcome == Wire::Outcome::done && !flush_at_once()) {
+        auto& memory = loop_.shared().gateway.memory();
+        memory.took(out_.size());
+        if (memory.full()) cut_for_memory();
+        outcome = co_await wire_.send(out_);
+        out_.clear();
+        forget_out();
+        take_answers();
+    }
 }
 
 void Connection::forget_out() {

@@ -1,9 +1,11 @@
 // One HTTP connection: receives requests and answers them in order. It may become a WebSocket or an event stream.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "gateway/gateway.hpp"
@@ -42,7 +44,6 @@ private:
     Then take_head();
     Then judge_head();
     Task<Then> receive();
-    Then reply(Answer&&);
     Task<Then> serve_other();
     Then serve_upgrade();
     Task<> serve_websocket();
@@ -50,7 +51,13 @@ private:
 
     // These functions queue the answer, and `flush` sends it. `last`: the connection ends behind it.
     enum class Framed : std::uint8_t { as_asked, last };
-    Then reply(HttpAnswer const&, Framed = Framed::as_asked);
+    Then reply(HttpAnswer, Framed = Framed::as_asked);
+    HttpAnswer made_of(Answer&&);
+    Then take(PendingAnswer);
+    // Answers in the order of the requests, as far as they have come. Returns false if a component still lets us wait.
+    bool take_answers();
+    void answers_came();
+    Task<> await_answers();
     Then refuse(Fault const&);
     void log(Fault const&, std::string_view request);
     std::string request_line() const;
@@ -76,8 +83,17 @@ private:
     Steady request_due_ = Steady::max();
     Steady idle_due_ = Steady::max();  // when the next request must have begun; empty lines do not begin one
     bool idle_ = false;                // no byte of the next request has arrived
-    std::string out_;                  // answers for the next write
-    std::vector<Hold> holds_;          // keep notifications behind these answers
+    // An answer that waits for its turn.
+    struct Waiting {
+        std::variant<PendingAnswer, HttpAnswer> answer;
+        Framing framing;
+    };
+    class Waker;
+    std::shared_ptr<Waker> waker_;            // is woken when an answer has come
+    std::shared_ptr<Signal> answers_signal_;  // raised when an answer has come; null if nothing waits for that
+    std::deque<Waiting> waiting_;             // in the order of their requests; the first one has not come yet
+    std::string out_;                         // answers for the next write
+    std::vector<Hold> holds_;                 // keep notifications behind these answers
     std::weak_ptr<WebSocket> websocket_;
 };
 

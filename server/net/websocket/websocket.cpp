@@ -38,7 +38,8 @@ WebSocket::WebSocket(std::shared_ptr<Wire> wire, Loop& loop, std::shared_ptr<Ope
       opener_{std::move(opener)} {}
 
 bool WebSocket::full() const {
-    return answers_waiting_ + answers_in_out_ >= shared_.settings.max_requests_in_flight || answers_.size() > most_answers;
+    return answers_waiting_ + answers_in_out_ + pending_.size() >= shared_.settings.max_requests_in_flight ||
+           answers_.size() > most_answers;
 }
 
 Task<> WebSocket::run() {
@@ -69,7 +70,7 @@ void WebSocket::break_off() noexcept {
 // Handles the complete frames that have arrived. Returns false if the rest must wait for `pause`.
 bool WebSocket::take_frames() {
     while (!ending_ && !broken_) {
-        if (last_answer_ || full() || !long_message_.empty()) return false;
+        if (last_answer_ || session_changes_ || full() || !long_message_.empty()) return false;
         std::size_t used = 0;
         auto const received = messages_.next(wire_->received(), used);
         if (received.kind == Received::Kind::nothing) break;
@@ -93,7 +94,8 @@ void WebSocket::take(Received const& received) {
             if (LongDocuments::is_long(received.text.size()))
                 long_message_ = received.text;
             else
-                answered(shared_.gateway.answer(reader_, session_, received.text, Via::websocket, opener_, reading_.get()));
+                take(shared_.gateway.answer(reader_, session_, received.text, Via::websocket, weak_from_this(), opener_,
+                                            reading_.get()));
             break;
         case Received::Kind::ping:
             note_control();
@@ -113,6 +115,23 @@ void WebSocket::take(Received const& received) {
         case Received::Kind::nothing:
             break;
     }
+}
+
+void WebSocket::take(PendingAnswer answer) {
+    if (pending_.empty() && answer.has_come()) return answered(answer.take());
+    session_changes_ = answer.is_about_session();
+    pending_.push_back(std::move(answer));
+}
+
+// Takes the answers that have come, as far as the order of the requests allows.
+void WebSocket::take_answers() {
+    while (!pending_.empty() && pending_.front().has_come()) {
+        auto answer = pending_.front().take();
+        pending_.pop_front();
+        answered(std::move(answer));
+    }
+    if (pending_.empty()) session_changes_ = false;
+    if (room_) room_->raise();
 }
 
 void WebSocket::answered(Answer&& answer) {
@@ -142,13 +161,15 @@ void WebSocket::add_pong(std::string_view payload) {
 // Waits until the next frame may be handled.
 Task<> WebSocket::pause() {
     if (!long_message_.empty()) co_await answer_long_message();
+    while (session_changes_ && !broken_) co_await something_written();
     if (last_answer_) co_await leave_session();
     if (full()) co_await wait_for_room();
 }
 
 Task<> WebSocket::answer_long_message() {
     auto const message = std::exchange(long_message_, {});
-    answered(co_await shared_.long_documents.answer(shared_.gateway, session_, message, Via::websocket, opener_, wakes()));
+    take(co_await shared_.long_documents.answer(shared_.gateway, session_, message, Via::websocket, weak_from_this(), opener_,
+                                                wakes()));
 }
 
 // Sends the session's last notifications, waits until its other readers have received them too, and then answers the disconnect.
@@ -299,6 +320,7 @@ void WebSocket::keep_unsent(std::string_view rest) {
 // Appends the bytes of the next write. Returns whether more notifications follow.
 bool WebSocket::gather(std::string& out) {
     if (close_gathered_) return false;
+    if (!pending_.empty()) take_answers();
     out.append(answers_);
     answers_.clear();
     if (answers_.capacity() > most_kept) answers_.shrink_to_fit();

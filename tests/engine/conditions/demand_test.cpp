@@ -300,14 +300,4 @@ TEST(Subscriptions, ByRefAndByTypeAreNotifiedInTheOrderOfSubscribing) {
     EXPECT_THAT(desk.heard(), IsEmpty());
 }
 
-TEST(BindAny, StopsAtTheFirstFreeComponent) {
-    World world{named("a", speech), named("b", speech), named("c", speech)};
-    auto desk = world.connect(), hall = world.connect();
-    hall.bind("a");
-    world["c"].throws_in = {"location"};
-    auto const nowhere = both({of_type("SpeechSynthesis"), is_null("location")});
-    EXPECT_EQ(desk.bind_any(nowhere), "b");
-    EXPECT_EQ(world.engine->statistics().errors, 0u) << "c was not asked for its position, so it did not fail";
-}
-
 }  // namespace rois

@@ -92,7 +92,7 @@ TEST_F(TwoFrames, ACommandWhoseResultsCannotBeConvertedFails) {
     desk.execute(named("dock", command("dock", "robot2.navigation")));
     far.finishes(CompletedStatus::ok, {{integer("charge", 80)}, {at(3'000, 0, "map", {1, 2, 3})}});
     EXPECT_EQ(desk.result_of("dock"), "ERROR");
-    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR robot2.navigation", "2 completed dock ERROR"));
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock ERROR", "2 COMPONENT_INTERNAL_ERROR robot2.navigation"));
 }
 
 TEST_F(TwoFrames, TargetsAreConvertedToTheComponentsFrame) {

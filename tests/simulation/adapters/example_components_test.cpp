@@ -218,7 +218,7 @@ TEST_F(Wheelchair, BrakesStopItAndHoldItUntilTheyAreOff) {
     EXPECT_EQ(wheelchair.ended(), "OK");
     EXPECT_EQ(stage.robot_state().twist.linear, 0) << "completes when the wheelchair stands";
     auto const held = stage.robot().position;
-    EXPECT_EQ(wheelchair.component().status(), ComponentStatus::warning);
+    EXPECT_EQ(wheelchair.status(), ComponentStatus::warning);
     stage.run(10);
     EXPECT_EQ(stage.robot().position, held);
     brake(false);
@@ -236,7 +236,7 @@ TEST_F(Wheelchair, BrakesHoldItForAllComponents) {
     stage["move"].start({integers("line", "1000 0")});
     stage.run(5);
     EXPECT_EQ(stage.robot().position, Point(2, 4));
-    EXPECT_EQ(stage["move"].component().status(), ComponentStatus::warning);
+    EXPECT_EQ(stage["move"].status(), ComponentStatus::warning);
     EXPECT_EQ(stage.outcome("move"), "ERROR");
     EXPECT_EQ(stage["move"].reason(), "the brakes of the robot are on");
     stage["navigation"].start({target("5000, 4000")});
@@ -365,8 +365,8 @@ TEST(Adapter, ComesFromAnIncludedBasicComponent) {
     monitor.start();
     stage.run(20);
     EXPECT_THAT(monitor.events("person_detected"), SizeIs(2)) << "zero, then one";
-    EXPECT_EQ(monitor.component().description().ref.code, "person_monitor");
-    EXPECT_EQ(monitor.component().description().ref.codebook_ref, "urn:x-rois:def:component:RoISGateway::PersonMonitor");
+    EXPECT_EQ(monitor.description().ref.code, "person_monitor");
+    EXPECT_EQ(monitor.description().ref.codebook_ref, "urn:x-rois:def:component:RoISGateway::PersonMonitor");
 }
 
 class AdaptersOf : public testing::Test {

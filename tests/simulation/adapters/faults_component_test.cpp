@@ -27,44 +27,35 @@ TEST_F(Faults, OfASilentComponentKeepItFromBeginning) {
     stage["speech_synthesis"].start(speech());
     stage.run(20);
     EXPECT_THAT(stage["speech_synthesis"].log(), testing::IsEmpty());
-    EXPECT_EQ(stage["speech_synthesis"].component().status(), ComponentStatus::ready);
+    EXPECT_EQ(stage["speech_synthesis"].status(), ComponentStatus::ready);
     EXPECT_FALSE(stage.robot_state().speaking);
 }
 
 TEST_F(Faults, OfASilentComponentLeaveItsQueriesWithoutAnswer) {
-    auto stage = unwell("system_information", Fault::Kind::silent);
-    stage.step();
-    EXPECT_TRUE(stage["system_information"].component().query("robot_position", stage.now()).empty());
-}
-
-TEST_F(Faults, OfASilentComponentAreReportedByItsQueries) {
     auto stage = unwell("system_information", Fault::Kind::silent, 0, 0.5);
     stage.step();
     auto& information = stage["system_information"];
-    information.component().query("robot_position", stage.now());
-    EXPECT_THAT(information.words(), ElementsAre("error, once: the component does not answer queries: a fault of the scenario"));
+    EXPECT_FALSE(information.answers("robot_position"));
     stage.run(1);
-    EXPECT_FALSE(information.component().query("robot_position", stage.now()).empty());
-    EXPECT_THAT(information.words(), ElementsAre("error, once: the component does not answer queries: a fault of the scenario"));
+    EXPECT_FALSE(information.rows("robot_position").empty());
+    EXPECT_THAT(information.log(), testing::IsEmpty()) << "the engine reports the timeout";
 }
 
 TEST_F(Faults, OfAComplainingComponentAreReportedOnceAndItWorks) {
     auto stage = unwell("speech_synthesis", Fault::Kind::complaining, 0.1, 0.5);
     stage.step();
-    EXPECT_EQ(stage["speech_synthesis"].component().status(), ComponentStatus::ready);
+    EXPECT_EQ(stage["speech_synthesis"].status(), ComponentStatus::ready);
     stage.run(0.3);
-    EXPECT_EQ(stage["speech_synthesis"].component().status(), ComponentStatus::warning);
+    EXPECT_EQ(stage["speech_synthesis"].status(), ComponentStatus::warning);
     EXPECT_THAT(stage["speech_synthesis"].words(), ElementsAre("error the component complains: a fault of the scenario"));
     stage["speech_synthesis"].start(speech());
     EXPECT_EQ(stage.outcome("speech_synthesis"), "OK");
-    EXPECT_EQ(stage["speech_synthesis"].component().status(), ComponentStatus::ready);
+    EXPECT_EQ(stage["speech_synthesis"].status(), ComponentStatus::ready);
 }
 
 TEST_F(Faults, OfAComplainingSystemInformationAreTheStatusOfTheEngine) {
     auto stage = unwell("system_information", Fault::Kind::complaining, 0.1, 0.5);
-    auto const reported = [&] {
-        return value(stage["system_information"].component().query("engine_status", stage.now()).at(0), "status");
-    };
+    auto const reported = [&] { return value(stage["system_information"].query("engine_status"), "status"); };
     stage.step();
     EXPECT_EQ(reported(), "READY");
     stage.run(0.3);
@@ -78,10 +69,10 @@ TEST_F(Faults, LetAnUnstoppableComponentGoOnAndConfirmNoHalt) {
     auto& speaker = stage["speech_synthesis"];
     speaker.start(speech());
     stage.step();
-    EXPECT_EQ(speaker.component().halt(stage.now()), Halted::not_yet);
+    EXPECT_EQ(speaker.stop(), Halted::not_yet);
     EXPECT_TRUE(stage.robot_state().speaking);
     stage.run(0.6);
-    EXPECT_EQ(speaker.component().halt(stage.now()), Halted::confirmed);
+    EXPECT_EQ(speaker.stop(), Halted::confirmed);
     EXPECT_FALSE(stage.robot_state().speaking);
 }
 
@@ -94,16 +85,15 @@ TEST_F(Faults, LetASilentComponentContinueItsWork) {
 TEST_F(Faults, OfAFailedComponentAreItsStatusAndItsExceptions) {
     auto stage = unwell("speech_synthesis", Fault::Kind::failed);
     stage.step();
-    auto& component = stage["speech_synthesis"].component();
+    auto& component = stage["speech_synthesis"];
     EXPECT_EQ(component.status(), ComponentStatus::error);
-    EXPECT_THROW(stage["speech_synthesis"].start(speech()), std::runtime_error);
-    EXPECT_THROW(component.suspend(stage.now()), std::runtime_error);
-    EXPECT_THROW(component.resume(stage.now()), std::runtime_error);
-    EXPECT_THROW(component.readable_parameters(), std::runtime_error);
-    EXPECT_THROW(component.query("robot_position", stage.now()), std::runtime_error);
-    EXPECT_THROW(component.parameters_changed({}, stage.now()), std::runtime_error);
-    EXPECT_THROW(component.perform(CommandHandle{1}, "sing", {}, stage.now()), std::runtime_error);
-    EXPECT_NO_THROW(component.halt(stage.now()));
+    EXPECT_THROW(component.start(speech()), std::runtime_error);
+    EXPECT_THROW(component.set_parameter({integer("volume", 50)}), std::runtime_error);
+    EXPECT_THROW(component.restore_defaults(), std::runtime_error);
+    EXPECT_THROW(component.suspend(), std::runtime_error);
+    EXPECT_THROW(component.resume(), std::runtime_error);
+    EXPECT_THROW(component.rows("robot_position"), std::runtime_error);
+    EXPECT_EQ(component.stop(), Halted::confirmed);
 }
 
 TEST_F(Faults, EndTheWorkOfAComponentWhenItFails) {
@@ -114,11 +104,31 @@ TEST_F(Faults, EndTheWorkOfAComponentWhenItFails) {
     EXPECT_FALSE(stage.robot_state().speaking);
 }
 
+TEST_F(Faults, AreNotTheResultOfACommandThatEndsInTheSameStep) {
+    Stage healthy;
+    healthy["speech_synthesis"].start(speech());
+    EXPECT_EQ(healthy.outcome("speech_synthesis"), "OK");
+    auto stage = unwell("speech_synthesis", Fault::Kind::failed, in_seconds(healthy.hall().now()));
+    stage["speech_synthesis"].start(speech());
+    stage.run(10);
+    EXPECT_THAT(stage["speech_synthesis"].words(), ElementsAre("started", "completed OK", std::string{"error "} + failure));
+}
+
+TEST_F(Faults, LetAComponentThatFailsWhileItBrakesConfirmTheHalt) {
+    auto stage = unwell("navigation", Fault::Kind::failed, 2);
+    auto& navigation = stage["navigation"];
+    navigation.start({texts("target_position", {"9000, 4000"})});
+    stage.run(1.94);
+    EXPECT_EQ(navigation.stop(), Halted::not_yet);
+    stage.run(2);
+    EXPECT_THAT(navigation.words(), ElementsAre("started", std::string{"error "} + failure, "halted"));
+}
+
 TEST_F(Faults, AreReportedOnceAndPass) {
     auto stage = unwell("speech_synthesis", Fault::Kind::failed, 0.1, 0.5);
     stage.run(1);
     EXPECT_THAT(stage["speech_synthesis"].words(), ElementsAre(std::string{"error "} + failure));
-    EXPECT_EQ(stage["speech_synthesis"].component().status(), ComponentStatus::ready);
+    EXPECT_EQ(stage["speech_synthesis"].status(), ComponentStatus::ready);
     stage["speech_synthesis"].start(speech());
     EXPECT_EQ(stage.outcome("speech_synthesis"), "OK");
 }
@@ -126,13 +136,13 @@ TEST_F(Faults, AreReportedOnceAndPass) {
 TEST_F(Faults, DoNotMoveTheRobot) {
     auto stage = unwell("navigation", Fault::Kind::failed);
     stage.step();
-    EXPECT_EQ(stage["navigation"].component().location(), stage["move"].component().location());
+    EXPECT_EQ(stage["navigation"].location(), stage["move"].location());
 }
 
 TEST_F(Faults, DoNotAffectOtherComponents) {
     auto stage = unwell("navigation", Fault::Kind::failed);
     stage.step();
-    EXPECT_EQ(stage["move"].component().status(), ComponentStatus::ready);
+    EXPECT_EQ(stage["move"].status(), ComponentStatus::ready);
 }
 
 TEST_F(Faults, AcceptTheRefsOfAllComponents) {
@@ -147,7 +157,7 @@ TEST_F(Faults, AffectUserDefinedComponentsToo) {
     auto stage = unwell("person_age_recognition", Fault::Kind::failed);
     stage.add("person_age_recognition.xml");
     stage.step();
-    EXPECT_EQ(stage["person_age_recognition"].component().status(), ComponentStatus::error);
+    EXPECT_EQ(stage["person_age_recognition"].status(), ComponentStatus::error);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "basic/components/reaction_types.hpp"
-#include "engine/engine.hpp"
+#include "engine/working_engine.hpp"
 #include "files/files.hpp"
 #include "simulation/component_stage.hpp"
 #include "types/data_type.hpp"
@@ -31,7 +31,7 @@ TEST(Robots, ASingleRobotHasTheFifteenBasicComponents) {
                                            "person_identification", "face_detection", "face_localization", "sound_detection",
                                            "sound_localization", "speech_recognition", "gesture_recognition", "speech_synthesis",
                                            "reaction", "navigation", "follow", "move"));
-    EXPECT_EQ(Stage{}["navigation"].component().description().engine, "robot") << "the first robot is also a sub engine";
+    EXPECT_EQ(Stage{}["navigation"].description().engine, "robot") << "the first robot is also a sub engine";
 }
 
 TEST(Robots, HaveStreamingComponentsWithMedia) {
@@ -42,8 +42,8 @@ TEST(Robots, AreSubEngines) {
     Stage stage{{}, reception_with_two_robots()};
     EXPECT_THAT(stage.refs(), SizeIs(34));
     EXPECT_THAT(stage.refs(), Contains("robot2.navigation"));
-    EXPECT_EQ(stage["robot2.navigation"].component().description().engine, "robot2");
-    EXPECT_EQ(stage["navigation"].component().description().engine, "robot");
+    EXPECT_EQ(stage["robot2.navigation"].description().engine, "robot2");
+    EXPECT_EQ(stage["navigation"].description().engine, "robot");
 }
 
 TEST(Robots, FailWithoutTheProfilesOfTheirComponents) {
@@ -89,8 +89,8 @@ protected:
         for (auto const& [name, text] : files::profiles())
             profiles_.push_back(xml::read_component_profile(schemas, name, std::string{text}));
         int secrets = 0;
-        engine_ = std::make_unique<Engine>(EngineProfile{}, profiles_, EngineSettings{}, static_cast<Outbox&>(*this),
-                                           [secrets]() mutable { return "secret-" + std::to_string(++secrets); });
+        engine_ = std::make_unique<WorkingEngine>(EngineProfile{}, profiles_, EngineSettings{}, static_cast<Outbox&>(*this),
+                                                  [secrets]() mutable { return "secret-" + std::to_string(++secrets); });
         simulation_ = std::make_shared<Simulation>(
             reception(),
             Scenario{.name = "test",
@@ -100,14 +100,14 @@ protected:
                      .round = {},
                      .arrivals = {}},
             7, 1.0);
-        engine_->add(std::static_pointer_cast<Device>(simulation_));
+        engine_->Engine::add(simulation_, std::string{Simulation::provider});
         for (auto& component : robot_components(robots(simulation_, std::make_shared<FakeMedia>()), profiles_))
             engine_->add(std::move(component));
         session_ = std::get<Connect::Reply>(ask(Connect{})).session;
         engine_->link_opened(session_, Link::stream, now_);
     }
 
-    Reply ask(Operation const& operation) { return std::get<Reply>(engine_->handle(session_, operation, now_)); }
+    Reply ask(Operation const& operation) { return std::get<Reply>(engine_->answer_of(session_, operation, now_)); }
 
     void run(std::chrono::milliseconds time) {
         for (auto const end = now_.steady + time; now_.steady < end;) {
@@ -130,7 +130,7 @@ protected:
     xml::Platform platform_;
     std::vector<ComponentProfile> profiles_;
     std::shared_ptr<Simulation> simulation_;
-    std::unique_ptr<Engine> engine_;
+    std::unique_ptr<WorkingEngine> engine_;
     SessionId session_;
     Instant now_{Steady{}, Utc{std::chrono::seconds{1'800'000'000}}};
 };

@@ -4,94 +4,83 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <map>
-
 #include "simulation/component_stage.hpp"
 
 namespace rois::simulation::stage {
 namespace {
 
+using testing::AnyOf;
+using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::MatchesRegex;
+using testing::StartsWith;
 
-// Operates the component like the engine. The test advances the world.
-class Steerer final : public ComponentPort {
+// The test advances the world.
+class Steerer {
 public:
     explicit Steerer(double speed = 0, std::vector<Role> roles = {})
         : simulation{std::make_shared<Simulation>(reception(), Scenario{"test", {}, std::move(roles), {}, {}}, 7, speed)},
-          component{simulated_hall(simulation, profile())} {
-        component->attach(*this);
+          component{simulated_hall(simulation, profile()), [this] { return now_; }, [this] { return simulation->hall().now(); }} {
+        component.allow_any_command();
     }
+    ~Steerer() { EXPECT_THAT(component.words(), Each(AnyOf("started", StartsWith("completed")))) << "no events and errors"; }
+    Steerer(Steerer const&) = delete;
+    Steerer& operator=(Steerer const&) = delete;
 
     static ComponentProfile profile() {
         auto const* const file = "simulated_hall.xml";
         return xml::read_component_profile(schemas(), file, std::string{files::simulation().at(file)});
     }
 
-    // Returns why the engine would refuse the command; empty if it accepts it.
+    // Returns why the component refuses the command; empty if it accepts it.
     std::string refusal(std::string const& type, ParameterList const& arguments) {
-        return component->refusal(type, arguments).value_or("");
+        return component.refusal(type, arguments).value_or("");
     }
 
-    std::uint64_t perform(std::string const& type, ParameterList const& arguments) {
-        EXPECT_EQ(refusal(type, arguments), "");
-        component->perform(CommandHandle{++last_}, type, arguments, now_);
-        return last_;
+    CommandHandle enter(std::string const& name, bool known = false) {
+        return component.perform("enter", {text("visitor_ref", name), text("language", "en"), boolean("known", known)});
     }
-    std::uint64_t enter(std::string const& name, bool known = false) {
-        return perform("enter", {text("visitor_ref", name), text("language", "en"), boolean("known", known)});
+    CommandHandle walk(std::string const& name, std::vector<std::string> positions) {
+        return component.perform("walk", {text("visitor_ref", name), texts("target_position", std::move(positions))});
     }
-    std::uint64_t walk(std::string const& name, std::vector<std::string> positions) {
-        return perform("walk", {text("visitor_ref", name), texts("target_position", std::move(positions))});
-    }
-    std::uint64_t let_pass(int milliseconds) { return perform("let_pass", {integer("time", milliseconds)}); }
+    CommandHandle let_pass(int milliseconds) { return component.perform("let_pass", {integer("time", milliseconds)}); }
 
+    void advance_once() {
+        now_ = now_ + std::chrono::milliseconds{10};
+        simulation->advance(now_);
+        component.after_step();
+    }
     // Advances like the engine's ticks until no requested time is left.
     void advance() {
         do {
-            now_ = now_ + std::chrono::milliseconds{10};
-            simulation->advance(now_);
+            advance_once();
         } while (simulation->goes_on());
     }
 
     // Returns "OK", "ERROR visitor anna is not in the hall" or "goes on".
-    std::string outcome(std::uint64_t command) const {
-        auto const found = ended_.find(command);
-        return found == ended_.end() ? "goes on" : found->second;
-    }
-    Results visitors() { return component->query("visitors", now_).at(0); }
-
-    void halted() override {}
-    void started(CommandHandle) override {}
-    void completed(CommandHandle command, CompletedStatus status, Results, Afterwards, std::string reason) override {
-        auto const text = std::string{to_text(status)} + (reason.empty() ? "" : " " + reason);
-        EXPECT_TRUE(ended_.emplace(static_cast<std::uint64_t>(command), text).second) << "a command ends once";
-    }
-    void event(std::string_view, Results) override { ADD_FAILURE() << "the hall has no events"; }
-    void error(ErrorType, std::string text, Report) override { ADD_FAILURE() << text; }
+    std::string outcome(CommandHandle command) const { return component.outcome(command).value_or("goes on"); }
+    Results visitors() { return component.query("visitors"); }
 
     std::shared_ptr<Simulation> simulation;
-    std::unique_ptr<Component> component;
+    Operated component;
 
 private:
     Instant now_{Steady{}, Utc{std::chrono::seconds{1'800'000'000}}};
-    std::uint64_t last_ = 0;
-    std::map<std::uint64_t, std::string> ended_;
 };
 
 TEST(SimulatedHall, BelongsToNoRobot) {
     Steerer steerer;
-    auto const& description = steerer.component->description();
+    auto const& description = steerer.component.description();
     EXPECT_EQ(description.ref.code, "simulated_hall");
     EXPECT_EQ(description.ref.codebook_ref, "urn:x-rois:def:component:simulation::Hall");
     EXPECT_EQ(description.engine, "");
     EXPECT_THAT(description.positions, ElementsAre("target_position"));
-    EXPECT_FALSE(steerer.component->location());
-    EXPECT_EQ(steerer.component->status(), ComponentStatus::uninitialized);
+    EXPECT_FALSE(steerer.component.location());
+    EXPECT_EQ(steerer.component.status(), ComponentStatus::uninitialized);
     steerer.advance();
-    EXPECT_EQ(steerer.component->status(), ComponentStatus::ready);
+    EXPECT_EQ(steerer.component.status(), ComponentStatus::ready);
 }
 
 TEST(SimulatedHall, LetsTimePass) {
@@ -101,7 +90,7 @@ TEST(SimulatedHall, LetsTimePass) {
     EXPECT_EQ(steerer.simulation->hall().now(), WorldTime{20}) << "the first step has been made, and no other";
     auto const short_time = steerer.let_pass(100), long_time = steerer.let_pass(2'000);
     EXPECT_EQ(steerer.outcome(short_time), "goes on");
-    while (steerer.simulation->hall().now() < WorldTime{120}) steerer.simulation->advance(Instant{});
+    while (steerer.simulation->hall().now() < WorldTime{120}) steerer.advance_once();
     EXPECT_EQ(steerer.outcome(short_time), "OK");
     EXPECT_EQ(steerer.outcome(long_time), "goes on") << "requests are processed in order";
     steerer.advance();
@@ -157,15 +146,16 @@ TEST(SimulatedHall, ReportsHowCommandsEnd) {
     EXPECT_EQ(steerer.outcome(steerer.enter("anna")), "ERROR anna is in the hall already");
 
     auto const first = steerer.walk("anna", {"3000, 6000"}), second = steerer.walk("anna", {"desk"});
-    auto const says = steerer.perform("say", {text("visitor_ref", "anna"), text("text", "Hello."), text("language", "")});
-    auto const waves = steerer.perform("gesture", {text("visitor_ref", "anna"), text("gesture", "wave")});
+    auto const says =
+        steerer.component.perform("say", {text("visitor_ref", "anna"), text("text", "Hello."), text("language", "")});
+    auto const waves = steerer.component.perform("gesture", {text("visitor_ref", "anna"), text("gesture", "wave")});
     steerer.let_pass(60'000);
     steerer.advance();
     EXPECT_EQ(steerer.outcome(first), "ABORT") << "replaced by the second";
     for (auto const command : {second, says, waves}) EXPECT_EQ(steerer.outcome(command), "OK");
     EXPECT_THAT(values(steerer.visitors(), "position_data"), ElementsAre(MatchesRegex("(29|30).., (19|20).., 90")));
 
-    auto const leaves = steerer.perform("leave", {text("visitor_ref", "anna")});
+    auto const leaves = steerer.component.perform("leave", {text("visitor_ref", "anna")});
     steerer.let_pass(60'000);
     steerer.advance();
     EXPECT_EQ(steerer.outcome(leaves), "OK");
@@ -190,11 +180,11 @@ TEST(SimulatedHall, ListsAllVisitors) {
     other.advance();
     auto const all = other.visitors();
     EXPECT_THAT(values(all, "visitor_ref"), ElementsAre("late", "anna")) << "in order of arrival";
-    EXPECT_THAT(values(all, "position_data"), ElementsAre(testing::StartsWith("5"), "11000, 4000, 180"));
+    EXPECT_THAT(values(all, "position_data"), ElementsAre(StartsWith("5"), "11000, 4000, 180"));
     EXPECT_EQ(codebook_of(all, "position_data"), "urn:x-rois:def:crs:simulation::hall");
     EXPECT_EQ(value(all, "known"), "false true");
     EXPECT_EQ(value(all, "steered"), "false true");
-    EXPECT_TRUE(other.component->query("weather", {}).empty());
+    EXPECT_TRUE(other.component.rows("weather").empty());
 }
 
 // stop, release and the end of a session also end the visitors' orders.
@@ -205,15 +195,15 @@ TEST(SimulatedHall, HaltEndsItsCommandsAndStopsTheVisitors) {
     steerer.let_pass(20);
     steerer.advance();
     auto const walks = steerer.walk("anna", {"desk"}), waits = steerer.let_pass(10'000);
-    steerer.simulation->advance({});
+    steerer.advance_once();
     EXPECT_EQ(steerer.simulation->hall().now(), WorldTime{60}) << "time passes";
-    EXPECT_EQ(steerer.component->halt({}), Halted::confirmed);
+    EXPECT_EQ(steerer.component.stop(), Halted::confirmed);
     steerer.advance();
     steerer.advance();
     EXPECT_EQ(steerer.simulation->hall().now(), WorldTime{60}) << "no time passes";
     steerer.let_pass(10'000);
     steerer.advance();
-    EXPECT_THAT(values(steerer.visitors(), "position_data"), ElementsAre(testing::StartsWith("10")))
+    EXPECT_THAT(values(steerer.visitors(), "position_data"), ElementsAre(StartsWith("10")))
         << "the visitor stopped after one step";
     EXPECT_EQ(steerer.outcome(walks), "goes on") << "the engine ends it";
     EXPECT_EQ(steerer.outcome(waits), "goes on");

@@ -123,9 +123,9 @@ TEST(Detection, OfSoundsHearsAnotherRobotButNotItself) {
 
 TEST(Component, IsUninitializedUntilTheWorldBegins) {
     Stage stage;
-    for (auto const& ref : stage.refs()) EXPECT_EQ(stage[ref].component().status(), ComponentStatus::uninitialized) << ref;
+    for (auto const& ref : stage.refs()) EXPECT_EQ(stage[ref].status(), ComponentStatus::uninitialized) << ref;
     stage.step();
-    for (auto const& ref : stage.refs()) EXPECT_EQ(stage[ref].component().status(), ComponentStatus::ready) << ref;
+    for (auto const& ref : stage.refs()) EXPECT_EQ(stage[ref].status(), ComponentStatus::ready) << ref;
 }
 
 }  // namespace

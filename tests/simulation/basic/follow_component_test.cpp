@@ -27,7 +27,7 @@ TEST(Follow, KeepsItsDistanceUntilItIsStopped) {
     Point const target = stage.hall().people().front().pose.position;
     EXPECT_LT(target.y(), 2);  // has gone on
     EXPECT_NEAR(distance(stage.robot().position, target), 1.5, 0.1);
-    EXPECT_EQ(stage["follow"].component().status_when_stopped(), CompletedStatus::ok);
+    EXPECT_EQ(stage["follow"].description().status_when_stopped, CompletedStatus::ok);
     stage["follow"].stop();
     EXPECT_THAT(stage["follow"].words(), ElementsAre("started"));
 }
@@ -62,13 +62,13 @@ TEST(Follow, WaitsForAKnownTargetThatIsNotInTheHallYet) {
     auto const start = stage.robot().position;
     stage.run(9);
     EXPECT_THAT(follow.words(), ElementsAre("started"));
-    EXPECT_EQ(follow.component().status(), ComponentStatus::warning);
+    EXPECT_EQ(follow.status(), ComponentStatus::warning);
     EXPECT_EQ(distance(stage.robot().position, start), 0) << "the robot stands";
     stage["move"].start({integers("line", "500 0")});
     EXPECT_EQ(stage["move"].ended(), "OUT_OF_RESOURCES") << "and keeps the wheels";
     stage.run(30);
     EXPECT_THAT(follow.words(), ElementsAre("started"));
-    EXPECT_EQ(follow.component().status(), ComponentStatus::ready);
+    EXPECT_EQ(follow.status(), ComponentStatus::ready);
     EXPECT_NEAR(distance(stage.robot().position, stage.hall().people().front().pose.position), 1.0, 0.25);
 }
 
@@ -80,11 +80,11 @@ TEST(Follow, FailsIfItsTargetIsUnknown) {
         follow.start({whom(unknown), integer("distance", 1000)});
         stage.run(4.9);
         EXPECT_THAT(follow.words(), ElementsAre("started")) << unknown;
-        EXPECT_EQ(follow.component().status(), ComponentStatus::warning) << unknown;
+        EXPECT_EQ(follow.status(), ComponentStatus::warning) << unknown;
         stage.run(0.2);
         EXPECT_EQ(follow.ended(), "ERROR") << unknown;
         EXPECT_THAT(follow.reason(), AllOf(HasSubstr("'target_object_ref'"), HasSubstr(unknown), HasSubstr("is unknown")));
-        EXPECT_EQ(follow.component().status(), ComponentStatus::ready) << unknown;
+        EXPECT_EQ(follow.status(), ComponentStatus::ready) << unknown;
         stage["move"].start({integers("line", "500 0")});
         EXPECT_EQ(stage.outcome("move"), "OK") << "the wheels are free again";
     }
@@ -98,11 +98,11 @@ TEST(Follow, FailsWhenItsTargetDoesNotComeBack) {
     ASSERT_TRUE(stage.run_until([&] { return stage.hall().people().empty(); }, 120));
     stage.run(29);
     EXPECT_THAT(follow.words(), ElementsAre("started")) << "waits for a while";
-    EXPECT_EQ(follow.component().status(), ComponentStatus::warning);
+    EXPECT_EQ(follow.status(), ComponentStatus::warning);
     stage.run(2);
     EXPECT_EQ(follow.ended(), "ERROR");
     EXPECT_EQ(follow.reason(), "'person-1' has not been seen for 30000 ms");
-    EXPECT_EQ(follow.component().status(), ComponentStatus::ready);
+    EXPECT_EQ(follow.status(), ComponentStatus::ready);
 }
 
 TEST(Follow, DoesNotGiveUpWhileSuspended) {
@@ -123,7 +123,7 @@ TEST(Follow, LooksForItsTargetInTheCodebookOnly) {
     auto const follow = [&](std::string_view codebook) {
         stage["follow"].start({reference("target_object_ref", "robot2", std::string{codebook}), integer("distance", 1000)});
         stage.step();
-        return stage["follow"].component().status();
+        return stage["follow"].status();
     };
     EXPECT_EQ(follow(codebook::track), ComponentStatus::warning) << "waits for a track of this name";
     EXPECT_EQ(follow(codebook::robot), ComponentStatus::ready);
@@ -153,11 +153,11 @@ TEST(Follow, ContinuesWhenAPermanentIdIsIdentifiedAgain) {
     ASSERT_TRUE(stage.run_until([&] { return !stage.hall().find("tanaka"); }));
     stage["follow"].resume();
     stage.step();
-    EXPECT_EQ(stage["follow"].component().status(), ComponentStatus::warning);
+    EXPECT_EQ(stage["follow"].status(), ComponentStatus::warning);
     ASSERT_TRUE(stage.run_until([&] { return stage.hall().find("tanaka").has_value(); }, 120));
     stage.run(10);
     EXPECT_THAT(stage["follow"].words(), ElementsAre("started"));
-    EXPECT_EQ(stage["follow"].component().status(), ComponentStatus::ready);
+    EXPECT_EQ(stage["follow"].status(), ComponentStatus::ready);
     EXPECT_NEAR(distance(stage.robot().position, stage.hall().people().front().pose.position), 1.0, 0.2);
 }
 

@@ -173,12 +173,12 @@ TEST(Move, FailsWhenAPersonStaysInTheWay) {
     stage["move"].start({line("6000 0")});
     bool warned = false;
     stage.run_until([&] {
-        warned = warned || stage["move"].component().status() == ComponentStatus::warning;
+        warned = warned || stage["move"].status() == ComponentStatus::warning;
         return stage["move"].ended().has_value();
     });
     EXPECT_EQ(stage["move"].ended(), "ERROR");
     EXPECT_TRUE(warned);
-    EXPECT_EQ(stage["move"].component().status(), ComponentStatus::ready);
+    EXPECT_EQ(stage["move"].status(), ComponentStatus::ready);
 }
 
 TEST(Move, ResumesWhereItWasSuspended) {

@@ -55,8 +55,7 @@ TEST(Navigation, RefusesInvalidPositions) {
 TEST(Navigation, RefusesOtherPoliciesAndLimits) {
     Stage stage;
     auto& navigation = stage["navigation"];
-    EXPECT_THAT(navigation.component().description().positions, ElementsAre("target_position"))
-        << "the engine converts other frames";
+    EXPECT_THAT(navigation.description().positions, ElementsAre("target_position")) << "the engine converts other frames";
     EXPECT_TRUE(navigation.refusal("set_parameter", {text("routing_policy", "scenery")}));
     EXPECT_FALSE(navigation.refusal("set_parameter", {text("routing_policy", "distance")}));
     EXPECT_TRUE(navigation.refusal("set_parameter", {integer("time_limit", -1)}));
@@ -91,7 +90,7 @@ TEST(Navigation, FailsWhenAPersonStaysInTheWay) {
     bool warned = false;
     stage.run_until(
         [&] {
-            warned = warned || stage["navigation"].component().status() == ComponentStatus::warning;
+            warned = warned || stage["navigation"].status() == ComponentStatus::warning;
             return stage["navigation"].ended().has_value();
         },
         120);
@@ -100,7 +99,7 @@ TEST(Navigation, FailsWhenAPersonStaysInTheWay) {
     EXPECT_GE(stage.hall().now() - begun, WorldTime{30'000});
     EXPECT_TRUE(warned);
     EXPECT_LT(stage.robot().position.x(), 6);
-    EXPECT_EQ(stage["navigation"].component().status(), ComponentStatus::ready);
+    EXPECT_EQ(stage["navigation"].status(), ComponentStatus::ready);
 }
 
 TEST(Navigation, KeepsItsTimeLimit) {

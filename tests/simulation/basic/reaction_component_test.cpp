@@ -60,7 +60,7 @@ TEST(Reaction, RefusesUnknownReactions) {
 
 TEST(Reaction, HasFiftyKinds) {
     Stage stage;
-    auto const readable = stage["reaction"].component().readable_parameters();
+    auto const readable = stage["reaction"].readable_parameters();
     ASSERT_NE(find(readable, "available_reactions"), nullptr);
     EXPECT_THAT(find(readable, "available_reactions")->values, SizeIs(50));
     EXPECT_EQ(find(readable, "available_reactions")->data_type_ref.codebook_ref, "urn:x-rois:def:codebook:simulation::reaction");

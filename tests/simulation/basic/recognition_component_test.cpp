@@ -63,7 +63,7 @@ TEST(SpeechRecognition, RefusesUnknownLanguages) {
 
 TEST(SpeechRecognition, NamesTheLanguagesThatItCanRecognize) {
     Stage stage;
-    auto const readable = stage["speech_recognition"].component().readable_parameters();
+    auto const readable = stage["speech_recognition"].readable_parameters();
     ASSERT_NE(find(readable, "recognizable_languages"), nullptr);
     EXPECT_THAT(find(readable, "recognizable_languages")->values, Contains("ja"));
     EXPECT_THAT(find(readable, "recognizable_languages")->values, Contains("en"));
@@ -235,7 +235,7 @@ TEST(GestureRecognition, SeesReactionsOfOtherRobotsThatAreGestures) {
 
 TEST(GestureRecognition, NamesTheGesturesThatItCanRecognize) {
     Stage stage;
-    auto const readable = stage["gesture_recognition"].component().readable_parameters();
+    auto const readable = stage["gesture_recognition"].readable_parameters();
     ASSERT_NE(find(readable, "recognizable_gestures"), nullptr);
     EXPECT_THAT(find(readable, "recognizable_gestures")->values, SizeIs(gestures().size()));
 }

@@ -162,7 +162,7 @@ TEST(SpeechSynthesis, RefusesUnsupportedLanguagesAndVoices) {
 
 std::vector<std::string> characters() {
     SpeechStage stage;
-    return find(stage["speech_synthesis"].component().readable_parameters(), "synthesizable_characters")->values;
+    return find(stage["speech_synthesis"].readable_parameters(), "synthesizable_characters")->values;
 }
 
 TEST(SpeechSynthesis, EachCharacterSpeaksAtItsOwnPaceAndIsHeard) {
@@ -197,7 +197,7 @@ TEST(SpeechSynthesis, SpeaksSsmlWithItsCharacterWhereTheDocumentNamesNoVoice) {
 
 TEST(SpeechSynthesis, NamesItsLanguagesAndVoices) {
     SpeechStage stage;
-    auto const readable = stage["speech_synthesis"].component().readable_parameters();
+    auto const readable = stage["speech_synthesis"].readable_parameters();
     ASSERT_NE(find(readable, "synthesizable_languages"), nullptr);
     ASSERT_NE(find(readable, "synthesizable_characters"), nullptr);
     EXPECT_THAT(find(readable, "synthesizable_languages")->values, Contains("en"));

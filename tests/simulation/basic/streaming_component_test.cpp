@@ -98,7 +98,7 @@ TEST_F(AudioStreaming, NegotiatesTheFirstSupportedPair) {
 }
 
 TEST_F(AudioStreaming, ListsItsEncodingsAndTransports) {
-    auto const readable = audio.component().readable_parameters();
+    auto const readable = audio.readable_parameters();
     EXPECT_EQ(find(readable, "available_encodings")->values.front(), "audio/wav, audio/L16");
     EXPECT_EQ(find(readable, "available_transports")->values.front(), "http, rtp");
 }
@@ -176,20 +176,22 @@ TEST_F(AudioStreaming, EndsWhenDisconnected) {
     EXPECT_EQ(audio.afterwards(), Afterwards::as_before);
     EXPECT_THAT(reported(audio), ElementsAre("audio_streaming-1 NOT_CONNECTED"));
     EXPECT_THAT(rows(audio), ElementsAre("audio_streaming-2 NOT_RUNNING", "audio_streaming-1 NOT_CONNECTED"));
+    auto const again = audio.accepted("disconnect_stream", stream("audio_streaming-2"));
     audio.perform("disconnect_stream", stream("audio_streaming-2"));
     EXPECT_EQ(audio.afterwards(), Afterwards::idle) << "no stream is connected";
-    audio.perform("disconnect_stream", stream("audio_streaming-2"));
+    audio.carry_out(again);
     EXPECT_EQ(audio.ended(), "ERROR");
+    EXPECT_EQ(audio.reason(), "the stream has been closed");
 }
 
 TEST_F(AudioStreaming, RefusesUnknownStreams) {
     for (auto const* command : {"disconnect_stream", "suspend_stream", "resume_stream"})
-        EXPECT_THAT(audio.component().refusal(command, stream("moon")),
+        EXPECT_THAT(audio.refusal(command, stream("moon")),
                     Optional(HasSubstr("stream 'moon' is not connected; connected: none")));
     connected();
-    EXPECT_THAT(audio.component().refusal("suspend_stream", stream("moon")), Optional(HasSubstr("connected: audio_streaming-1")));
-    EXPECT_EQ(audio.component().refusal("suspend_stream", stream("audio_streaming-1")), std::nullopt);
-    EXPECT_EQ(audio.component().refusal("connect_stream", {}), std::nullopt);
+    EXPECT_THAT(audio.refusal("suspend_stream", stream("moon")), Optional(HasSubstr("connected: audio_streaming-1")));
+    EXPECT_EQ(audio.refusal("suspend_stream", stream("audio_streaming-1")), std::nullopt);
+    EXPECT_EQ(audio.refusal("connect_stream", {}), std::nullopt);
 }
 
 TEST_F(AudioStreaming, StopClosesAllStreams) {

@@ -31,12 +31,12 @@ TEST(SystemInformation, ReportsThePositionOfTheRobot) {
 
 TEST(RobotComponents, HaveThePositionOfTheirRobot) {
     Stage stage{{}, reception_with_two_robots()};
-    auto const here = stage["navigation"].component().location();
+    auto const here = stage["navigation"].location();
     ASSERT_TRUE(here);
     EXPECT_EQ(here->ref, "robot");
     EXPECT_EQ(here->crs, "urn:x-rois:def:crs:simulation::hall");
     EXPECT_EQ(here->position, (std::array<double, 3>{2'000, 4'000, 0}));
-    auto const there = stage["robot2.speech_synthesis"].component().location();
+    auto const there = stage["robot2.speech_synthesis"].location();
     ASSERT_TRUE(there);
     EXPECT_EQ(there->ref, "robot2");
     EXPECT_EQ(there->position, (std::array<double, 3>{2'000, 6'000, 0}));

@@ -34,14 +34,14 @@ Located sighting(FloorPlan plan, std::string& text) {
 
 TEST(RobotFrames, DefaultToTheFrameOfTheHall) {
     Stage stage{{}, with_map()};
-    EXPECT_EQ(stage["navigation"].component().description().crs, "");
-    EXPECT_EQ(stage["robot2.navigation"].component().description().crs, "map");
-    EXPECT_EQ(stage["navigation"].component().location()->crs, "urn:x-rois:def:crs:simulation::hall");
+    EXPECT_EQ(stage["navigation"].description().crs, "");
+    EXPECT_EQ(stage["robot2.navigation"].description().crs, "map");
+    EXPECT_EQ(stage["navigation"].location()->crs, "urn:x-rois:def:crs:simulation::hall");
 }
 
 TEST(RobotFrames, ApplyToTheRobotsPosition) {
     Stage stage{{}, with_map()};
-    auto const here = *stage["robot2.navigation"].component().location();
+    auto const here = *stage["robot2.navigation"].location();
     EXPECT_EQ(here.crs, "map");
     EXPECT_THAT(here.position, ElementsAre(1'000, 0, 0));
     EXPECT_THAT(here.orientation, ElementsAre(0, 0, -90));

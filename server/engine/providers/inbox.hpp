@@ -1,0 +1,77 @@
+// The reports of components that wait for the engine (docs/engine.md).
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "engine/component.hpp"
+
+namespace rois {
+
+class HostedComponent;
+
+// A call to a component threw. `awaited`: the question or command that the call was about, if there is one.
+struct CallFailed {
+    std::variant<std::monostate, Ticket, CommandHandle> awaited;
+    std::string text;
+    Report report = Report::each;
+};
+
+// `from` is null for a device.
+struct InboxEntry {
+    std::shared_ptr<HostedComponent> from;
+    std::variant<ComponentReport, CallFailed> report;
+};
+
+// The entries of one provider, in their order. Guarded by the inbox's mutex.
+struct ProvidersEntries {
+    std::deque<InboxEntry> entries;
+    bool closed = false;  // later entries are dropped
+};
+
+// Takes one entry of each provider in turn: a provider that reports a lot delays only its own reports. Thread-safe.
+class Inbox {
+public:
+    // Sets the function that is called when an entry arrives and no thread is there to handle it. It is called on the reporting
+    // thread, and must return at once.
+    void on_arrival(std::function<void()> wake);
+
+    void wake();  // calls that function
+
+    void add(std::shared_ptr<ProvidersEntries> const& of, InboxEntry);
+    void close(ProvidersEntries&);
+    std::optional<InboxEntry> take();
+    // For an entry whose handling failed: it is taken again first.
+    void put_back(InboxEntry) noexcept;
+    bool empty() const;
+
+    // Records that a report could not be stored, because memory was short. HostedComponent::take_lost_report names the component.
+    void note_lost_report() noexcept;
+    bool take_lost_reports() noexcept;
+
+    // While it lives, this thread handles the entries that it adds itself: nobody is woken for them.
+    class Attended {
+    public:
+        Attended();
+        ~Attended();
+        Attended(Attended const&) = delete;
+        Attended& operator=(Attended const&) = delete;
+
+    private:
+        bool before_;
+    };
+
+private:
+    mutable std::mutex mutex_;
+    std::deque<std::shared_ptr<ProvidersEntries>> next_;  // the providers with entries, in the order of their turns
+    std::optional<InboxEntry> returned_;
+    bool report_lost_ = false;
+    std::function<void()> wake_ = [] {};
+};
+
+}  // namespace rois

@@ -1,0 +1,88 @@
+// An engine that lets its components work at once, on the test's thread: when a call returns, its consequences have been handled.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/attempts.hpp"
+#include "engine/engine.hpp"
+
+namespace rois {
+
+// An operation of a test, and its answer once there is one.
+class TestedOperation final : public Asked {
+public:
+    TestedOperation(SessionId from, Operation operation) : Asked{std::move(from), 0}, operation_{std::move(operation)} {}
+
+    Operation const& operation() const override { return operation_; }
+    void answer(Said answer) override {
+        if (said) throw std::logic_error("an operation was answered twice");
+        said = std::move(answer);
+    }
+
+    std::optional<Said> said;
+
+private:
+    Operation operation_;
+};
+
+class WorkingEngine : public Engine {
+public:
+    using Engine::Engine;
+
+    // The answer may come later.
+    std::shared_ptr<TestedOperation> begin_to_handle(SessionId const& session, Operation const& operation, Instant now) {
+        auto asked = std::make_shared<TestedOperation>(session, operation);
+        and_work([&] { handle(asked, now); }, now);
+        return asked;
+    }
+
+    Said answer_of(SessionId const& session, Operation const& operation, Instant now) {
+        auto const asked = begin_to_handle(session, operation, now);
+        if (!asked->said) throw std::logic_error("the operation was not answered at once");
+        return *asked->said;
+    }
+
+    void add(std::unique_ptr<Component> component) {
+        and_work([&] { Engine::add(std::move(component)); }, {});
+    }
+    void add(std::shared_ptr<Device> device) { Engine::add(std::move(device), "stage"); }
+    void change(ComponentChange change, Instant now) {
+        and_work([&] { Engine::change(std::move(change), now); }, now);
+    }
+    void begin(Instant now) {
+        and_work([&] { Engine::begin(now); }, now, Provider::Runner::clock);
+    }
+    void tick(Instant now) {
+        and_work([&] { Engine::tick(now); }, now, Provider::Runner::clock);
+    }
+    void end(SessionId const& session, Instant now) {
+        and_work([&] { Engine::end(session, now); }, now);
+    }
+    void stop_everything(Instant now) {
+        and_work([&] { Engine::stop_everything(now); }, now);
+    }
+    void shut_down(Instant now) {
+        and_work([&] { Engine::shut_down(now); }, now);
+    }
+
+    // Works even if `what` throws, as the gateway does.
+    template <class What>
+    void and_work(What const& what, Instant now, Provider::Runner runner = Provider::Runner::client) {
+        Attempts attempts;
+        attempts(what);
+        std::unique_lock lock{mutex_};
+        attempts([&] { work(lock, now, runner); });
+        attempts.rethrow();
+    }
+
+private:
+    std::mutex mutex_;
+};
+
+}  // namespace rois

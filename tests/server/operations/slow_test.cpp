@@ -1,0 +1,143 @@
+// Requests behind one that a component does not answer (decisions 36 and 37).
+#include <thread>
+
+#include "server/conversation.hpp"
+#include "server/websocket_client.hpp"
+
+namespace rois::test {
+namespace {
+
+using namespace std::chrono_literals;
+using kit::component_ref;
+
+// Has a component that answers no queries, and waits for it for so long.
+struct SlowGateway : GatewayProcess {
+    explicit SlowGateway(std::string const& question_deadline)
+        : GatewayProcess{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/silent.xml", "--sim-speed", "20",
+                          "--question-deadline", question_deadline}} {}
+};
+
+Xml position_query() { return text_element("query_type", "robot_position"); }
+
+std::string return_code(pugi::xml_node answer) { return answer.attribute("return_code").value(); }
+
+// Waits until /metrics has this line.
+bool metrics_come_to(GatewayProcess& gateway, std::string const& line) {
+    HttpClient observer{gateway};
+    for (auto const end = std::chrono::steady_clock::now() + 10s; std::chrono::steady_clock::now() < end;) {
+        if (observer.get("/metrics").body.find(line) != std::string::npos) return true;
+        std::this_thread::sleep_for(5ms);
+    }
+    return false;
+}
+
+struct Slow : testing::Test {
+    SlowGateway gateway{"60"};
+    WebSocketClient desk{gateway};
+
+    Slow() {
+        desk.call("connect");
+        for (auto const* ref : {"navigation", "speech_synthesis"}) desk.call("bind", component_ref(ref));
+    }
+    ~Slow() override { desk.vanish(); }
+};
+
+}  // namespace
+
+TEST(AQueryWithoutAnAnswer, TimesOut) {
+    SlowGateway gateway{"0.3"};
+    HttpClient desk{gateway};
+    desk.call("connect");
+    auto const answer = desk.call("query", position_query());
+    EXPECT_EQ(answer.return_code(), "TIMEOUT");
+    EXPECT_THAT(answer.reason(), HasSubstr("in time"));
+    EXPECT_THAT(desk.call("search", where(equal("status", "ERROR"))).body, HasSubstr("system_information"));
+}
+
+TEST_F(Slow, AStopBehindASlowQueryActsAtOnce) {
+    desk.call(
+        "execute",
+        kit::sequence(kit::unit({.component = "navigation", .id = "go", .arguments = {target_position({"11000, 1000, 0"})}})));
+    desk.ask("query", position_query());
+    desk.ask("execute", kit::sequence(kit::unit({.component = "navigation", .type = "stop", .id = "stop"})));
+    EXPECT_TRUE(metrics_come_to(gateway, "rois_commands_completed_total{status=\"ABORT\"} 1"));
+}
+
+TEST_F(Slow, ADelayedAnswerHoldsBackNothingElse) {
+    desk.call("execute",
+              kit::sequence(kit::unit({.component = "speech_synthesis", .id = "say", .arguments = {speech_text("Hello.")}})));
+    desk.ask("query", position_query());
+    auto const heard = desk.next_document();
+    EXPECT_STREQ(heard.name(), "completed");
+    EXPECT_STREQ(heard.child("command_id").text().get(), "say");
+}
+
+TEST_F(Slow, WhatAnAnswerThatWaitsHasCausedWaitsWithIt) {
+    desk.ask("query", position_query());
+    desk.ask("execute", kit::sequence(kit::unit({.component = "navigation", .type = "stop", .id = "stop"})));
+    EXPECT_TRUE(metrics_come_to(gateway, "rois_commands_completed_total{status=\"OK\"} 1"));
+    desk.send("", kit::Kind::ping);
+    EXPECT_EQ(desk.next().kind, kit::Kind::pong) << "neither the answer nor its `completed` was sent";
+}
+
+TEST(AnswersBehindASlowOne, KeepTheOrderOfTheirRequestsOnAWebSocket) {
+    SlowGateway gateway{"0.5"};
+    WebSocketClient desk{gateway};
+    desk.call("connect");
+    desk.call("bind", component_ref("navigation"));
+    desk.ask("query", position_query());
+    desk.ask("execute", kit::sequence(kit::unit({.component = "navigation", .type = "stop", .id = "stop"})));
+    desk.ask("search");
+    EXPECT_EQ(return_code(desk.next_document()), "TIMEOUT");
+    auto const executed = desk.next_document();
+    EXPECT_STREQ(executed.name(), "execute_response");
+    std::vector<std::string> rest;
+    for (int i = 0; i < 2; ++i) rest.emplace_back(desk.next_document().name());
+    EXPECT_THAT(rest, testing::UnorderedElementsAre("search_response", "completed"));
+}
+
+TEST(AnswersBehindASlowOne, KeepTheOrderOfTheirRequestsOverHttp) {
+    SlowGateway gateway{"0.5"};
+    HttpClient desk{gateway};
+    desk.call("connect");
+    auto const post = [&](std::string const& body) {
+        return "POST /rois HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/xml\r\nRoIS-Session: " + desk.session +
+               "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
+    };
+    auto const query = post(kit::request("query", position_query()));
+    EXPECT_EQ(desk.say(query + post(kit::request("search")) +
+                           "POST /rois/stop HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n\r\n" +
+                           "GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n",
+                       "POST")
+                  .return_code(),
+              "TIMEOUT");
+    EXPECT_STREQ(desk.read().root().name(), "search_response");
+    EXPECT_STREQ(desk.read().root().name(), "stop_state");
+    EXPECT_EQ(desk.read().status, 200);
+}
+
+TEST(AnswersBehindASlowOne, ComeBeforeAnOrderlyEnd) {
+    SlowGateway gateway{"0.3"};
+    WebSocketClient desk{gateway};
+    desk.call("connect");
+    desk.ask("query", position_query());
+    desk.ask("disconnect");
+    auto const query = desk.next_document();
+    EXPECT_TRUE(return_code(query) == "TIMEOUT" || std::string_view{query.name()} == "fault") << query.name();
+    EXPECT_STREQ(desk.next_document().name(), "disconnect_response");
+    desk.vanish();
+}
+
+TEST(AStopOfEverything, ActsAtOnceBehindASlowRequest) {
+    SlowGateway gateway{"60"};
+    HttpClient desk{gateway};
+    desk.call("connect");
+    auto const body = kit::request("query", position_query());
+    desk.line().send("POST /rois HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/xml\r\nRoIS-Session: " + desk.session +
+                     "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body +
+                     "POST /rois/stop HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n\r\n");
+    EXPECT_TRUE(metrics_come_to(gateway, "rois_everything_stopped 1"));
+    desk.session.clear();
+}
+
+}  // namespace rois::test
