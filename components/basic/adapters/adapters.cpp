@@ -58,7 +58,7 @@ std::string adapter_of(ComponentProfile const& profile, std::vector<ComponentPro
 }
 
 std::vector<std::unique_ptr<Component>> Adapters::components(ComponentProfile const& profile,
-                                                                  std::vector<ComponentProfile> const& known) const {
+                                                             std::vector<ComponentProfile> const& known) const {
     auto const name = adapter_of(profile, known, streams());
     if (name.empty()) return {};
     auto const make = adapters(schemas_, streams()).at(name);

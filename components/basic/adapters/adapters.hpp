@@ -21,8 +21,7 @@ public:
         : robots_{std::move(robots)}, schemas_{std::move(schemas)} {}
 
     // Makes a component of this profile for each robot. Returns none if the profile has no adapter. Throws like adapter_of().
-    std::vector<std::unique_ptr<Component>> components(ComponentProfile const&,
-                                                            std::vector<ComponentProfile> const& known) const;
+    std::vector<std::unique_ptr<Component>> components(ComponentProfile const&, std::vector<ComponentProfile> const& known) const;
 
     Streams streams() const { return robots_.streams(); }
 

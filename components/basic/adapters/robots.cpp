@@ -23,14 +23,13 @@ SharedProfile profile_of(BasicComponent const& basic, std::vector<ComponentProfi
 }  // namespace
 
 std::unique_ptr<Component> Robots::component(std::shared_ptr<Body> const& body, std::string_view name, SharedProfile profile,
-                                                  std::function<std::unique_ptr<LocalComponent>(Context)> const& make) const {
+                                             std::function<std::unique_ptr<LocalComponent>(Context)> const& make) const {
     auto ref = component_ref(name, body == bodies.front() ? "" : body->name());
     auto made = make(make_context(body, media, std::move(ref), std::move(profile)));
     return wrap ? wrap(std::move(made)) : std::move(made);
 }
 
-std::vector<std::unique_ptr<Component>> robot_components(Robots const& robots,
-                                                              std::vector<ComponentProfile> const& profiles) {
+std::vector<std::unique_ptr<Component>> robot_components(Robots const& robots, std::vector<ComponentProfile> const& profiles) {
     std::vector<SharedProfile> found;
     for (auto const& basic : basic_components(robots.streams())) found.push_back(profile_of(basic, profiles));
     std::vector<std::unique_ptr<Component>> components;

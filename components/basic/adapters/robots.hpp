@@ -24,8 +24,8 @@ struct Robots {
 
     // Makes the component `name` of one of the bodies.
     std::unique_ptr<Component> component(std::shared_ptr<Body> const&, std::string_view name,
-                                              std::shared_ptr<ComponentProfile const>,
-                                              std::function<std::unique_ptr<LocalComponent>(Context)> const& make) const;
+                                         std::shared_ptr<ComponentProfile const>,
+                                         std::function<std::unique_ptr<LocalComponent>(Context)> const& make) const;
 };
 
 // Makes the 15 basic components (7.6) of every robot and, with media, the two streaming components of RoIS 2.0. Finds their
