@@ -64,7 +64,7 @@ Engine::Core::SharedComponent Engine::Core::made(std::unique_ptr<Component> comp
                                                  places_.frames);
 }
 
-// Returns the provider with this name, or a new one. An empty name belongs to nobody else.
+// Returns the provider with this name, or a new one. With an empty name it is always a new one.
 std::shared_ptr<Provider> Engine::Core::provider(std::string const& name, Provider::Runs runs) {
     auto made = name.empty() ? nullptr : providers_[name].lock();
     if (made && made->has_own_thread() != (runs == Provider::Runs::on_own_thread))

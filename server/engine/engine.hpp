@@ -156,8 +156,8 @@ public:
     // Halts all components, which may be moving. Call once, before `handle`.
     void begin(Instant now);
 
-    // Does what is due: leases, expiry, the end of sessions whose link was lost. The next `work` of the clock advances the
-    // devices, and carries out delays and timeouts.
+    // Holds motion whose lease has ended, forgets expired data, ends sessions whose link was lost. The next `work` of the clock
+    // advances the devices, and carries out delays and timeouts.
     void tick(Instant now);
 
     // Calls the components that must be called, and handles their reports, until nothing is left to do. `lock` holds the mutex

@@ -26,8 +26,8 @@ public:
 
     // Begins a round of questions. `then` is called once: when all are answered, or at a tick after `due`.
     std::shared_ptr<Round> begin(Steady due, Then then);
-    // Adds a question to the round, which the caller then asks with this ticket. `what` says, for people, what is not answered if
-    // no answer comes.
+    // Adds a question to the round, which the caller then asks with this ticket. `what` is the text of the
+    // error if no answer comes.
     Ticket add(std::shared_ptr<Round> const&, RegisteredComponent&, char const* what);
     // A round with one question.
     Ticket ask(RegisteredComponent&, Steady due, char const* what,

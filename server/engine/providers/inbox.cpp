@@ -1,6 +1,5 @@
 #include "engine/providers/inbox.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace rois {
@@ -25,7 +24,7 @@ void Inbox::wake() {
     wake_();
 }
 
-void Inbox::add(std::shared_ptr<ProvidersEntries> const& of, InboxEntry entry) {
+void Inbox::add(std::shared_ptr<ProvidersEntries> const& of, InboxEntry&& entry) {
     std::lock_guard const lock{mutex_};
     if (of->closed) return;
     bool const first = next_.empty();
@@ -57,8 +56,8 @@ std::optional<InboxEntry> Inbox::take() {
     entries.pop_front();
     if (entries.empty()) {
         next_.pop_front();
-    } else if (next_.size() > 1) {
-        std::rotate(next_.begin(), std::next(next_.begin()), next_.end());
+    } else {
+        next_.splice(next_.end(), next_, next_.begin());
     }
     return entry;
 }

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <functional>
+#include <list>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -43,7 +44,7 @@ public:
 
     void wake();  // calls that function
 
-    void add(std::shared_ptr<ProvidersEntries> const& of, InboxEntry);
+    void add(std::shared_ptr<ProvidersEntries> const& of, InboxEntry&&);
     void close(ProvidersEntries&);
     std::optional<InboxEntry> take();
     // For an entry whose handling failed: it is taken again first.
@@ -54,7 +55,7 @@ public:
     void note_lost_report() noexcept;
     bool take_lost_reports() noexcept;
 
-    // While it lives, this thread handles the entries that it adds itself: nobody is woken for them.
+    // While it lives, this thread handles the entries that it adds itself: `on_arrival` is not called for them.
     class Attended {
     public:
         Attended();
@@ -68,7 +69,7 @@ public:
 
 private:
     mutable std::mutex mutex_;
-    std::deque<std::shared_ptr<ProvidersEntries>> next_;  // the providers with entries, in the order of their turns
+    std::list<std::shared_ptr<ProvidersEntries>> next_;  // the providers with entries, in the order of their turns
     std::optional<InboxEntry> returned_;
     bool report_lost_ = false;
     std::function<void()> wake_ = [] {};

@@ -70,7 +70,7 @@ public:
     // of a device, and those behind it.
     bool run(Runner);
 
-    void report(InboxEntry entry) { inbox_->add(entries_, std::move(entry)); }
+    void report(InboxEntry&& entry) { inbox_->add(entries_, std::move(entry)); }
     Inbox& inbox() { return *inbox_; }
 
     // The provider's thread ends after its present call.
