@@ -117,11 +117,13 @@ class Nobody final : public Outbox {
 
 class Question final : public Asked {
 public:
-    Question(SessionId const& from, Operation const& operation) : Asked{from, 0}, operation_{operation} {}
+    Question(std::shared_ptr<NotificationQueue> from, Operation const& operation)
+        : Asked{std::move(from), 0}, operation_{operation} {}
     Operation const& operation() const override { return operation_; }
-    void answer(Said answer) override { said = std::move(answer); }
+    void answer(Reply&& given) override { reply = std::move(given); }
+    void refuse(Refusal) override {}
 
-    std::optional<Said> said;
+    std::optional<Reply> reply;
 
 private:
     Operation const& operation_;
@@ -143,13 +145,12 @@ public:
     template <class Known>
     typename Known::Reply ask(SessionId const& asker, Operation const& operation) {
         now_.steady += std::chrono::microseconds{10};
-        auto const question = std::make_shared<Question>(asker, operation);
+        auto const question = std::make_shared<Question>(engine_.notifications(asker), operation);
         std::unique_lock lock{mutex_};
         engine_.handle(question, now_);
         engine_.work(lock, now_);
-        auto* const reply = std::get_if<Reply>(&question->said.value());
-        if (!reply) throw std::runtime_error("refused");
-        auto said = std::get<typename Known::Reply>(std::move(*reply));
+        if (!question->reply) throw std::runtime_error("refused");
+        auto said = std::get<typename Known::Reply>(std::move(*question->reply));
         if (said.return_code != ReturnCode::ok) throw std::runtime_error(said.reason);
         return said;
     }

@@ -231,10 +231,11 @@ Engine::Core::Later Engine::Core::prepare(Session& session, SharedAsked const& a
                                  return then(asker, std::move(*prepared), when);
                              });
                          });
+    std::size_t place = 0;
     for (auto& each : *prepared) {
         if (!each.asks()) continue;
         auto& component = *each.component;
-        auto const ticket = questions_.add(round, component, "the component did not answer whether a command is possible");
+        auto const ticket = questions_.add(round, place++, component, "the component did not answer whether a command is possible");
         auto changed = component.in_own_frame(each.parameters);
         component.hosted().prepare(ticket, each.command_type, changed ? std::move(*changed) : each.parameters, now);
     }

@@ -132,8 +132,10 @@ struct Answered {
     ComponentAnswer answer;
 };
 
+using StateChanged = std::shared_ptr<ComponentState const>;
+
 using ComponentReport =
-    std::variant<CommandStarted, CommandEnded, HaltConfirmed, EventOccurred, ErrorOccurred, ComponentState, Answered>;
+    std::variant<CommandStarted, CommandEnded, HaltConfirmed, EventOccurred, ErrorOccurred, StateChanged, Answered>;
 
 // The component's way to report to the engine, which owns the port. Thread-safe. All functions return at once: the engine handles
 // the reports of a provider in their order. The port lives as long as the component.
@@ -141,13 +143,13 @@ class ComponentPort {
 public:
     virtual ~ComponentPort() = default;
 
-    virtual void report(ComponentReport) = 0;
+    virtual void report(ComponentReport&&) = 0;
 
     // The answer to a question. Each ticket may be answered once; late answers are counted and ignored.
     void answered(Ticket ticket, ComponentAnswer answer) { report(Answered{ticket, std::move(answer)}); }
 
     // The state has changed. Until the first report the status is UNINITIALIZED.
-    void changed(ComponentState state) { report(std::move(state)); }
+    void changed(ComponentState state) { report(std::make_shared<ComponentState const>(std::move(state))); }
 
     // The command has begun to act. Must be called within the profile's timeout (decision 16). `completed` includes it.
     void started(CommandHandle command) { report(CommandStarted{command}); }

@@ -52,6 +52,7 @@ public:
     void tick(Instant now);
 
     Session* find(SessionId const&) const;
+    Session* session_of(Asked const&) const;
     void end(SessionId const&, Instant now);
     void stop_everything(Instant now);
     void clear() { everything_is_stopped_ = false; }
@@ -86,7 +87,7 @@ private:
     void report_profile_change(Instant now);
 
     // System interface (system_interface.cpp)
-    Said connect(SessionId const&, Connect const&, Instant now);
+    void connect(Asked&, Connect const&, Instant now);
     Reply perform(Session&, Connect const&, Instant now);
     Reply perform(Session&, Resume const&, Instant now);
     Reply perform(Session&, Disconnect const&, Instant now);
@@ -119,7 +120,7 @@ private:
     // Answers an operation when the components that had to be asked have answered. `make` makes the reply, while the operation's
     // hold is in force, or asks again. Without the session, the operation is refused.
     void answer_later(Asked&, std::function<Later(Session&)> const& make);
-    void answer(Asked&, Session const&, Reply);
+    void answer(Asked&, Session const&, Reply&&);
 
     // Event interface (event_interface.cpp)
     Reply perform(Session&, Subscribe const&, Instant now);

@@ -43,12 +43,11 @@ std::string in_seconds(std::chrono::nanoseconds time) {
 // Refuses the operation, if there is a reason, before it changes anything.
 void Engine::Core::handle(std::shared_ptr<Asked> const& asked, Instant now) {
     auto const& operation = asked->operation();
-    if (shutting_down_) return asked->answer(Refusal::shutting_down);
-    if (auto const* connection = std::get_if<Connect>(&operation))
-        return asked->answer(connect(asked->session, *connection, now));
+    if (shutting_down_) return asked->refuse(Refusal::shutting_down);
+    if (auto const* connection = std::get_if<Connect>(&operation)) return connect(*asked, *connection, now);
     auto const* resumed = std::get_if<Resume>(&operation);
-    auto* session = find(resumed != nullptr ? resumed->session : asked->session);
-    if (session == nullptr) return asked->answer(Refusal::no_session);
+    auto* session = resumed != nullptr ? find(resumed->session) : session_of(*asked);
+    if (session == nullptr) return asked->refuse(Refusal::no_session);
     session->lease.request_received(now.steady);
     auto const too_long = why_too_long(operation);
     auto reply = std::visit(
@@ -65,7 +64,7 @@ void Engine::Core::handle(std::shared_ptr<Asked> const& asked, Instant now) {
     if (!attempts([&] { settle(now); })) unsettled_ = attempts.failure();
 }
 
-void Engine::Core::answer(Asked& asked, Session const& session, Reply reply) {
+void Engine::Core::answer(Asked& asked, Session const& session, Reply&& reply) {
     auto const& outcome = *std::visit([](Outcome const& each) { return &each; }, reply);
     Attempts attempts;
     if (outcome.return_code != ReturnCode::ok) attempts([&] { journal_->refused(session.number, asked.operation(), outcome); });
@@ -73,16 +72,16 @@ void Engine::Core::answer(Asked& asked, Session const& session, Reply reply) {
 }
 
 void Engine::Core::answer_later(Asked& asked, std::function<Later(Session&)> const& make) {
-    auto* session = find(asked.session);
-    if (session == nullptr) return asked.answer(Refusal::no_session);
-    auto const queue = session->notifications;
+    auto* session = session_of(asked);
+    if (session == nullptr) return asked.refuse(Refusal::no_session);
+    auto const& queue = asked.notifications;
     auto const before = queue->current();
     queue->enter(asked.hold);
     try {
         if (auto reply = make(*session)) answer(asked, *session, std::move(*reply));
     } catch (...) {
         queue->enter(before);
-        asked.answer(Refusal::no_memory);
+        asked.refuse(Refusal::no_memory);
         throw;
     }
     queue->enter(before);
@@ -154,6 +153,10 @@ void Engine::Core::mark_overflowed() {
 Session* Engine::Core::find(SessionId const& id) const {
     auto const found = sessions_.find(id);
     return found == sessions_.end() || found->second->ending ? nullptr : found->second.get();
+}
+
+Session* Engine::Core::session_of(Asked const& asked) const {
+    return asked.notifications ? find(asked.notifications->session()) : nullptr;
 }
 
 void Engine::Core::end(SessionId const& id, Instant now) {

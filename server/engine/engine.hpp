@@ -34,22 +34,23 @@ public:
 // Why an operation was not performed at all. The network layer answers with a fault.
 enum class Refusal : std::uint8_t { no_session, too_many_sessions, no_memory, shutting_down };
 
-using Said = std::variant<Reply, Refusal>;
-
 // An operation that waits for its answer. The engine shares it until then.
 class Asked {
 public:
-    // `hold`: the session's notifications that the operation causes wait until it is released (decision 22); 0: none does.
-    Asked(SessionId from, NotificationQueue::Hold until_answered) : session{std::move(from)}, hold{until_answered} {}
+    // `from`: the notifications of the session that asks; null: the client has none. Those that the operation causes wait until
+    // the hold is released (decision 22); 0: none does.
+    Asked(std::shared_ptr<NotificationQueue> from, NotificationQueue::Hold until_answered)
+        : notifications{std::move(from)}, hold{until_answered} {}
     virtual ~Asked() = default;
     Asked(Asked const&) = delete;
     Asked& operator=(Asked const&) = delete;
 
     virtual Operation const& operation() const = 0;
-    // Called once, within a call to the engine. Must not call the engine.
-    virtual void answer(Said) = 0;
+    // One of these is called once, within a call to the engine. They must not call the engine.
+    virtual void answer(Reply&&) = 0;
+    virtual void refuse(Refusal) = 0;
 
-    SessionId const session;  // empty: the client has none yet
+    std::shared_ptr<NotificationQueue> const notifications;
     NotificationQueue::Hold const hold;
 };
 

@@ -44,7 +44,7 @@ protected:
 private:
     class Collected final : public ComponentPort {
     public:
-        void report(ComponentReport report) override { reports.push_back(std::move(report)); }
+        void report(ComponentReport&& report) override { reports.push_back(std::move(report)); }
         std::vector<ComponentReport> reports;
     };
 

@@ -56,7 +56,7 @@ Query::Reply refused(ReturnCode code, std::string reason) { return rois::refused
 }  // namespace
 
 // A query that is being answered. It lives until the components that must be asked have answered.
-class Engine::Core::Inquiry : public std::enable_shared_from_this<Inquiry> {
+class Engine::Core::Inquiry : public Questions::Round, public std::enable_shared_from_this<Inquiry> {
 public:
     Inquiry(Core& core, SharedAsked asked, std::string const& query_type, Selection selection, Instant now)
         : core_{core},
@@ -69,6 +69,7 @@ public:
     Later of_whole_engine(Session const&, std::vector<RegisteredComponent*> const& able, Instant now);
 
 private:
+    using Then = Later (Inquiry::*)(Session&, Instant now);
     // A component that may answer. `rows`: its answer; nullopt if it was not asked, or has not answered in time.
     struct Possible {
         SharedComponent component;
@@ -77,7 +78,7 @@ private:
     };
     // A row of results that matches; without a row, the component matches whatever it answers.
     struct Match {
-        SharedComponent component;
+        std::size_t place = 0;  // in possible_
         std::optional<Results> row;
     };
 
@@ -85,15 +86,19 @@ private:
     static bool is_ready(RegisteredComponent const& component, Session const& session) {
         return component.status_for(&session) == ComponentStatus::ready;
     }
-    // Asks for the rows of these components. `then` is called once all have answered, or at `due`.
-    void ask(std::vector<Possible*> const&, Steady due, std::function<void(Instant)> then, Instant now);
-    void take(Possible&, std::optional<ComponentAnswer>&);
+    // Asks for the rows of the components that need them, or of one. `then` is called once all have answered, or at `due`.
+    void ask_all(Steady due, Then then, Instant now);
+    void ask(std::size_t place, Steady due, Then then, Instant now);
+    void take(std::size_t place, std::optional<ComponentAnswer>&&) override;
+    void end(Instant now) override;
     // Answers the operation, now or later.
     Later choose(Session&, Instant now);
+    Later choose(Perspective&, Session&, Instant now);
     std::vector<Match> matches(Perspective&) const;
     void sort(std::vector<Match>&, Perspective&) const;
-    Later next_match(Instant now);
-    Reply joined();
+    Later next_match(Session&, Instant now);
+    Later after_match(Session&, Instant now);
+    Later joined(Session&, Instant now);
     Reply why_nobody_answered() const;
 
     Core& core_;
@@ -102,6 +107,7 @@ private:
     Selection selection_;
     Steady until_;
     std::vector<Possible> possible_;
+    Then then_ = nullptr;
     std::vector<Match> matches_;  // in order of preference, READY ones first
     std::size_t next_ = 0;        // of matches_
     bool is_late_ = false;        // a component did not answer in time
@@ -155,42 +161,40 @@ Engine::Core::Later Engine::Core::Inquiry::of_one_component(Session& session, st
         if (has_choice) break;
         has_choice = !needs_rows && is_ready(*component, session);
     }
-    std::vector<Possible*> to_ask;
-    for (auto& possible : possible_) {
-        if (!possible.needs_rows) continue;
-        if (engine_knows())
-            possible.rows = known_answer(session, *possible.component, query_type_);
-        else
-            to_ask.push_back(&possible);
+    bool const asks = std::ranges::any_of(possible_, &Possible::needs_rows);
+    if (asks && !engine_knows()) {
+        ask_all(until_, &Inquiry::choose, now);
+        return {};
     }
-    if (to_ask.empty()) return choose(session, now);
-    ask(
-        to_ask, until_,
-        [self = shared_from_this()](Instant when) {
-            self->core_.answer_later(*self->asked_, [&](Session& asker) { return self->choose(asker, when); });
-        },
-        now);
-    return {};
+    for (auto& possible : possible_)
+        if (possible.needs_rows) possible.rows = known_answer(session, *possible.component, query_type_);
+    return choose(looked_at, session, now);
 }
 
-void Engine::Core::Inquiry::ask(std::vector<Possible*> const& to_ask, Steady due, std::function<void(Instant)> then,
-                                Instant now) {
-    auto const round = core_.questions_.begin(
-        due, [self = shared_from_this(), to_ask, then = std::move(then)](Questions::Answers& answers, Instant when) {
-            for (std::size_t i = 0; i < to_ask.size(); ++i) self->take(*to_ask[i], answers[i]);
-            then(when);
-        });
-    for (auto* possible : to_ask) {
-        auto const ticket = core_.questions_.add(round, *possible->component, "the component did not answer a query in time");
-        possible->component->hosted().query(ticket, query_type_, now);
-    }
+void Engine::Core::Inquiry::ask_all(Steady due, Then then, Instant now) {
+    for (std::size_t place = 0; place < possible_.size(); ++place)
+        if (possible_[place].needs_rows) ask(place, due, then, now);
 }
 
-void Engine::Core::Inquiry::take(Possible& possible, std::optional<ComponentAnswer>& answer) {
+void Engine::Core::Inquiry::ask(std::size_t place, Steady due, Then then, Instant now) {
+    then_ = then;
+    Questions::begin(*this, due);
+    auto& component = *possible_[place].component;
+    auto const ticket =
+        core_.questions_.add(shared_from_this(), place, component, "the component did not answer a query in time");
+    component.hosted().query(ticket, query_type_, now);
+}
+
+void Engine::Core::Inquiry::end(Instant now) {
+    core_.answer_later(*asked_, [&](Session& asker) { return (this->*then_)(asker, now); });
+}
+
+void Engine::Core::Inquiry::take(std::size_t place, std::optional<ComponentAnswer>&& answer) {
     if (!answer) {
         is_late_ = true;
         return;
     }
+    auto& possible = possible_[place];
     if (auto* rows = std::get_if<std::vector<Results>>(&*answer)) {
         auto accepted = possible.component->accepted(query_type_, std::move(*rows));
         if (!accepted.empty()) possible.component->clear_failure();
@@ -202,14 +206,15 @@ void Engine::Core::Inquiry::take(Possible& possible, std::optional<ComponentAnsw
 // A component that matches maybe, and has not answered, does not match. One that has matched before it was asked still matches.
 std::vector<Engine::Core::Inquiry::Match> Engine::Core::Inquiry::matches(Perspective& looked_at) const {
     std::vector<Match> found;
-    for (auto const& [component, needs_rows, rows] : possible_) {
-        auto const& candidate = looked_at.candidate(*component);
+    for (std::size_t place = 0; place < possible_.size(); ++place) {
+        auto const& candidate = looked_at.candidate(*possible_[place].component);
+        auto const& rows = possible_[place].rows;
         if (!rows || rows->empty()) {
-            if (selection_.match(candidate) == rois::Match::yes) found.push_back({component, {}});
+            if (selection_.match(candidate) == rois::Match::yes) found.push_back({place, {}});
             continue;
         }
         for (auto const& row : *rows)
-            if (selection_.match(MessageCandidate{candidate, row}) == rois::Match::yes) found.push_back({component, row});
+            if (selection_.match(MessageCandidate{candidate, row}) == rois::Match::yes) found.push_back({place, row});
     }
     return found;
 }
@@ -217,8 +222,8 @@ std::vector<Engine::Core::Inquiry::Match> Engine::Core::Inquiry::matches(Perspec
 void Engine::Core::Inquiry::sort(std::vector<Match>& found, Perspective& looked_at) const {
     std::vector<std::unique_ptr<MessageCandidate>> with_results;
     std::vector<Candidate const*> candidates;
-    for (auto const& [component, row] : found) {
-        candidates.push_back(&looked_at.candidate(*component));
+    for (auto const& [place, row] : found) {
+        candidates.push_back(&looked_at.candidate(*possible_[place].component));
         if (row)
             candidates.back() = with_results.emplace_back(std::make_unique<MessageCandidate>(*candidates.back(), *row)).get();
     }
@@ -226,56 +231,63 @@ void Engine::Core::Inquiry::sort(std::vector<Match>& found, Perspective& looked_
     ordered.reserve(found.size());
     for (auto const place : selection_.order(candidates)) ordered.push_back(std::move(found[place]));
     found = std::move(ordered);
-    Preference{*looked_at.asker()}.bring_forward(found, [](Match const& match) { return match.component.get(); });
+    Preference{*looked_at.asker()}.bring_forward(found,
+                                                 [&](Match const& match) { return possible_[match.place].component.get(); });
 }
 
 Engine::Core::Later Engine::Core::Inquiry::choose(Session& session, Instant now) {
     Perspective looked_at{core_.registry_, core_.places_, &session, Perspective::Of::present};
+    return choose(looked_at, session, now);
+}
+
+Engine::Core::Later Engine::Core::Inquiry::choose(Perspective& looked_at, Session& session, Instant now) {
     matches_ = matches(looked_at);
     if (matches_.empty() && (is_late_ || !failed_.empty())) return why_nobody_answered();
     if (matches_.empty())
         return refused(ReturnCode::unsupported, "no component that matches the condition answers query " + quoted(query_type_));
     if (selection_.sorts()) sort(matches_, looked_at);
-    std::ranges::stable_partition(matches_, [&](Match const& match) { return is_ready(*match.component, session); });
-    return next_match(now);
+    std::ranges::stable_partition(matches_,
+                                  [&](Match const& match) { return is_ready(*possible_[match.place].component, session); });
+    return next_match(session, now);
 }
 
 // Answers with the first row that matches. A match without a row is asked for it; if it does not answer in half of the remaining
 // time, or fails, the next match has its turn.
-Engine::Core::Later Engine::Core::Inquiry::next_match(Instant now) {
+Engine::Core::Later Engine::Core::Inquiry::next_match(Session& session, Instant now) {
     while (next_ < matches_.size()) {
-        auto& [component, row] = matches_[next_++];
-        bool const was_asked = std::ranges::any_of(
-            possible_, [&, &of = component](Possible const& each) { return each.component == of && each.needs_rows; });
+        auto& [place, row] = matches_[next_++];
+        auto& [component, was_asked, rows] = possible_[place];
         if (!row && engine_knows()) {
-            auto* session = core_.find(asked_->session);
-            auto rows = known_answer(*session, *component, query_type_);
-            if (!rows.empty()) row = std::move(rows.front());
+            auto known = known_answer(session, *component, query_type_);
+            if (!known.empty()) row = std::move(known.front());
             if (!row) failed_ = component->ref().code;
         }
         if (row) {
-            Query::Reply reply;
+            Later found;
+            auto& reply = std::get<Query::Reply>(found.emplace(std::in_place_type<Query::Reply>));
             reply.component_ref = component->ref();
             reply.results = std::move(*row);
-            return reply;
+            return found;
         }
         if (was_asked || engine_knows()) continue;
         bool const is_last = next_ == matches_.size();
         auto const due = is_last ? until_ : now.steady + (until_ - now.steady) / 2;
-        possible_.clear();
-        possible_.push_back({component, true});
-        ask(
-            {possible_.data()}, due,
-            [self = shared_from_this(), place = next_ - 1](Instant when) {
-                auto& rows = self->possible_.front().rows;
-                if (rows && !rows->empty()) self->matches_[place].row = std::move(rows->front());
-                if (self->matches_[place].row) self->next_ = place;
-                self->core_.answer_later(*self->asked_, [&](Session&) { return self->next_match(when); });
-            },
-            now);
+        was_asked = true;
+        ask(place, due, &Inquiry::after_match, now);
         return {};
     }
     return why_nobody_answered();
+}
+
+// The match before next_ was asked.
+Engine::Core::Later Engine::Core::Inquiry::after_match(Session& session, Instant now) {
+    auto& match = matches_[next_ - 1];
+    auto& rows = possible_[match.place].rows;
+    if (rows && !rows->empty()) {
+        match.row = std::move(rows->front());
+        --next_;
+    }
+    return next_match(session, now);
 }
 
 Reply Engine::Core::Inquiry::why_nobody_answered() const {
@@ -296,18 +308,11 @@ Engine::Core::Later Engine::Core::Inquiry::of_whole_engine(Session const& sessio
         if (!added && choice.first < place->second.first) place->second = choice;
     }
     for (auto const& [engine, choice] : chosen) possible_.push_back({choice.second->shared_from_this(), true});
-    std::vector<Possible*> to_ask;
-    for (auto& possible : possible_) to_ask.push_back(&possible);
-    ask(
-        to_ask, until_,
-        [self = shared_from_this()](Instant) {
-            self->core_.answer_later(*self->asked_, [&](Session&) -> Later { return self->joined(); });
-        },
-        now);
+    ask_all(until_, &Inquiry::joined, now);
     return {};
 }
 
-Reply Engine::Core::Inquiry::joined() {
+Engine::Core::Later Engine::Core::Inquiry::joined(Session&, Instant) {
     Query::Reply reply;
     bool has_failed = false, has_answered = false;
     for (auto& [component, needs_rows, rows] : possible_) {

@@ -5,7 +5,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 #include "engine/component.hpp"
@@ -16,25 +15,39 @@ class RegisteredComponent;
 
 class Questions {
 public:
-    // The answers to the questions of a round, in their order; nullopt: none in time.
+    // The answers to the questions of a round; nullopt: none in time.
     using Answers = std::vector<std::optional<ComponentAnswer>>;
     using Then = std::function<void(Answers&, Instant now)>;
-    struct Round;
+
+    // Questions that are asked together.
+    class Round {
+    public:
+        virtual ~Round() = default;
+
+    private:
+        friend class Questions;
+        // Called once for each question. nullopt: no answer came in time.
+        virtual void take(std::size_t place, std::optional<ComponentAnswer>&&) = 0;
+        // Called after the last of these.
+        virtual void end(Instant now) = 0;
+
+        Steady due_;
+        std::size_t unanswered_ = 0;
+    };
 
     // A ticket that identifies nothing else. For halts, which are not questions.
     Ticket fresh_ticket() { return Ticket{++last_}; }
 
-    // Begins a round of questions. `then` is called once: when all are answered, or at a tick after `due`.
-    std::shared_ptr<Round> begin(Steady due, Then then);
-    // Adds a question to the round, which the caller then asks with this ticket. `what` is the text of the
-    // error if no answer comes.
-    Ticket add(std::shared_ptr<Round> const&, RegisteredComponent&, char const* what);
+    // Begins a round, which may have ended before. A tick after `due` ends the questions that are not answered then.
+    static void begin(Round& round, Steady due) { round.due_ = due; }
+    // A round that calls `then` with all answers, by the places of their questions, when it ends.
+    static std::shared_ptr<Round> begin(Steady due, Then then);
+    // Adds a question to the round, which the caller then asks with this ticket. `place` identifies it in the round. `what` is
+    // the text of the error if no answer comes.
+    Ticket add(std::shared_ptr<Round>, std::size_t place, RegisteredComponent&, char const* what);
     // A round with one question.
     Ticket ask(RegisteredComponent&, Steady due, char const* what,
                std::function<void(std::optional<ComponentAnswer>&, Instant now)> then);
-    // Ends the round now if nothing is to be asked.
-    void end_if_empty(std::shared_ptr<Round> const&, Instant now);
-
     // Returns false if the question is unknown: it was answered before, or the answer is late.
     bool answered(Ticket, ComponentAnswer&&, Instant now);
 
@@ -45,19 +58,18 @@ public:
     void fail_all(RegisteredComponent const&, Instant now);
 
     // Returns whether a ticket belongs to a question, and not to a halt.
-    bool is_open(Ticket ticket) const { return open_.contains(static_cast<std::uint64_t>(ticket)); }
+    bool is_open(Ticket) const;
 
 private:
     struct Open {
+        Ticket ticket;
         std::shared_ptr<Round> round;
-        std::size_t place = 0;  // in the round's answers
+        std::size_t place = 0;
         std::shared_ptr<RegisteredComponent> component;
         char const* what = nullptr;
     };
 
-    void finish(Round&, Instant now);
-
-    std::unordered_map<std::uint64_t, Open> open_;  // by ticket
+    std::vector<Open> open_;  // by ticket, ascending
     std::uint64_t last_ = 0;
 };
 

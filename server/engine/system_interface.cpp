@@ -28,22 +28,23 @@ std::optional<std::string> agree(MotionLease::Terms& terms, Connect const& asked
 
 }  // namespace
 
-Said Engine::Core::connect(SessionId const& id, Connect const& asked, Instant now) {
-    auto* const known = find(id);
+void Engine::Core::connect(Asked& asked, Connect const& connection, Instant now) {
+    auto* const known = session_of(asked);
     auto terms =
         known != nullptr ? known->lease.terms() : MotionLease::Terms{settings_.motion_lease, settings_.motion_lease_http};
-    if (auto problem = agree(terms, asked, settings_)) return refused<Connect::Reply>(ReturnCode::bad_parameter, *problem);
+    if (auto problem = agree(terms, connection, settings_))
+        return asked.answer(refused<Connect::Reply>(ReturnCode::bad_parameter, *problem));
     if (known != nullptr) {
         known->lease.agree(terms);
         known->lease.request_received(now.steady);
-        return perform(*known, asked, now);
+        return asked.answer(perform(*known, connection, now));
     }
-    if (memory_->tight()) return Refusal::no_memory;
+    if (memory_->tight()) return asked.refuse(Refusal::no_memory);
     if (sessions_.size() >= settings_.max_sessions) {
         auto* const idle = longest_idle();
         if (idle == nullptr) {
             ++refused_.sessions;
-            return Refusal::too_many_sessions;
+            return asked.refuse(Refusal::too_many_sessions);
         }
         ++sessions_replaced_;
         end(*idle, "it was idle, and a new session needed its place", now);
@@ -70,7 +71,7 @@ Said Engine::Core::connect(SessionId const& id, Connect const& asked, Instant no
         errors_.add_receiver(opened.errors.slot);
         notifier_.notify(opened, std::move(error));
     }
-    return perform(opened, asked, now);
+    asked.answer(perform(opened, connection, now));
 }
 
 Reply Engine::Core::perform(Session& session, Connect const&, Instant) {

@@ -98,9 +98,9 @@ void Engine::Core::handle_reports(Instant now, Attempts& attempts) {
             agenda_.pop();
         }
         auto entry = inbox_->take();
-        if (!entry) return;
-        if (attempts([&] { handle(*entry, now, attempts); })) continue;
-        inbox_->put_back(std::move(*entry));
+        if (entry.empty()) return;
+        if (attempts([&] { handle(entry.front(), now, attempts); })) continue;
+        inbox_->put_back(std::move(entry));
         is_handled_again_ = true;
         return;
     }
@@ -109,8 +109,8 @@ void Engine::Core::handle_reports(Instant now, Attempts& attempts) {
 void Engine::Core::handle(InboxEntry& entry, Instant now, Attempts& deliveries) {
     if (!entry.from) return agenda_.add({nullptr, ErrorType::engine_internal_error, std::get<CallFailed>(entry.report).text});
     if (entry.from->registered == nullptr) return;
-    auto const component = entry.from->registered->shared_from_this();
-    component->end_silence();
+    auto& component = *entry.from->registered;
+    component.end_silence();
     struct Handler {
         Core& core;
         RegisteredComponent& component;
@@ -121,13 +121,13 @@ void Engine::Core::handle(InboxEntry& entry, Instant now, Attempts& deliveries) 
         void operator()(HaltConfirmed const& report) { core.executor_.halted(component, report.ticket, now); }
         void operator()(EventOccurred const& report) { core.publish(component, report, now, deliveries); }
         void operator()(ErrorOccurred const& report) { component.report(report.type, report.text, report.report); }
-        void operator()(ComponentState const& state) { component.accept(state); }
+        void operator()(StateChanged const& state) { component.accept(*state); }
         void operator()(Answered& report) {
             if (!core.questions_.answered(report.ticket, std::move(report.answer), now)) core.executor_.count_stray_answer();
         }
     };
-    if (auto* failure = std::get_if<CallFailed>(&entry.report)) return handle(*component, *failure, now);
-    std::visit(Handler{*this, *component, now, deliveries}, std::get<ComponentReport>(entry.report));
+    if (auto* failure = std::get_if<CallFailed>(&entry.report)) return handle(component, *failure, now);
+    std::visit(Handler{*this, component, now, deliveries}, std::get<ComponentReport>(entry.report));
 }
 
 void Engine::Core::handle(RegisteredComponent& component, CallFailed& failure, Instant now) {

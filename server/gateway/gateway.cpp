@@ -108,20 +108,27 @@ Gateway::Gateway(Engine& engine, Readers& readers, Telemetry& telemetry, ClientL
 // A request that was read, and its answer.
 class Exchange final : public Asked {
 public:
-    Exchange(Gateway& gateway, SessionId const& of, NotificationQueue::Hold until_answered, Request request, Instant begun,
-             std::weak_ptr<Reader> waits)
-        : Asked{of, until_answered}, gateway_{gateway}, request_{std::move(request)}, begun_{begun}, waits_{std::move(waits)} {}
+    Exchange(Gateway& gateway, std::shared_ptr<NotificationQueue> of, NotificationQueue::Hold until_answered, Request&& request,
+             Instant begun, std::weak_ptr<Reader> waits)
+        : Asked{std::move(of), until_answered},
+          gateway_{gateway},
+          request_{std::move(request)},
+          begun_{begun},
+          waits_{std::move(waits)} {}
     // Refused before an operation was performed.
     Exchange(Gateway& gateway, Fault fault) : Asked{{}, 0}, gateway_{gateway}, fault_{std::move(fault)}, has_come_{true} {}
 
     Operation const& operation() const override { return request_.operation; }
 
     // Called with the engine locked.
-    void answer(Said said) override {
-        said_ = std::move(said);
-        has_come_.store(true, std::memory_order_release);
-        if (!is_late_) return;
-        if (auto const reader = waits_.lock()) reader->wake();
+    void answer(Reply&& reply) override {
+        reply_ = std::move(reply);
+        come();
+    }
+    void refuse(Refusal refusal) override {
+        fault_ = gateway_.fault_of(refusal);
+        fault_->request_id = request_.request_id;
+        come();
     }
     // From now on the reader is woken when the answer comes. Called with the engine locked.
     void wait() { is_late_ = !has_come(); }
@@ -134,34 +141,34 @@ public:
     }
 
     void session_opened(std::uint64_t number) { session_number_ = number; }
-    Said const* said() const { return said_ ? &*said_ : nullptr; }
+    Reply const* reply() const { return reply_ ? &*reply_ : nullptr; }
 
     Answer take() {
         Answer taken;
         taken.session_number = session_number_;
-        if (!fault_)
-            if (auto const* refusal = std::get_if<Refusal>(&*said_)) {
-                fault_ = gateway_.fault_of(*refusal);
-                fault_->request_id = request_.request_id;
-            }
         if (fault_) {
             taken.document = xml::encode(*fault_);
             gateway_.telemetry_.faulted(fault_->code);
             taken.fault = std::move(fault_);
             return taken;
         }
-        auto const& reply = std::get<Reply>(*said_);
-        taken.document = xml::encode(reply, request_.request_id);
-        auto const code = std::visit([](Outcome const& outcome) { return outcome.return_code; }, reply);
+        taken.document = xml::encode(*reply_, request_.request_id);
+        auto const code = std::visit([](Outcome const& outcome) { return outcome.return_code; }, *reply_);
         gateway_.telemetry_.answered(operation(), code, std::chrono::steady_clock::now() - begun_.steady);
-        if (code == ReturnCode::ok) take_turn(taken, reply);
+        if (code == ReturnCode::ok) take_turn(taken);
         return taken;
     }
 
 private:
+    void come() {
+        has_come_.store(true, std::memory_order_release);
+        if (!is_late_) return;
+        if (auto const reader = waits_.lock()) reader->wake();
+    }
+
     // Notes how a successful operation changes the connection that asked for it.
-    void take_turn(Answer& taken, Reply const& reply) const {
-        if (auto const* connected = std::get_if<Connect::Reply>(&reply)) {
+    void take_turn(Answer& taken) const {
+        if (auto const* connected = std::get_if<Connect::Reply>(&*reply_)) {
             taken.turn = Answer::Turn::connected;
             taken.session = connected->session;
         } else if (auto const* resume = std::get_if<Resume>(&operation())) {
@@ -178,7 +185,7 @@ private:
     Instant begun_{};
     std::weak_ptr<Reader> waits_;
     std::optional<Fault> fault_;
-    std::optional<Said> said_;
+    std::optional<Reply> reply_;
     std::uint64_t session_number_ = 0;
     bool is_late_ = false;
     std::atomic<bool> has_come_ = false;
@@ -240,7 +247,7 @@ Fault Gateway::fault_of(Refusal refusal) {
     return no_such_session();
 }
 
-PendingAnswer Gateway::perform(SessionId const& session, Request request, Via via, std::weak_ptr<Reader> waits,
+PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via via, std::weak_ptr<Reader> waits,
                                std::shared_ptr<Opener> const& opener, Reading const* reading, Instant now) {
     Hold hold;  // ends without the lock
     std::unique_lock lock{mutex_};
@@ -256,16 +263,15 @@ PendingAnswer Gateway::perform(SessionId const& session, Request request, Via vi
         }
     log_.take_joined();  // of an operation that failed
     // `disconnect` holds nothing: the readers receive the last notifications before the answer (decision 3).
-    if (known && !std::holds_alternative<Disconnect>(request.operation)) hold = Hold{*this, std::move(queue)};
-    auto exchange = std::make_shared<Exchange>(*this, session, hold.number(), std::move(request), now, std::move(waits));
+    if (known && !std::holds_alternative<Disconnect>(request.operation)) hold = Hold{*this, queue};
+    auto exchange = std::make_shared<Exchange>(*this, std::move(queue), hold.number(), std::move(request), now, std::move(waits));
     engine_.handle(exchange, now);
     auto const number = log_.take_joined();
     exchange->session_opened(number);
     if (opens && number != 0) quota_.opened(number, opener);
     // The `connect` of a session counts as a sign of life (decision 2).
-    if (auto const* said = exchange->said(); said && via == Via::http && !known && connects)
-        if (auto const* reply = std::get_if<Reply>(said))
-            if (auto const* connected = std::get_if<Connect::Reply>(reply)) engine_.heard_from(connected->session, now);
+    if (auto const* reply = exchange->reply(); reply && via == Via::http && !known && connects)
+        engine_.heard_from(std::get<Connect::Reply>(*reply).session, now);
     engine_.work(lock, now);
     hold.leave();
     exchange->wait();

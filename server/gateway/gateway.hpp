@@ -203,7 +203,7 @@ private:
     friend class Hold;
     friend class Reading;
 
-    PendingAnswer perform(SessionId const&, Request, Via, std::weak_ptr<Reader> waits, std::shared_ptr<Opener> const&,
+    PendingAnswer perform(SessionId const&, Request&&, Via, std::weak_ptr<Reader> waits, std::shared_ptr<Opener> const&,
                           Reading const*, Instant now);
     PendingAnswer refused(Fault);
     std::optional<Fault> refusal_of(Opener const&);

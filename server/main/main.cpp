@@ -227,7 +227,7 @@ int serve(CommandLine const& command) {
                                    telemetry,
                                    *schemas,
                                    {.page = files::web().at("index.html"),
-                                    .console = net::WebFiles{files::console()},
+                                    .console = WebFiles{files::console()},
                                     .floor_map = xml::encode(simulation::floor_map(simulation->hall().plan()))}};
     net::Server server{net_settings, gateway, telemetry, documents, schemas};
     if (!settings.profiles.empty()) server.on_hang_up([&] { read_again(user_components, gateway); });

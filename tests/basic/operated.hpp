@@ -156,7 +156,7 @@ public:
     // By default, only the last command may complete.
     void allow_any_command() { any_command_ = true; }
 
-    void report(ComponentReport report) override {
+    void report(ComponentReport&& report) override {
         std::visit([&](auto& each) { take(each); }, report);
     }
 
@@ -204,7 +204,7 @@ private:
         return all;
     }
 
-    void take(ComponentState& state) { state_ = std::move(state); }
+    void take(StateChanged const& state) { state_ = *state; }
     void take(Answered& answered) {
         EXPECT_EQ(answered.ticket, asked_);
         EXPECT_FALSE(answer_) << "two answers to one question";

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "engine/attempts.hpp"
@@ -14,20 +15,26 @@
 
 namespace rois {
 
+using Said = std::variant<Reply, Refusal>;
+
 // An operation of a test, and its answer once there is one.
 class TestedOperation final : public Asked {
 public:
-    TestedOperation(SessionId from, Operation operation) : Asked{std::move(from), 0}, operation_{std::move(operation)} {}
+    TestedOperation(std::shared_ptr<NotificationQueue> from, Operation operation)
+        : Asked{std::move(from), 0}, operation_{std::move(operation)} {}
 
     Operation const& operation() const override { return operation_; }
-    void answer(Said answer) override {
-        if (said) throw std::logic_error("an operation was answered twice");
-        said = std::move(answer);
-    }
+    void answer(Reply&& reply) override { note(std::move(reply)); }
+    void refuse(Refusal refusal) override { note(refusal); }
 
     std::optional<Said> said;
 
 private:
+    void note(Said answer) {
+        if (said) throw std::logic_error("an operation was answered twice");
+        said = std::move(answer);
+    }
+
     Operation operation_;
 };
 
@@ -37,7 +44,7 @@ public:
 
     // The answer may come later.
     std::shared_ptr<TestedOperation> begin_to_handle(SessionId const& session, Operation const& operation, Instant now) {
-        auto asked = std::make_shared<TestedOperation>(session, operation);
+        auto asked = std::make_shared<TestedOperation>(notifications(session), operation);
         and_work([&] { handle(asked, now); }, now);
         return asked;
     }

@@ -71,7 +71,7 @@ struct Rig {
         engine.add(std::move(driving));
         if (device) engine.add(std::move(device), "stage");
         gateway.emplace(engine, readers, telemetry, ClientLimits{}, memory);
-        documents.emplace(*gateway, telemetry, *schemas, net::Site{"", net::WebFiles{{}}, ""});
+        documents.emplace(*gateway, telemetry, *schemas, net::Site{"", WebFiles{{}}, ""});
         server.emplace(settings(), *gateway, telemetry, *documents, schemas);
         server->on_too_many_troubles([this] { ++given_up; });
         auto const url = server->url();

@@ -72,9 +72,9 @@ public:
 
 private:
     // Of the component: some reports are changed by the faults.
-    void report(ComponentReport report) override {
-        if (auto* state = std::get_if<ComponentState>(&report)) {
-            state_ = std::move(*state);
+    void report(ComponentReport&& report) override {
+        if (auto const* state = std::get_if<StateChanged>(&report)) {
+            state_ = **state;
             return report_state();
         }
         if (auto const* confirmed = std::get_if<HaltConfirmed>(&report)) {

@@ -169,6 +169,7 @@ void NotificationQueue::leave(Hold hold) {
 }
 
 void NotificationQueue::enter(Hold hold) {
+    if (hold == current_) return;
     std::lock_guard const lock{mutex_};
     current_ = hold;
 }

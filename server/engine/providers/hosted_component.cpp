@@ -51,8 +51,10 @@ void HostedComponent::parameters_changed(ParameterList parameters, Instant now) 
 // Any client may ask, so a failure is reported once.
 void HostedComponent::query(Ticket ticket, std::string query_type, Instant now) {
     provider_->add({.to = shared_from_this(),
-                    .what = [=, type = std::move(query_type)](Component* component) { component->query(ticket, type, now); },
+                    .what = {},
+                    .query_type = std::move(query_type),
                     .awaited = ticket,
+                    .now = now,
                     .is_question = true,
                     .report = Report::once});
 }
@@ -63,9 +65,9 @@ void HostedComponent::depart() {
     add({}, [this](Component*) { component_.reset(); });
 }
 
-void HostedComponent::report(ComponentReport report) {
+void HostedComponent::report(ComponentReport&& report) {
     try {
-        provider_->report({shared_from_this(), std::move(report)});
+        provider_->report(shared_from_this(), std::move(report));
     } catch (...) {
         lose_report();
         throw;
@@ -85,7 +87,9 @@ void HostedComponent::carry_out(Provider::Call const& call) {
         is_attached_ = true;
     }
     if (call.what) return call.what(component_.get());
-    component_->halt(std::get<Ticket>(call.awaited), call.now);
+    auto const ticket = std::get<Ticket>(call.awaited);
+    if (!call.query_type.empty()) return component_->query(ticket, call.query_type, call.now);
+    component_->halt(ticket, call.now);
 }
 
 void HostedComponent::after_call() {

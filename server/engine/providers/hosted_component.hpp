@@ -38,7 +38,7 @@ public:
     // Returns whether a report was lost, because memory was short, since the last call.
     bool take_lost_report() { return lost_report_.exchange(false); }
 
-    void report(ComponentReport) override;
+    void report(ComponentReport&&) override;
 
 private:
     friend class Provider;

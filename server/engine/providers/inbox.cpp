@@ -24,52 +24,44 @@ void Inbox::wake() {
     wake_();
 }
 
-void Inbox::add(std::shared_ptr<ProvidersEntries> const& of, InboxEntry&& entry) {
+void Inbox::add(ProvidersEntries& of, InboxEntries&& one) {
     std::lock_guard const lock{mutex_};
-    if (of->closed) return;
+    if (of.closed) return;
     bool const first = next_.empty();
-    of->entries.push_back(std::move(entry));
-    if (of->entries.size() > 1) return;
-    try {
-        next_.push_back(of);
-    } catch (...) {
-        of->entries.pop_back();
-        throw;
-    }
+    next_.splice(next_.end(), of.turn);
+    of.entries.splice(of.entries.end(), one);
+    is_empty_.store(false, std::memory_order_release);
     if (first && !attended) wake_();
 }
 
-void Inbox::close(ProvidersEntries& of) {
-    std::deque<InboxEntry> dropped;  // outlives the lock
+void Inbox::close(ProvidersEntries& of) noexcept {
+    InboxEntries dropped;  // outlives the lock
     std::lock_guard const lock{mutex_};
     of.closed = true;
     dropped.swap(of.entries);
-    std::erase_if(next_, [&](auto const& each) { return each.get() == &of; });
+    next_.remove(&of);
+    is_empty_ = next_.empty() && returned_.empty();
 }
 
-std::optional<InboxEntry> Inbox::take() {
+InboxEntries Inbox::take() noexcept {
+    InboxEntries one;
+    if (empty()) return one;
     std::lock_guard const lock{mutex_};
-    if (returned_) return std::exchange(returned_, {});
-    if (next_.empty()) return {};
-    auto& entries = next_.front()->entries;
-    std::optional entry{std::move(entries.front())};
-    entries.pop_front();
-    if (entries.empty()) {
-        next_.pop_front();
-    } else {
-        next_.splice(next_.end(), next_, next_.begin());
+    one.swap(returned_);
+    if (one.empty() && !next_.empty()) {
+        auto& [entries, closed, turn] = *next_.front();
+        one.splice(one.end(), entries, entries.begin());
+        auto& from = entries.empty() ? turn : next_;
+        from.splice(from.end(), next_, next_.begin());
     }
-    return entry;
+    is_empty_.store(next_.empty(), std::memory_order_release);
+    return one;
 }
 
-void Inbox::put_back(InboxEntry entry) noexcept {
+void Inbox::put_back(InboxEntries&& one) noexcept {
     std::lock_guard const lock{mutex_};
-    returned_ = std::move(entry);
-}
-
-bool Inbox::empty() const {
-    std::lock_guard const lock{mutex_};
-    return !returned_ && next_.empty();
+    returned_.swap(one);
+    is_empty_.store(false, std::memory_order_release);
 }
 
 void Inbox::note_lost_report() noexcept {

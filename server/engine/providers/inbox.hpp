@@ -1,12 +1,11 @@
 // The reports of components that wait for the engine (docs/engine.md).
 #pragma once
 
-#include <deque>
+#include <atomic>
 #include <functional>
 #include <list>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <variant>
 
@@ -25,14 +24,21 @@ struct CallFailed {
 
 // `from` is null for a device.
 struct InboxEntry {
+    using What = std::variant<ComponentReport, CallFailed>;
     std::shared_ptr<HostedComponent> from;
-    std::variant<ComponentReport, CallFailed> report;
+    What report;
 };
+using InboxEntries = std::list<InboxEntry>;  // of which entries are taken without moving them
 
-// The entries of one provider, in their order. Guarded by the inbox's mutex.
+// The entries of one provider, in their order. Guarded by the inbox's mutex. Close it before its end.
 struct ProvidersEntries {
-    std::deque<InboxEntry> entries;
-    bool closed = false;  // later entries are dropped
+    ProvidersEntries() : turn{this} {}
+    ProvidersEntries(ProvidersEntries const&) = delete;
+    ProvidersEntries& operator=(ProvidersEntries const&) = delete;
+
+    InboxEntries entries;
+    bool closed = false;                // later entries are dropped
+    std::list<ProvidersEntries*> turn;  // empty while the inbox has it, because there are entries
 };
 
 // Takes one entry of each provider in turn: a provider that reports a lot delays only its own reports. Thread-safe.
@@ -44,12 +50,13 @@ public:
 
     void wake();  // calls that function
 
-    void add(std::shared_ptr<ProvidersEntries> const& of, InboxEntry&&);
-    void close(ProvidersEntries&);
-    std::optional<InboxEntry> take();
+    void add(ProvidersEntries&, InboxEntries&& one);
+    void close(ProvidersEntries&) noexcept;
+    // Returns one entry, or none.
+    InboxEntries take() noexcept;
     // For an entry whose handling failed: it is taken again first.
-    void put_back(InboxEntry) noexcept;
-    bool empty() const;
+    void put_back(InboxEntries&& one) noexcept;
+    bool empty() const { return is_empty_.load(std::memory_order_acquire); }
 
     // Records that a report could not be stored, because memory was short. HostedComponent::take_lost_report names the component.
     void note_lost_report() noexcept;
@@ -69,8 +76,9 @@ public:
 
 private:
     mutable std::mutex mutex_;
-    std::list<std::shared_ptr<ProvidersEntries>> next_;  // the providers with entries, in the order of their turns
-    std::optional<InboxEntry> returned_;
+    std::list<ProvidersEntries*> next_;  // the providers with entries, in the order of their turns
+    InboxEntries returned_;
+    std::atomic<bool> is_empty_ = true;
     bool report_lost_ = false;
     std::function<void()> wake_ = [] {};
 };

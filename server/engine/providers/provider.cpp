@@ -51,7 +51,7 @@ void Provider::add_halt(std::shared_ptr<HostedComponent> component, Ticket ticke
     Call halt{.to = std::move(component), .what = {}, .awaited = ticket, .now = now};
     if (calls_.size() == calls_.capacity())
         for (auto i = begun_; i < calls_.size(); ++i)
-            if (!calls_[i].what && calls_[i].to == halt.to) return std::swap(calls_[i], halt);
+            if (calls_[i].is_halt() && calls_[i].to == halt.to) return std::swap(calls_[i], halt);
     calls_.push_back(std::move(halt));
     call_runner();
 }
@@ -125,7 +125,7 @@ void Provider::report_failure(std::shared_ptr<HostedComponent> const& from, Awai
             text = exception.what();
         } catch (...) {  // the text says so
         }
-        report({from, CallFailed{awaited, std::move(text), each}});
+        report(from, CallFailed{awaited, std::move(text), each});
     } catch (...) {
         if (from) from->lose_report();
     }
@@ -151,6 +151,12 @@ void Provider::work() {
     }
 }
 
+void Provider::report(std::shared_ptr<HostedComponent> from, InboxEntry::What what) {
+    InboxEntries one;
+    one.emplace_back(std::move(from), std::move(what));
+    inbox_->add(entries_, std::move(one));
+}
+
 void Provider::close() {
     decltype(components_) components;
     decltype(calls_) calls;
@@ -162,7 +168,7 @@ void Provider::close() {
         begun_ = 0;
         arrived_.notify_one();
     }
-    inbox_->close(*entries_);
+    inbox_->close(entries_);
 }
 
 }  // namespace rois

@@ -41,6 +41,7 @@ public:
 
     Provider(Runs runs, std::shared_ptr<Inbox> inbox, ProvidersToRun& to_run)
         : runs_{runs}, inbox_{std::move(inbox)}, to_run_{to_run} {}
+    ~Provider() { close(); }
     Provider(Provider const&) = delete;
     Provider& operator=(Provider const&) = delete;
 
@@ -53,11 +54,14 @@ public:
     using Awaited = decltype(CallFailed::awaited);
     struct Call {
         std::shared_ptr<HostedComponent> to;   // null: a device
-        std::function<void(Component*)> what;  // null: a halt
+        std::function<void(Component*)> what;  // null: a query, or a halt
+        std::string query_type{};              // of a query
         Awaited awaited{};                     // an exception of the call is reported for this question or command
-        Instant now{};                         // for a halt
+        Instant now{};                         // of a query or a halt
         bool is_question = false;              // the component has nothing else to report after it
         Report report = Report::each;          // of an exception
+
+        bool is_halt() const { return !what && query_type.empty(); }
     };
 
     void add(Call);
@@ -70,7 +74,7 @@ public:
     // of a device, and those behind it.
     bool run(Runner);
 
-    void report(InboxEntry&& entry) { inbox_->add(entries_, std::move(entry)); }
+    void report(std::shared_ptr<HostedComponent> from, InboxEntry::What);
     Inbox& inbox() { return *inbox_; }
 
     // The provider's thread ends after its present call.
@@ -91,7 +95,7 @@ private:
     std::shared_ptr<Inbox> inbox_;
     ProvidersToRun& to_run_;
     bool is_listed_ = false;  // in to_run_
-    std::shared_ptr<ProvidersEntries> entries_ = std::make_shared<ProvidersEntries>();
+    ProvidersEntries entries_;
     std::mutex mutex_;
     std::condition_variable arrived_;
     std::vector<std::shared_ptr<HostedComponent>> components_;

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "types/messages.hpp"
+
 namespace rois {
 
 // Returns this machine's name from gethostname, in lower case. Returns nothing if it is not a valid host name.
@@ -26,5 +28,10 @@ std::string_view harmless_host(std::string_view authority);
 
 // Returns whether pages of this origin may send requests to `authority`: pages of that host, and the origins in `allowed`.
 bool is_allowed_origin(std::string_view origin, std::string_view authority, std::vector<std::string> const& allowed);
+
+// The fault for a request that `is_own_host` or `is_allowed_origin` rejects.
+std::optional<Fault> refusal_of_host(std::string_view authority, std::vector<std::string> const& names);
+std::optional<Fault> refusal_of_origin(std::string_view origin, std::string_view authority,
+                                       std::vector<std::string> const& allowed);
 
 }  // namespace rois

@@ -198,7 +198,7 @@ Task<Connection::Then> Connection::receive() {
 }
 
 // An answer that comes later, or after one that comes later, waits for its turn.
-Connection::Then Connection::take(PendingAnswer answer) {
+Connection::Then Connection::take(PendingAnswer&& answer) {
     if (waiting_.empty() && answer.has_come()) return reply(made_of(answer.take()));
     bool const close = !head_.keep_alive() || loop_.draining();
     waiting_.push_back({std::move(answer), {Framing::Body::sent, close}});
@@ -256,14 +256,10 @@ Task<Connection::Then> Connection::serve_other() {
         co_return serve_upgrade();
     }
     // Decision 34. Stops first: the log and the answer need memory.
-    if (route_.endpoint == Endpoint::stop) {
-        auto const state = shared.gateway.stop_everything();
-        spdlog::warn("everything is stopped, as asked by {}", wire_.peer());
-        co_return reply(HttpAnswer{.body = xml::encode(state)});
-    }
-    if (route_.endpoint == Endpoint::clear) {
-        auto const state = shared.gateway.clear();
-        spdlog::warn("commands may start again, as asked by {}", wire_.peer());
+    bool const stops = route_.endpoint == Endpoint::stop;
+    if (stops || route_.endpoint == Endpoint::clear) {
+        auto const state = stops ? shared.gateway.stop_everything() : shared.gateway.clear();
+        spdlog::warn("{}, as asked by {}", stops ? "everything is stopped" : "commands may start again", wire_.peer());
         co_return reply(HttpAnswer{.body = xml::encode(state)});
     }
     if (route_.endpoint == Endpoint::notifications) co_return co_await serve_notifications();

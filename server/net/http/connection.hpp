@@ -53,7 +53,7 @@ private:
     enum class Framed : std::uint8_t { as_asked, last };
     Then reply(HttpAnswer, Framed = Framed::as_asked);
     HttpAnswer made_of(Answer&&);
-    Then take(PendingAnswer);
+    Then take(PendingAnswer&&);
     // Answers in the order of the requests, as far as they have come. Returns false if a component still lets us wait.
     bool take_answers();
     void answers_came();

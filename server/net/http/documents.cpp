@@ -15,6 +15,12 @@ namespace {
 
 constexpr std::chrono::milliseconds longest_tick{500};  // since the last tick of a healthy engine
 
+void secure(HttpAnswer& answer, std::string_view policy) {
+    answer.fields.set("Content-Security-Policy", policy);
+    answer.fields.set("X-Content-Type-Options", "nosniff");
+    answer.fields.set("Referrer-Policy", "no-referrer");
+}
+
 // A document that clients may cache if they ask each time whether it has changed.
 HttpAnswer versioned(std::string_view content_type, std::string body, RequestHead const& head) {
     auto const etag = '"' + digest(body) + '"';
@@ -35,6 +41,20 @@ HttpAnswer not_found(std::string reason) { return answer_of({FaultCode::not_foun
 
 }  // namespace
 
+HttpAnswer file_answer(WebFile const* file, RequestHead const& head) {
+    if (file == nullptr) return not_found("the console has no such file");
+    bool const compressed = !file->compressed.empty() && head.takes_gzip();
+    auto const etag = '"' + file->digest + (compressed ? "-gzip\"" : "\"");
+    HttpAnswer answer{.body = std::string{compressed ? file->compressed : file->plain}, .content_type = file->content_type};
+    answer.cache_control = file->is_asset ? "public, max-age=31536000, immutable" : "no-cache";
+    answer.fields.set(http::field::etag, etag);
+    answer.fields.set(http::field::vary, "Accept-Encoding");
+    secure(answer, console_policy(head.host()));
+    if (head.knows(etag)) return not_modified(std::move(answer));
+    if (compressed) answer.fields.set(http::field::content_encoding, "gzip");
+    return answer;
+}
+
 Documents::Documents(Gateway const& gateway, Telemetry const& telemetry, xml::Schemas const& schemas, Site site)
     : gateway_{gateway},
       telemetry_{telemetry},
@@ -46,13 +66,13 @@ Documents::Documents(Gateway const& gateway, Telemetry const& telemetry, xml::Sc
 HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const {
     switch (route.endpoint) {
         case Endpoint::page:
-            return site_.console.empty() ? page(head) : site_.console.answer("index.html", head);
+            return site_.console.empty() ? page(head) : file_answer(site_.console.find("index.html"), head);
         case Endpoint::plain_page:
             return page(head);
         case Endpoint::asset:
-            return site_.console.answer("assets/" + route.name, head);
+            return file_answer(site_.console.find("assets/" + route.name), head);
         case Endpoint::engine_profile:
-            return engine_profile(head);
+            return versioned_xml(xml::encode(*gateway_.profile(), "engine." + gateway_.profile()->object.name), head);
         case Endpoint::component_profile:
             return component_profile(route.name, head);
         case Endpoint::schema_list:
@@ -60,13 +80,13 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const 
         case Endpoint::schema:
             return schema(route.name, head);
         case Endpoint::floor_map:
-            return floor_map(head);
+            return site_.floor_map.empty() ? not_found("this engine has no floor map") : versioned_xml(site_.floor_map, head);
         case Endpoint::healthz:
             return health();
         case Endpoint::readyz:
             return readiness();
         case Endpoint::metrics:
-            return metrics();
+            return {.body = telemetry_.text(gateway_.statistics()), .content_type = "text/plain; version=0.0.4; charset=utf-8"};
         case Endpoint::rois:
         case Endpoint::stop:
         case Endpoint::clear:
@@ -80,15 +100,8 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const 
 HttpAnswer Documents::page(RequestHead const& head) const {
     auto html = plain_page(site_.page, head.host(), gateway_.components(), schemas_);
     auto answer = versioned("text/html; charset=utf-8", std::move(html), head);
-    answer.fields.set("Content-Security-Policy", style_policy_);
-    answer.fields.set("X-Content-Type-Options", "nosniff");
-    answer.fields.set("Referrer-Policy", "no-referrer");
+    secure(answer, style_policy_);
     return answer;
-}
-
-HttpAnswer Documents::engine_profile(RequestHead const& head) const {
-    auto const profile = gateway_.profile();
-    return versioned_xml(xml::encode(*profile, "engine." + profile->object.name), head);
 }
 
 HttpAnswer Documents::component_profile(std::string const& ref, RequestHead const& head) const {
@@ -102,11 +115,6 @@ HttpAnswer Documents::schema(std::string const& file, RequestHead const& head) c
     auto const found = schemas_.find(file);
     if (found == schemas_.end()) return not_found("unknown schema " + quoted(file) + "; /rois/schemas lists the schemas");
     return versioned_xml(std::string{found->second}, head);
-}
-
-HttpAnswer Documents::floor_map(RequestHead const& head) const {
-    if (site_.floor_map.empty()) return not_found("this engine has no floor map");
-    return versioned_xml(site_.floor_map, head);
 }
 
 // Does not use the engine, which may be locked.
@@ -124,10 +132,6 @@ HttpAnswer Documents::readiness() const {
     if (gateway_.everything_is_stopped()) trouble = "stopped: nothing starts until POST /rois/clear\n";
     for (auto const& ref : gateway_.not_ready()) trouble += ref + " has not confirmed that it stands still\n";
     return trouble.empty() ? plain(http::status::ok, "ready\n") : plain(http::status::service_unavailable, trouble);
-}
-
-HttpAnswer Documents::metrics() const {
-    return {.body = telemetry_.text(gateway_.statistics()), .content_type = "text/plain; version=0.0.4; charset=utf-8"};
 }
 
 }  // namespace rois::net

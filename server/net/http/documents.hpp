@@ -6,7 +6,7 @@
 
 #include "gateway/gateway.hpp"
 #include "gateway/process/telemetry.hpp"
-#include "net/http/web_files.hpp"
+#include "gateway/web_files.hpp"
 #include "xml/validation/schemas.hpp"
 
 namespace rois::net {
@@ -22,6 +22,9 @@ struct Site {
     std::string floor_map;  // an XML document (schemas/map.xsd); empty: the engine has no map
 };
 
+// A file of the console, compressed if the client accepts that. null: not found.
+HttpAnswer file_answer(WebFile const*, RequestHead const&);
+
 // Immutable; any thread. All arguments must outlive it.
 class Documents {
 public:
@@ -32,13 +35,10 @@ public:
 
 private:
     HttpAnswer page(RequestHead const&) const;
-    HttpAnswer engine_profile(RequestHead const&) const;
     HttpAnswer component_profile(std::string const& ref, RequestHead const&) const;
     HttpAnswer schema(std::string const& file, RequestHead const&) const;
-    HttpAnswer floor_map(RequestHead const&) const;
     HttpAnswer health() const;
     HttpAnswer readiness() const;
-    HttpAnswer metrics() const;
 
     Gateway const& gateway_;
     Telemetry const& telemetry_;

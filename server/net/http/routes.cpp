@@ -48,33 +48,20 @@ bool takes(Route const& route, std::string_view method) {
     return is_known_method(method) && methods_of(route.endpoint).find(method) != std::string_view::npos;
 }
 
-HttpAnswer misdirected(std::string_view authority) {
-    auto answer = answer_of({FaultCode::not_allowed,
-                             "this gateway is not known as " + quoted(authority) +
-                                 ": expected localhost, an IP address or the name of its machine; the key hosts adds other names",
-                             {},
-                             {}});
-    answer.status = http::status::misdirected_request;
-    return answer;
-}
-
-HttpAnswer foreign_origin(std::string_view origin) {
-    return answer_of({FaultCode::not_allowed,
-                      "pages of the origin " + quoted(origin) +
-                          " are not allowed here: expected a page of this gateway; the key allowed_origins adds other origins",
-                      {},
-                      {}});
-}
-
 // Returns 421 if a Host or the target's authority is not the gateway's own, and 403 if the Origin is not allowed. A request
 // without Host is HTTP/1.0, which browsers do not send.
 std::optional<HttpAnswer> refusal_of_other_sites(RequestHead const& head, Settings const& settings) {
-    if (auto const host = head.field("Host"); host && !is_own_host(*host, settings.hosts)) return misdirected(*host);
-    if (!head.target_authority.empty() && !is_own_host(head.target_authority, settings.hosts))
-        return misdirected(head.target_authority);
+    auto const host = head.field("Host");
+    auto foreign = host ? refusal_of_host(*host, settings.hosts) : std::nullopt;
+    if (!foreign && !head.target_authority.empty()) foreign = refusal_of_host(head.target_authority, settings.hosts);
+    if (foreign) {
+        auto answer = answer_of(*foreign);
+        answer.status = http::status::misdirected_request;
+        return answer;
+    }
     if (head.count("Origin") == 0) return {};
     auto const origin = head.field("Origin").value_or("");  // empty, which is never allowed, if there are two
-    if (!is_allowed_origin(origin, head.authority(), settings.allowed_origins)) return foreign_origin(origin);
+    if (auto const refused = refusal_of_origin(origin, head.authority(), settings.allowed_origins)) return answer_of(*refused);
     return {};
 }
 

@@ -44,7 +44,7 @@ private:
 
     bool take_frames();
     void take(Received const&);
-    void take(PendingAnswer);
+    void take(PendingAnswer&&);
     void take_answers();
     void answered(Answer&&);
     void add(Answer const&);

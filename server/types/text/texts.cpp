@@ -57,8 +57,8 @@ std::size_t whole_characters(std::string_view text, std::size_t longest) {
 }  // namespace
 
 // Compares the bytes first, because most equal texts are identical.
-bool equal_ignoring_case(std::string_view a, std::string_view b) {
-    return a.size() == b.size() && (a == b || std::ranges::equal(a, b, {}, lower, lower));
+bool equal_ignoring_case_of_same_size(std::string_view a, std::string_view b) {
+    return a == b || std::ranges::equal(a, b, {}, lower, lower);
 }
 
 std::string lower_case(std::string_view text) {

@@ -11,7 +11,10 @@
 namespace rois {
 
 // Ignore the case of ASCII letters only, as decisions 25 and 26 require for names, URNs and type codes.
-bool equal_ignoring_case(std::string_view, std::string_view);
+bool equal_ignoring_case_of_same_size(std::string_view, std::string_view);
+inline bool equal_ignoring_case(std::string_view a, std::string_view b) {
+    return a.size() == b.size() && equal_ignoring_case_of_same_size(a, b);
+}
 std::string lower_case(std::string_view);
 
 // Removes and returns the first character of a UTF-8 text, or one byte if it is not valid UTF-8. Returns nothing if the text is

@@ -1,9 +1,9 @@
 // How the files of a console are served.
-#include "net/http/web_files.hpp"
-
 #include <gtest/gtest.h>
 
 #include "net/answers.hpp"
+#include "net/http/documents.hpp"
+#include "net/http/http_answer.hpp"
 #include "net/http/http_head.hpp"
 
 namespace rois::net {
@@ -23,7 +23,7 @@ HttpAnswer get(std::string_view path, Fields const& fields = {}) {
     for (auto const& [name, value] : fields) request.append(name).append(": ").append(value).append("\r\n");
     RequestHead head;
     EXPECT_FALSE(read_head(request + "\r\n", Settings{}, head));
-    return small.answer(path, head);
+    return file_answer(small.find(path), head);
 }
 
 TEST(WebFile, HasItsType) {
