@@ -235,7 +235,8 @@ Engine::Core::Later Engine::Core::prepare(Session& session, SharedAsked const& a
     for (auto& each : *prepared) {
         if (!each.asks()) continue;
         auto& component = *each.component;
-        auto const ticket = questions_.add(round, place++, component, "the component did not answer whether a command is possible");
+        auto const ticket =
+            questions_.add(round, place++, component, "the component did not answer whether a command is possible");
         auto changed = component.in_own_frame(each.parameters);
         component.hosted().prepare(ticket, each.command_type, changed ? std::move(*changed) : each.parameters, now);
     }
@@ -248,7 +249,9 @@ Engine::Core::Later Engine::Core::perform(Session& session, SetParameter const& 
     SequenceCheck check{session, registry_};
     if (auto problem = check.objection(message))
         return refused<SetParameter::Reply>(problem->return_code, std::move(problem->reason));
-    auto then = [this, message = std::move(message)](Session& asker, std::vector<Preparation> prepared, Instant when) mutable {
+    auto then = [this, message = std::move(message), only_check = set.check_only](
+                    Session& asker, std::vector<Preparation> prepared, Instant when) mutable {
+        if (only_check) return Reply{SetParameter::Reply{}};
         message.command_id = executor_.fresh_id(asker, {});
         SetParameter::Reply reply;
         reply.command_id = message.command_id;
@@ -273,8 +276,10 @@ Engine::Core::Later Engine::Core::perform(Session& session, Execute const& execu
             if (asker.commands.contains(id))
                 return Reply{refused<Execute::Reply>(ReturnCode::bad_parameter,
                                                      "the command_id " + quoted(id.text) + " is in use in this session")};
+        auto const& operation = std::get<Execute>(asked->operation());
         Execute::Reply reply;
-        reply.command_unit_list = std::get<Execute>(asked->operation()).command_unit_list;
+        reply.command_unit_list = operation.command_unit_list;
+        if (operation.check_only) return Reply{std::move(reply)};
         IdFiller{executor_, asker, ids}.fill(reply.command_unit_list.command_unit_list);
         executor_.execute(asker, reply.command_unit_list, std::move(prepared), when);
         return Reply{std::move(reply)};

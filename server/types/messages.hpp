@@ -113,15 +113,17 @@ struct GetParameter {
 struct SetParameter {
     Identifier component_ref;
     ParameterList parameters;
+    bool check_only = false;  // nothing runs
     struct Reply : Outcome {
-        CommandId command_id;
+        CommandId command_id;  // empty after a check
     };
 };
 
 struct Execute {
     CommandUnitSequence command_unit_list;
+    bool check_only = false;  // nothing runs
     struct Reply : Outcome {
-        CommandUnitSequence command_unit_list;  // every command_id filled in
+        CommandUnitSequence command_unit_list;  // every command_id filled in; after a check, as it was sent
     };
 };
 

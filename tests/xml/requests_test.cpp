@@ -11,6 +11,8 @@ namespace {
 
 using testing::Each;
 using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::string_view reference =
     R"(<component_ref rois:authority="OMG" rois:code="navigation" rois:codebook_ref="cb" rois:version="1"/>)";
@@ -50,6 +52,18 @@ TEST(Request, SubscribeReadsInlineResults) {
     EXPECT_TRUE(inline_results(" inline_results=' 1\n'"));
     EXPECT_FALSE(inline_results(" inline_results='false'"));
     EXPECT_FALSE(inline_results(" inline_results='0'"));
+}
+
+TEST(Request, CommandsMayBeCheckedOnly) {
+    std::string const unit = "<rois:command_unit_list rois:delay_time='5'/>";
+    std::string const sequence = "<rois:CommandUnitSequence>" + unit + "</rois:CommandUnitSequence>",
+                      ref = "<component_ref rois:code='speech'/><parameters/>";
+    EXPECT_FALSE(operation<Execute>(document("execute", sequence)).check_only);
+    EXPECT_TRUE(operation<Execute>(document("execute", sequence, " check_only='true'")).check_only);
+    EXPECT_FALSE(operation<SetParameter>(document("set_parameter", ref)).check_only);
+    EXPECT_TRUE(operation<SetParameter>(document("set_parameter", ref, " check_only='1'")).check_only);
+    EXPECT_THAT(encode(Request{Execute{{}, true}, {}}), HasSubstr(" check_only=\"true\""));
+    EXPECT_THAT(encode(Request{Execute{}, {}}), Not(HasSubstr("check_only")));
 }
 
 TEST(Request, RequestIdIsKept) {

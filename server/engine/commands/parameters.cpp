@@ -47,12 +47,14 @@ std::size_t place_of(std::vector<ParameterProfile> const& profiles, std::string_
 template <class TypeAt>
 std::optional<std::string> problem_of(ParameterList const& list, std::vector<ParameterProfile> const& profiles,
                                       TypeAt const& type_at) {
+    std::vector<bool> seen(profiles.size());
     for (std::size_t i = 0; i < list.size(); ++i) {
         auto const& parameter = list[i];
         auto const place = place_of(profiles, parameter.name, i);
         if (place == profiles.size())
             return "unknown parameter " + quoted(parameter.name) + "; expected one of " + names_of(profiles);
-        if (find({list.data(), i}, parameter.name) != nullptr) return "parameter " + quoted(parameter.name) + " is given twice";
+        if (seen[place]) return "parameter " + quoted(parameter.name) + " is given twice";
+        seen[place] = true;
         if (auto problem = why_not(profiles[place], type_at(place), parameter)) return problem;
     }
     return {};

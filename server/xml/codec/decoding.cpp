@@ -44,10 +44,13 @@ Operation decode_resume(Node node) {
 }
 
 Operation decode_set_parameter(Node node) {
-    return SetParameter{component_ref(node), decode_parameters(node.child("parameters"))};
+    return SetParameter{component_ref(node), decode_parameters(node.child("parameters")),
+                        decode_boolean(node.attribute_text("check_only"))};
 }
 
-Operation decode_execute(Node node) { return Execute{decode_sequence(node.child("CommandUnitSequence"))}; }
+Operation decode_execute(Node node) {
+    return Execute{decode_sequence(node.child("CommandUnitSequence")), decode_boolean(node.attribute_text("check_only"))};
+}
 
 Operation decode_subscribe(Node node) {
     return Subscribe{node.child_text("event_type"), condition(node), decode_boolean(node.attribute_text("inline_results"))};

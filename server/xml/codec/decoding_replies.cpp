@@ -64,7 +64,7 @@ bool read(Node node, GetParameter::Reply& reply) {
 
 bool read(Node node, SetParameter::Reply& reply) {
     reply.command_id.text = node.child_text("command_id");
-    return !reply.command_id.text.empty();
+    return static_cast<bool>(node.child("command_id"));
 }
 
 bool read(Node node, Execute::Reply& reply) {

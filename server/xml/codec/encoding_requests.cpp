@@ -45,6 +45,11 @@ void write_attributes(Writer& out, Connect const& op) {
 void write_attributes(Writer& out, Resume const& op) {
     out.attribute("session", op.session.text).attribute("last_sequence", op.last_sequence);
 }
+template <class Op>
+requires requires(Op op) { op.check_only; }
+void write_attributes(Writer& out, Op const& op) {
+    if (op.check_only) out.attribute("check_only", "true");
+}
 void write_attributes(Writer& out, Subscribe const& op) {
     if (op.inline_results) out.attribute("inline_results", "true");
 }

@@ -1,17 +1,17 @@
 // Writes an XML document. Escapes all values, so that the document is well-formed.
 #pragma once
 
-#include <boost/container/small_vector.hpp>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace rois::xml {
 
 class Writer {
 public:
-    Writer() : text_(usual_length, '\0') {}
+    Writer() : text_(usual_length, '\0') { open_.reserve(usual_depth); }
 
     // Names must be string literals: they are not checked, and must outlive the element.
     Writer& start(std::string_view element);
@@ -42,7 +42,7 @@ private:
 
     std::string text_;  // a buffer, of which `length_` bytes are written
     std::size_t length_ = 0;
-    boost::container::small_vector<std::string_view, usual_depth> open_;
+    std::vector<std::string_view> open_;
     bool in_start_tag_ = false;
 };
 

@@ -37,6 +37,31 @@ TEST_F(Commands, AnActiveFunctionIsStartedAgainAfterAHalt) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed look OK", "2 completed again OK"));
 }
 
+TEST_F(Commands, MayBeCheckedOnly) {
+    desk.execute(go("go"));
+    auto const check = [&](auto... units) { return desk.ask(Execute{{std::vector<CommandUnit>{std::move(units)...}}, true}); };
+    auto const sequence = std::vector<CommandUnit>{stop("navigation"), say("")};
+    auto const reply = desk.ask(Execute{{sequence}, true});
+    EXPECT_EQ(reply.return_code, ReturnCode::ok);
+    EXPECT_EQ(std::get<CommandMessage>(reply.command_unit_list.command_unit_list.at(0).unit).command_id.text, "")
+        << "as it was sent";
+    EXPECT_EQ(check(command("dance", "navigation")).return_code, ReturnCode::bad_parameter);
+    EXPECT_THAT(check(go("go")).reason, HasSubstr("the command_id 'go' is in use in this session"));
+    EXPECT_EQ(check(start("navigation")).return_code, ReturnCode::ok);
+    auto const set = SetParameter{Application::identifier("navigation"), {}, true};
+    auto const checked = desk.ask(set);
+    EXPECT_EQ(checked.return_code, ReturnCode::ok);
+    EXPECT_EQ(checked.command_id.text, "");
+    auto wrong = set;
+    wrong.parameters = {value("speed of light", "int", {"1"})};
+    EXPECT_EQ(desk.ask(wrong).return_code, ReturnCode::bad_parameter);
+    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start"));
+    EXPECT_EQ(desk.result_of("go"), "RUNNING");
+    auto other = world.connect();
+    EXPECT_EQ(other.ask(set).return_code, ReturnCode::error) << "it is bound by another session";
+}
+
 TEST_F(Commands, SuspendAndResumeInAWrongStateFail) {
     desk.execute(named("idle", suspend("navigation")));
     desk.execute(named("idle too", resume("navigation")));
