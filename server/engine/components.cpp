@@ -105,6 +105,7 @@ void Engine::Core::leave(SharedComponent const& component, Instant now) {
         session->bound.erase(component.get());
         attempts([&] { journal_->released(session->number, component->ref().code); });
     }
+    for (auto* engine : engines_) engine->told.erase(component.get());
     attempts([&] { questions_.fail_all(*component, now); });
     attempts([&] { settle(now); });
     attempts([&] { component->depart(); });

@@ -86,6 +86,10 @@ private:
     Places places_of(BelongingsOf const&) const;
     void report_profile_change(Instant now);
 
+    // Sessions of other engines (engine_sessions.cpp)
+    void serve_engines(Instant now);
+    void tell_states(Session&, Instant now);
+
     // System interface (system_interface.cpp)
     void connect(Asked&, Connect const&, Instant now);
     Reply perform(Session&, Connect const&, Instant now);
@@ -228,6 +232,7 @@ private:
     bool everything_is_stopped_ = false;
     std::optional<Steady> stop_reported_;  // when the sessions last received the error of a stop of everything
     bool stop_unreported_ = false;         // a later stop has not been reported yet: a tick will report it
+    std::vector<Session*> engines_;        // sessions of other engines
     std::optional<Steady> profile_change_reported_;
     bool profile_change_unreported_ = false;
     std::uint64_t events_published_ = 0;

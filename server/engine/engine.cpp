@@ -49,6 +49,7 @@ void Engine::Core::handle(std::shared_ptr<Asked> const& asked, Instant now) {
     auto* session = resumed != nullptr ? find(resumed->session) : session_of(*asked);
     if (session == nullptr) return asked->refuse(Refusal::no_session);
     session->lease.request_received(now.steady);
+    session->last_heard = now.steady;
     auto const too_long = why_too_long(operation);
     auto reply = std::visit(
         [&]<class Known>(Known const& known) -> Later {
@@ -99,6 +100,7 @@ void Engine::Core::tick(Instant now) {
     attempts([&] { hold_unproven_motion(now); });
     attempts([&] { report_stop_of_everything(now); });
     attempts([&] { report_profile_change(now); });
+    attempts([&] { serve_engines(now); });
     if (memory_->full()) attempts([&] { save_memory(now); });
     turns_ = 0;
     attempts([&] { advance_devices(now); });
@@ -208,6 +210,7 @@ void Engine::Core::remove(Session& session, Instant now) {
     notifier_.close(session);
     journal_->session_ended(session.number, session.why_it_ends);
     free_slots_.push_back(session.events.slot);  // cannot throw: `connect` reserved the room
+    std::erase(engines_, &session);
     sessions_.erase(sessions_.find(session.id));
 }
 
@@ -287,7 +290,10 @@ void Engine::Core::heard_from(SessionId const& id, Instant now) {
 }
 
 void Engine::Core::heard_pong(SessionId const& id, Instant now) {
-    if (auto* session = find(id)) session->lease.pong_received(now.steady);
+    auto* session = find(id);
+    if (session == nullptr) return;
+    session->lease.pong_received(now.steady);
+    session->last_heard = now.steady;
 }
 
 void Engine::Core::link_opened(SessionId const& id, Link link, Instant now) {
@@ -320,7 +326,7 @@ Session* Engine::Core::longest_idle() const {
 
 // Each session has one deadline, however often its links open and close. Only the first call for a session allocates memory.
 void Engine::Core::await_end_of_window(Session& session, Steady not_before) {
-    auto const when = std::max(session.quiet_until + settings_.resume_window, not_before);
+    auto const when = std::max(session.quiet_until + session.window, not_before);
     if (session.end_of_window && deadlines_.postpone(*session.end_of_window, when)) return;
     session.end_of_window = deadlines_.add(when, [this, id = session.id](Instant then) { end_if_lost(id, then); });
 }
@@ -331,7 +337,7 @@ void Engine::Core::end_if_lost(SessionId const& id, Instant now) {
     auto* session = find(id);
     if (session == nullptr) return;
     bool const linked = session->lease.links() > 0;
-    if (!linked && session->quiet_until + settings_.resume_window <= now.steady)
+    if (!linked && session->quiet_until + session->window <= now.steady)
         return end(*session, "its link was lost and it was not resumed in time", now);
     constexpr std::chrono::minutes between_looks{1};
     await_end_of_window(*session, linked ? now.steady + between_looks : now.steady);

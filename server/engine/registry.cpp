@@ -224,6 +224,14 @@ void RegisteredComponent::accept(ComponentState state) {
     frames_.change_to_own(readable);
     state.parameters = std::move(readable.parameters);
     state_ = std::move(state);
+    ++reported_states_;
+}
+
+Results RegisteredComponent::reported() const {
+    Results results;
+    if (fits_) results.parameters = state_.parameters;
+    if (state_.location) results.located.push_back(*state_.location);
+    return results;
 }
 
 ParameterList const& RegisteredComponent::parameters_for(Session const* asker) const {

@@ -71,6 +71,10 @@ public:
     void accept(CommandEnded&);
     void accept(ComponentState);
 
+    // The location and the parameters that the component has reported, and how often it has reported its state.
+    Results reported() const;
+    std::uint64_t reported_states() const { return reported_states_; }
+
     // The status, as `asker` sees it (decision 7).
     ComponentStatus status_for(Session const* asker) const;
 
@@ -161,7 +165,8 @@ private:
     bool is_silent_ = false;
     std::set<ErrorType> reported_once_;  // errors that are not to be reported again
     ComponentState state_;               // with normalized parameters, in the engine's frame
-    bool fits_ = true;                   // the reported parameters fit the profile
+    std::uint64_t reported_states_ = 0;
+    bool fits_ = true;  // the reported parameters fit the profile
     Identifier ref_;
     std::size_t code_begin_ = 0;  // where its code within its engine begins
     ComponentEntry entry_;

@@ -16,6 +16,7 @@
 #include "engine/commands/motion_lease.hpp"
 #include "engine/notifications/details.hpp"
 #include "engine/notifications/notification_queue.hpp"
+#include "types/codes.hpp"
 #include "types/ids.hpp"
 #include "types/instant.hpp"
 
@@ -27,7 +28,7 @@ struct Subscription;
 // Owned by the engine. Plain data without functions.
 struct Session {
     Session(MotionLease::Terms const& terms, Steady now)
-        : connected{now}, lease{terms, now}, last_activity{now}, quiet_until{now} {}
+        : connected{now}, lease{terms, now}, last_activity{now}, quiet_until{now}, last_heard{now} {}
 
     std::shared_ptr<NotificationQueue> notifications;
     SessionId id;
@@ -49,6 +50,19 @@ struct Session {
     Steady last_activity;  // the last HTTP request, or the last end of a link
     Steady quiet_until;
     std::optional<Deadlines::Ticket> end_of_window;  // when to check whether the link is lost
+
+    // After this time without a link, the session ends.
+    std::chrono::milliseconds window{};
+
+    // The client is another engine (decision 39).
+    bool is_engine = false;
+    Steady last_heard;  // the last request or pong
+    struct Told {
+        Steady at;
+        ComponentStatus status = ComponentStatus::uninitialized;
+        std::uint64_t state = 0;  // RegisteredComponent::reported_states
+    };
+    std::map<RegisteredComponent const*, Told> told;  // what it was told last
 
     // The session is ending: requests do not find it. If ending it fails for lack of memory, the next tick continues.
     bool ending = false;

@@ -10,6 +10,13 @@ namespace {
 
 constexpr std::chrono::milliseconds shortest_lease{1'000};
 
+using Milliseconds = std::chrono::milliseconds;
+
+std::string must_be(std::string_view name, Milliseconds shortest, Milliseconds longest, Milliseconds not_this) {
+    return std::string{name} + " must be " + std::to_string(std::min(shortest, longest).count()) + " to " +
+           std::to_string(longest.count()) + " milliseconds, not " + std::to_string(not_this.count());
+}
+
 // Sets `terms` to the requested leases. Returns why a requested lease is invalid, or nullopt.
 std::optional<std::string> agree(MotionLease::Terms& terms, Connect const& asked, EngineSettings const& most) {
     auto const take = [](std::string_view name, std::optional<std::chrono::milliseconds> wanted,
@@ -17,8 +24,7 @@ std::optional<std::string> agree(MotionLease::Terms& terms, Connect const& asked
         if (!wanted) return {};
         lease = *wanted;
         if (lease >= std::min(shortest_lease, longest) && lease <= longest) return {};
-        return std::string{name} + " must be " + std::to_string(std::min(shortest_lease, longest).count()) + " to " +
-               std::to_string(longest.count()) + " milliseconds, not " + std::to_string(lease.count());
+        return must_be(name, shortest_lease, longest, lease);
     };
     if (auto problem = take("motion_lease", asked.motion_lease, most.motion_lease, terms.linked)) return problem;
     if (auto problem = take("motion_lease_http", asked.motion_lease_http, most.motion_lease_http, terms.http)) return problem;
@@ -34,8 +40,13 @@ void Engine::Core::connect(Asked& asked, Connect const& connection, Instant now)
         known != nullptr ? known->lease.terms() : MotionLease::Terms{settings_.motion_lease, settings_.motion_lease_http};
     if (auto problem = agree(terms, connection, settings_))
         return asked.answer(refused<Connect::Reply>(ReturnCode::bad_parameter, *problem));
+    auto const window = connection.window.value_or(settings_.resume_window);
+    if (window < std::min(shortest_lease, settings_.resume_window) || window > settings_.resume_window)
+        return asked.answer(refused<Connect::Reply>(ReturnCode::bad_parameter,
+                                                    must_be("window", shortest_lease, settings_.resume_window, window)));
     if (known != nullptr) {
         known->lease.agree(terms);
+        if (connection.window) known->window = window;
         known->lease.request_received(now.steady);
         return asked.answer(perform(*known, connection, now));
     }
@@ -53,6 +64,9 @@ void Engine::Core::connect(Asked& asked, Connect const& connection, Instant now)
     auto session = std::make_unique<Session>(terms, now.steady);
     session->id.text = fresh_secret_();
     session->number = ++last_session_;
+    session->window = window;
+    session->is_engine = connection.is_engine;
+    if (connection.is_engine) engines_.reserve(engines_.size() + 1);
     bool const new_slot = free_slots_.empty();
     auto const slot = new_slot ? static_cast<std::uint32_t>(sessions_.size()) : free_slots_.back();
     if (new_slot) free_slots_.reserve(slot + 1);  // the end of a session must not allocate
@@ -65,6 +79,7 @@ void Engine::Core::connect(Asked& asked, Connect const& connection, Instant now)
     place = std::move(session);
     auto& opened = *place;
     if (!new_slot) free_slots_.pop_back();
+    if (opened.is_engine) engines_.push_back(&opened);
     journal_->session_opened(opened.number);
     if (everything_is_stopped_) {
         auto error = noted(everything_was_stopped(), now);
@@ -74,9 +89,10 @@ void Engine::Core::connect(Asked& asked, Connect const& connection, Instant now)
     asked.answer(perform(opened, connection, now));
 }
 
-Reply Engine::Core::perform(Session& session, Connect const&, Instant) {
+Reply Engine::Core::perform(Session& session, Connect const& connection, Instant) {
     Connect::Reply reply;
     reply.session = session.id;
+    if (connection.window) reply.window = session.window;
     return reply;
 }
 
@@ -139,11 +155,14 @@ void Engine::Core::publish(FoundError const& report, Instant now, Attempts& deli
         concerned = subscriptions_.possible_subscribers(*component, ever);
         if (component->bound_to != nullptr) concerned.insert(component->bound_to);
     }
-    auto const notification = std::make_shared<OutgoingNotification const>(noted(report, now));
+    auto error = noted(report, now);
+    auto const notification = std::make_shared<OutgoingNotification const>(error);
+    error.text = report.text;
+    auto const for_engines = std::make_shared<OutgoingNotification const>(std::move(error));
     auto const notify = [&](Session& session) {
         deliveries([&] {
             errors_.add_receiver(session.errors.slot);
-            notifier_.notify(session, notification);
+            notifier_.notify(session, session.is_engine ? for_engines : notification);
         });
     };
     if (component == nullptr)

@@ -37,8 +37,12 @@ struct Connect {
     std::optional<std::chrono::milliseconds> motion_lease;
     std::optional<std::chrono::milliseconds> motion_lease_http;
     std::optional<MotionProof> motion_proof;
+    bool is_engine = false;  // the client is another engine, which is told more (decision 39)
+    // After this time without a link, the session ends.
+    std::optional<std::chrono::milliseconds> window{};
     struct Reply : Outcome {
         SessionId session;
+        std::optional<std::chrono::milliseconds> window{};  // if one was requested
     };
 };
 
@@ -203,11 +207,23 @@ struct ReceiveError {
     ErrorId error_id;
     ErrorType error_type = ErrorType::engine_internal_error;
     std::optional<Identifier> component_ref;
+    std::optional<std::string> text{};  // for people; only for engines
 };
 
 struct Completed {
     CommandId command_id;
     CompletedStatus status = CompletedStatus::ok;
+    // Only for engines. `reason`: why the status is not OK. `active`: a function of the component is active from now on.
+    std::shared_ptr<Results const> results{};
+    std::string reason{};
+    std::optional<bool> active{};
+};
+
+// The state of a component; only for engines. `results`: its location, and the parameters that only it sets.
+struct ComponentChanged {
+    Identifier component_ref;
+    ComponentStatus status = ComponentStatus::uninitialized;
+    Results results;
 };
 
 // `count` notifications were dropped. This notification has the sequence of the last one.
@@ -217,7 +233,7 @@ struct Lost {
 
 struct ProfileChanged {};
 
-using Notification = std::variant<ReceiveEvent, ReceiveError, Completed, Lost, ProfileChanged>;
+using Notification = std::variant<ReceiveEvent, ReceiveError, Completed, Lost, ProfileChanged, ComponentChanged>;
 
 // --- Stop for everything: the answer to /rois/stop and /rois/clear (docs/safety.md, decision 34) ---
 

@@ -362,12 +362,24 @@ void Executor::end(SharedCommand const& command, CompletedStatus status, std::st
     });
 }
 
+namespace {
+
+Completed notice_of(Command const& command) {
+    Completed notice{command.id, command.status};
+    if (!command.session->is_engine) return notice;
+    notice.results = std::make_shared<Results const>(command.results);
+    notice.reason = command.reason;
+    notice.active = command.component->activity == RegisteredComponent::Activity::active;
+    return notice;
+}
+
+}  // namespace
+
 // Notifies the session, keeps the results, and continues the sequence.
 void Executor::finish(SharedCommand const& command, Instant now) {
     if (!command->reported) {
         journal_->command_ended(*command);
-        if (command->session != nullptr)
-            notifier_.notify(*command->session, Completed{command->id, command->status}, command->hold);
+        if (command->session != nullptr) notifier_.notify(*command->session, notice_of(*command), command->hold);
         command->reported = true;
     }
     ParameterList{}.swap(command->arguments);  // from now on, only its results are needed

@@ -36,6 +36,8 @@ Operation decode_connect(Node node) {
                     .motion_proof = {}};
     if (auto const proof = node.attribute("motion_proof"))
         connect.motion_proof = *proof == "request" ? MotionProof::request : MotionProof::pong;
+    connect.is_engine = node.attribute_text("role") == "engine";
+    connect.window = decode_lease(node.attribute("window"));
     return connect;
 }
 

@@ -42,6 +42,7 @@ bool read(Node node, R& reply) {
 
 bool read(Node node, Connect::Reply& reply) {
     reply.session.text = node.child_text("session");
+    if (auto const window = node.attribute("window")) reply.window = std::chrono::milliseconds{decode_unsigned(*window)};
     return !reply.session.text.empty();
 }
 
@@ -121,6 +122,7 @@ std::optional<Notification> read_error(Node root) {
     auto const type = to_code<ErrorType>(root.child("error_type").text());
     if (!type) return std::nullopt;
     ReceiveError error{{root.child_text("error_id")}, *type, {}};
+    if (auto const text = root.child("text")) error.text = std::string{text.text()};
     if (auto const ref = root.child("component_ref")) error.component_ref = decode_identifier(ref);
     return error;
 }
@@ -128,7 +130,17 @@ std::optional<Notification> read_error(Node root) {
 std::optional<Notification> read_completed(Node root) {
     auto const status = to_code<CompletedStatus>(root.child("status").text());
     if (!status) return std::nullopt;
-    return Completed{{root.child_text("command_id")}, *status};
+    Completed completed{{root.child_text("command_id")}, *status};
+    if (auto const results = root.child("results")) completed.results = std::make_shared<Results const>(decode_results(results));
+    completed.reason = root.child_text("reason");
+    if (auto const active = root.attribute("active")) completed.active = decode_boolean(*active);
+    return completed;
+}
+
+std::optional<Notification> read_change(Node root) {
+    auto const status = to_code<ComponentStatus>(root.child("status").text());
+    if (!status) return std::nullopt;
+    return ComponentChanged{decode_identifier(root.child("component_ref")), *status, decode_results(root.child("results"))};
 }
 
 std::optional<Notification> read_notification(Node root) {
@@ -136,6 +148,7 @@ std::optional<Notification> read_notification(Node root) {
     if (name == "receive_event") return read_event(root);
     if (name == "receive_error") return read_error(root);
     if (name == "completed") return read_completed(root);
+    if (name == "component_changed") return read_change(root);
     if (name == "lost") return Lost{decode_unsigned(root.attribute("count").value_or(""))};
     if (name == "profile_changed") return ProfileChanged{};
     return std::nullopt;

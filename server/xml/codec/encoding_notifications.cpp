@@ -10,6 +10,7 @@ namespace {
 constexpr std::string_view head_of(ReceiveEvent const&) { return R"(<receive_event sequence=")"; }
 constexpr std::string_view head_of(ReceiveError const&) { return R"(<receive_error sequence=")"; }
 constexpr std::string_view head_of(Completed const&) { return R"(<completed sequence=")"; }
+constexpr std::string_view head_of(ComponentChanged const&) { return R"(<component_changed sequence=")"; }
 constexpr std::string_view head_of(Lost const&) { return R"(<lost sequence=")"; }
 constexpr std::string_view head_of(ProfileChanged const&) { return R"(<profile_changed sequence=")"; }
 
@@ -25,10 +26,22 @@ void write(Writer& out, ReceiveError const& error) {
     if (error.component_ref) declare_rois(out);
     out.element("error_id", error.error_id.text).element("error_type", to_text(error.error_type));
     if (error.component_ref) write_identifier(out, "component_ref", *error.component_ref);
+    if (error.text) out.element("text", *error.text);
 }
 
 void write(Writer& out, Completed const& completed) {
+    if (completed.results) declare_rois(out);
+    if (completed.active) out.attribute("active", *completed.active ? "true" : "false");
     out.element("command_id", completed.command_id.text).element("status", to_text(completed.status));
+    if (completed.results) write_results(out, *completed.results);
+    if (!completed.reason.empty()) out.element("reason", completed.reason);
+}
+
+void write(Writer& out, ComponentChanged const& changed) {
+    declare_rois(out);
+    write_identifier(out, "component_ref", changed.component_ref);
+    out.element("status", to_text(changed.status));
+    write_results(out, changed.results);
 }
 
 void write(Writer& out, Lost const& lost) { out.attribute("count", lost.count); }

@@ -74,6 +74,11 @@ void write(Writer& out, Query::Reply const& reply) {
 
 void write(Writer& out, Subscribe::Reply const& reply) { out.element("subscribe_id", reply.subscribe_id.text); }
 
+void write_attributes(Writer&, auto const&) {}
+void write_attributes(Writer& out, Connect::Reply const& reply) {
+    if (reply.window) out.attribute("window", static_cast<std::uint64_t>(reply.window->count()));
+}
+
 template <class R>
 void write_answer(Writer& out, R const& reply, std::string_view request_id) {
     bool const good = reply.return_code == ReturnCode::ok;
@@ -82,6 +87,7 @@ void write_answer(Writer& out, R const& reply, std::string_view request_id) {
     if (good && std::is_same_v<R, Execute::Reply>) declare_xsi(out);
     out.constant("return_code", to_text(reply.return_code)).attribute_unless_empty("request_id", request_id);
     if (good) {
+        write_attributes(out, reply);
         write(out, reply);
     } else {
         out.element("reason", reply.reason);

@@ -40,6 +40,8 @@ void write_attributes(Writer&, auto const&) {}
 void write_attributes(Writer& out, Connect const& op) {
     if (op.motion_lease) out.attribute("motion_lease", static_cast<std::uint64_t>(op.motion_lease->count()));
     if (op.motion_lease_http) out.attribute("motion_lease_http", static_cast<std::uint64_t>(op.motion_lease_http->count()));
+    if (op.is_engine) out.attribute("role", "engine");
+    if (op.window) out.attribute("window", static_cast<std::uint64_t>(op.window->count()));
     if (op.motion_proof) out.attribute("motion_proof", *op.motion_proof == MotionProof::request ? "request" : "pong");
 }
 void write_attributes(Writer& out, Resume const& op) {
