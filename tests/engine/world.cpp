@@ -19,6 +19,9 @@ struct InWords {
     }
     std::string operator()(Lost const& lost) const { return "lost " + std::to_string(lost.count); }
     std::string operator()(ProfileChanged const&) const { return "profile_changed"; }
+    std::string operator()(ComponentChanged const& changed) const {
+        return "component_changed " + changed.component_ref.code + " " + std::string{to_text(changed.status)};
+    }
 };
 
 }  // namespace
@@ -123,14 +126,14 @@ void World::change(std::vector<std::string> going, std::vector<Part> const& comi
     components_.merge(added);
 }
 
-Application World::connect() {
-    auto application = connect_without_link();
+Application World::connect(Connect const& connection) {
+    auto application = connect_without_link(connection);
     engine->link_opened(application.session, Link::websocket, now);
     return application;
 }
 
-Application World::connect_without_link() {
-    auto const said = say({}, Connect{});
+Application World::connect_without_link(Connect const& connection) {
+    auto const said = say({}, connection);
     return {*this, std::get<Connect::Reply>(std::get<Reply>(said)).session};
 }
 

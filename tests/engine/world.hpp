@@ -99,8 +99,8 @@ public:
     World(std::vector<Part> const& parts, EngineSettings settings);
 
     // An application with an open WebSocket, or one that has only sent `connect`.
-    Application connect();
-    Application connect_without_link();
+    Application connect(Connect const& = {});
+    Application connect_without_link(Connect const& = {});
 
     // Access to a component, and functions that advance time in the steps of the gateway's clock.
     ScriptedComponent& operator[](std::string_view ref) { return *components_.at(std::string{ref}); }

@@ -244,6 +244,11 @@ std::vector<Notification> notifications() {
             ReceiveError{ErrorId{"x"}, ErrorType::component_not_responding, component},
             ReceiveError{ErrorId{strange}, {}, {}},
             Completed{CommandId{strange}, CompletedStatus::abort},
+            ReceiveError{ErrorId{"x"}, ErrorType::component_not_responding, component, strange},
+            Completed{CommandId{"c"}, CompletedStatus::error, std::make_shared<Results const>(results()), strange, false},
+            Completed{CommandId{"c"}, CompletedStatus::ok, std::make_shared<Results const>(), {}, true},
+            ComponentChanged{component, ComponentStatus::warning, results()},
+            ComponentChanged{component, ComponentStatus::busy, {}},
             Lost{12},
             ProfileChanged{}};
 }

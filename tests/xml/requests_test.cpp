@@ -54,6 +54,16 @@ TEST(Request, SubscribeReadsInlineResults) {
     EXPECT_FALSE(inline_results(" inline_results='0'"));
 }
 
+TEST(Request, AnEngineConnectsWithItsRole) {
+    auto const application = operation<Connect>(document("connect", {}, " role='application'"));
+    EXPECT_FALSE(application.is_engine);
+    EXPECT_FALSE(application.window);
+    auto const engine = operation<Connect>(document("connect", {}, " role='engine' window='3000'"));
+    EXPECT_TRUE(engine.is_engine);
+    EXPECT_EQ(engine.window, std::chrono::seconds{3});
+    EXPECT_THAT(encode(Request{engine, {}}), HasSubstr(" role=\"engine\" window=\"3000\""));
+}
+
 TEST(Request, CommandsMayBeCheckedOnly) {
     std::string const unit = "<rois:command_unit_list rois:delay_time='5'/>";
     std::string const sequence = "<rois:CommandUnitSequence>" + unit + "</rois:CommandUnitSequence>",

@@ -127,6 +127,10 @@ struct NotificationText {
         return painted("lost", Colour::bad, coloured) + "  " + std::to_string(lost.count) + " notifications";
     }
     std::string operator()(ProfileChanged const&) const { return painted("profile_changed", Colour::name, coloured); }
+    std::string operator()(ComponentChanged const& changed) const {
+        return headline("component_changed", changed.component_ref.code, Colour::name, coloured) + "  " +
+               std::string{to_text(changed.status)};
+    }
 };
 
 void add_declared(std::string& text, std::vector<ParameterProfile> const& parameters, std::string_view indent, bool coloured) {

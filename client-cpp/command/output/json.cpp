@@ -179,6 +179,12 @@ struct NotificationFields {
         object["count"] = lost.count;
     }
     void operator()(ProfileChanged const&) const { object["notification"] = "profile_changed"; }
+    void operator()(ComponentChanged const& changed) const {
+        object["notification"] = "component_changed";
+        object["component_ref"] = changed.component_ref.code;
+        object["status"] = to_text(changed.status);
+        add_results(object, changed.results);
+    }
 };
 
 }  // namespace

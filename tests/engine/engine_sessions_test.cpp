@@ -1,0 +1,146 @@
+// Decision 39: sessions of other engines are told more, and end when the other engine counts them as lost.
+#include "engine/world.hpp"
+
+namespace rois {
+
+namespace {
+
+Connect const as_engine{.motion_lease = {}, .motion_lease_http = {}, .motion_proof = {}, .is_engine = true, .window = 3000ms};
+
+struct AnEngine : testing::Test {
+    World world{navigation, speech};
+    Application engine = world.connect(as_engine);
+};
+
+}  // namespace
+
+TEST_F(AnEngine, IsToldTheStateOfEachComponent) {
+    world.advance(50ms);
+    EXPECT_THAT(engine.heard(), ElementsAre("1 component_changed navigation READY", "2 component_changed speech READY"));
+    auto application = world.connect();
+    application.bind("speech");
+    engine.bind("navigation");
+    world.advance(300ms);
+    EXPECT_THAT(engine.heard(), ElementsAre("3 component_changed speech BUSY")) << "its own binding changes nothing";
+    world["speech"].status_now = ComponentStatus::error;
+    application.release("speech");
+    world.advance(300ms);
+    EXPECT_THAT(engine.heard(), ElementsAre("4 component_changed speech ERROR"));
+    EXPECT_THAT(application.heard(), IsEmpty()) << "of an application";
+}
+
+TEST_F(AnEngine, IsToldLocationsAndParameters) {
+    world["navigation"].where = Located{.of = "robot", .ref = "robot1", .crs = "", .position = {1, 2}, .orientation = {}};
+    world["navigation"].reads = ParameterList{texts("landmarks", {"desk"})};
+    world.advance(300ms);
+    engine.heard();
+    world["navigation"].reads = ParameterList{texts("landmarks", {"door"})};
+    world["navigation"].where->position = {3, 4};
+    engine.bind("speech");  // the engine looks
+    world.advance(300ms);
+    EXPECT_THAT(engine.heard(), ElementsAre(HasSubstr("component_changed navigation READY")));
+    auto const changed = engine.last_heard<ComponentChanged>();
+    ASSERT_EQ(changed.results.located.size(), 1u);
+    EXPECT_THAT(changed.results.located.front().position, ElementsAre(3, 4));
+}
+
+TEST_F(AnEngine, IsToldOfChangesAtMostFiveTimesASecond) {
+    world.advance(1s);
+    engine.heard();
+    for (int i = 0; i < 100; ++i) {
+        world["speech"].status_now = i % 2 == 0 ? ComponentStatus::warning : ComponentStatus::ready;
+        engine.ask(GetProfile{});
+        world.advance(50ms);
+    }
+    auto const told = engine.heard();
+    EXPECT_LE(told.size(), 25u);
+    EXPECT_GE(told.size(), 20u);
+    world.advance(200ms);
+    engine.heard();
+    EXPECT_EQ(engine.last_heard<ComponentChanged>().status, ComponentStatus::ready) << "the last state is not lost";
+}
+
+TEST_F(AnEngine, IsToldOfComponentsThatCome) {
+    world.advance(50ms);
+    engine.heard();
+    world.change({"speech"}, {detection});
+    world.advance(50ms);
+    EXPECT_THAT(engine.heard(), ElementsAre("3 profile_changed", "4 component_changed detection READY"));
+    world.change({"detection"}, {speech});
+    world.advance(1s);
+    EXPECT_THAT(engine.heard(), testing::Contains(HasSubstr("component_changed speech READY")))
+        << "another component of this name";
+}
+
+TEST_F(AnEngine, GetsTheResultsOfItsCommands) {
+    for (auto* each : {"navigation", "speech"}) engine.bind(each);
+    engine.execute(named("dock", command("dock", "navigation")));
+    world["navigation"].finishes(CompletedStatus::ok, {.parameters = {value("charge", "int", {"80"})}, .located = {}},
+                                 Afterwards::active);
+    auto const docked = engine.notifications().read(0, 1'000).back().notification;
+    auto const& completed = std::get<Completed>(docked->body);
+    EXPECT_EQ(in_words(completed.results->parameters), "charge=80");
+    EXPECT_EQ(completed.active, true);
+    EXPECT_EQ(completed.reason, "");
+    engine.execute(named("stop", stop("navigation")), named("resume", resume("navigation")));
+    auto const resumed = engine.notifications().read(0, 1'000).back().notification;
+    auto const& failed = std::get<Completed>(resumed->body);
+    EXPECT_EQ(failed.status, CompletedStatus::error);
+    EXPECT_EQ(failed.reason, engine.reason_of("resume"));
+    EXPECT_EQ(failed.active, false);
+}
+
+TEST_F(AnEngine, GetsTheTextOfErrors) {
+    auto application = world.connect();
+    engine.bind("navigation");
+    world["navigation"].reports(ErrorType::user_defined_error, "the bumper was touched");
+    engine.heard();
+    EXPECT_EQ(engine.last_heard<ReceiveError>().text, "the bumper was touched");
+    engine.release("navigation");
+    application.bind("navigation");
+    world["navigation"].reports(ErrorType::user_defined_error, "again");
+    application.heard();
+    EXPECT_EQ(application.last_heard<ReceiveError>().text, std::nullopt) << "of an application";
+}
+
+TEST_F(AnEngine, LosesItsSessionWhenItIsSilentThoughItsLinkIsOpen) {
+    engine.bind("navigation");
+    engine.execute(go("go"));
+    world.advance(4900ms);
+    engine.notifications();
+    world.engine->heard_pong(engine.session, world.now);
+    world.advance(4900ms);
+    EXPECT_EQ(engine.refusal_of(GetProfile{}), std::nullopt);
+    world.advance(5100ms);
+    EXPECT_EQ(engine.refusal_of(GetProfile{}), Refusal::no_session) << "2 s of silence, and the window";
+    EXPECT_TRUE(engine.notifications().wants_signs_of_life(world.now));
+}
+
+TEST(Window, IsTheTimeAfterWhichASessionWithoutALinkEnds) {
+    World world{navigation};
+    auto desk =
+        world.connect({.motion_lease = {}, .motion_lease_http = {}, .motion_proof = {}, .is_engine = false, .window = 3000ms});
+    world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
+    world.advance(2900ms);
+    world.engine->link_opened(desk.session, Link::websocket, world.now);
+    world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
+    world.advance(2900ms);
+    EXPECT_FALSE(desk.told_of_the_end());
+    world.advance(200ms);
+    EXPECT_TRUE(desk.told_of_the_end());
+}
+
+TEST(Window, IsAgreedWithinLimits) {
+    World world{navigation};
+    auto const asked = [&](std::chrono::milliseconds window) {
+        Connect connection;
+        connection.window = window;
+        return std::get<Connect::Reply>(std::get<Reply>(world.say({}, connection)));
+    };
+    EXPECT_EQ(asked(3000ms).window, 3000ms);
+    EXPECT_EQ(std::get<Connect::Reply>(std::get<Reply>(world.say({}, Connect{}))).window, std::nullopt) << "it was not asked for";
+    EXPECT_EQ(asked(999ms).reason, "window must be 1000 to 30000 milliseconds, not 999");
+    EXPECT_EQ(asked(30'001ms).return_code, ReturnCode::bad_parameter);
+}
+
+}  // namespace rois
