@@ -30,18 +30,21 @@ TEST_F(AnEngine, IsToldTheStateOfEachComponent) {
 }
 
 TEST_F(AnEngine, IsToldLocationsAndParameters) {
-    world["navigation"].where = Located{.of = "robot", .ref = "robot1", .crs = "", .position = {1, 2}, .orientation = {}};
+    world["navigation"].where = Located{};
+    world["navigation"].where->of = "robot";
+    world["navigation"].where->ref = "robot1";
+    world["navigation"].where->position = {1, 2, 0};
     world["navigation"].reads = ParameterList{texts("landmarks", {"desk"})};
     world.advance(300ms);
     engine.heard();
     world["navigation"].reads = ParameterList{texts("landmarks", {"door"})};
-    world["navigation"].where->position = {3, 4};
+    world["navigation"].where->position = {3, 4, 0};
     engine.bind("speech");  // the engine looks
     world.advance(300ms);
     EXPECT_THAT(engine.heard(), ElementsAre(HasSubstr("component_changed navigation READY")));
     auto const changed = engine.last_heard<ComponentChanged>();
     ASSERT_EQ(changed.results.located.size(), 1u);
-    EXPECT_THAT(changed.results.located.front().position, ElementsAre(3, 4));
+    EXPECT_THAT(changed.results.located.front().position, ElementsAre(3, 4, 0));
 }
 
 TEST_F(AnEngine, IsToldOfChangesAtMostFiveTimesASecond) {
@@ -107,13 +110,12 @@ TEST_F(AnEngine, LosesItsSessionWhenItIsSilentThoughItsLinkIsOpen) {
     engine.bind("navigation");
     engine.execute(go("go"));
     world.advance(4900ms);
-    engine.notifications();
     world.engine->heard_pong(engine.session, world.now);
     world.advance(4900ms);
     EXPECT_EQ(engine.refusal_of(GetProfile{}), std::nullopt);
     world.advance(5100ms);
     EXPECT_EQ(engine.refusal_of(GetProfile{}), Refusal::no_session) << "2 s of silence, and the window";
-    EXPECT_TRUE(engine.notifications().wants_signs_of_life(world.now));
+    EXPECT_TRUE(engine.notifications().wants_signs_of_life(world.now.steady));
 }
 
 TEST(Window, IsTheTimeAfterWhichASessionWithoutALinkEnds) {
