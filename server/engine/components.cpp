@@ -12,6 +12,29 @@ namespace rois {
 
 namespace {
 
+// The frame of a sub engine's positions, and what tells it apart from all other engines (decision 40).
+std::vector<ParameterProfile> parameters_of_sub_engine(EngineProfile const& main, std::string const& name) {
+    std::vector<ParameterProfile> parameters;
+    for (auto const& parameter : main.parameters) {
+        if (parameter.name != "crs" && parameter.name != "instance") continue;
+        auto& own = parameters.emplace_back(parameter);
+        if (own.name == "instance" && own.default_value) *own.default_value += "." + name;
+    }
+    return parameters;
+}
+
+// Positions without a frame are in the engine's: the profile says so.
+void name_frame(ComponentProfile& profile, std::vector<std::string> const& positions, std::string const& crs) {
+    auto const name_in = [&](std::vector<ParameterProfile>& list) {
+        for (auto& parameter : list) {
+            auto& frame = parameter.data_type_ref.codebook_ref;
+            if (frame.empty() && std::ranges::find(positions, parameter.name) != positions.end()) frame = crs;
+        }
+    };
+    name_in(profile.parameters);
+    for (auto& message : profile.messages) name_in(message.arguments);
+}
+
 // Returns the sub profile of a sub engine, such as "hall.robot1": the sub profile "hall.robot1" of the sub profile "hall". Adds
 // the ones that are missing.
 EngineProfile& profile_of(EngineProfile& main, std::string const& sub_engine) {
@@ -31,6 +54,7 @@ EngineProfile& profile_of(EngineProfile& main, std::string const& sub_engine) {
                                 .meta_data = {}};
         owner = &owner->sub_profiles.emplace_back();
         owner->object = std::move(object);
+        owner->parameters = parameters_of_sub_engine(main, name);
     }
     return *owner;
 }
@@ -57,6 +81,7 @@ Engine::Core::SharedComponent Engine::Core::made(std::unique_ptr<Component> comp
     if (trimmed(description.ref.code) != description.ref.code)
         throw std::runtime_error("the ref " + quoted(description.ref.code) + " begins or ends with white space");
     auto whole = flattened(*description.profile, known);
+    name_frame(whole, description.positions, places_.frames.own());
     auto engine = description.engine.empty() ? profile_.object.name : description.engine;
     auto const runs = description.returns_at_once ? Provider::Runs::on_callers_thread : Provider::Runs::on_own_thread;
     auto hosted = std::make_shared<HostedComponent>(std::move(component), provider(description.provider, runs));

@@ -173,6 +173,7 @@ EngineProfile engine_profile(Settings const& settings, simulation::FloorPlan con
     profile.parameters = {
         engine_parameter("sim_speed", "double", shown("sim_speed", settings),
                          "Simulated seconds per second; 0: simulated time stands still."),
+        engine_parameter("instance", "string", fresh_secret(), "Distinguishes this start of the engine from all others."),
         engine_parameter("crs", "string", plan.crs, "The frame of the positions that the engine reports. It may accept others.")};
     return profile;
 }

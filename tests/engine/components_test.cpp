@@ -254,6 +254,31 @@ TEST_F(ComingAndGoing, IsReportedOnceASecond) {
     EXPECT_THAT(desk.heard(), IsEmpty());
 }
 
+TEST_F(ComingAndGoing, OfASubEngineGivesItFrameAndInstance) {
+    world.change({}, {in_engine("hall.robot1", navigation)});
+    auto const values_of = [](EngineProfile const& engine) {
+        std::vector<std::string> values;
+        for (auto const& parameter : engine.parameters)
+            values.push_back(parameter.name + "=" + parameter.default_value.value_or(""));
+        return values;
+    };
+    auto const& hall = world.engine->profile()->sub_profiles.back();
+    EXPECT_THAT(values_of(hall), ElementsAre("crs=crs1", "instance=instance1.hall"));
+    EXPECT_THAT(values_of(hall.sub_profiles.front()), ElementsAre("crs=crs1", "instance=instance1.hall.robot1"));
+}
+
+TEST_F(ComingAndGoing, HasTheEnginesFrameInTheProfileOfItsPositions) {
+    world.engine->describe({.frames = {"hall"}, .all = {}});
+    world.change({"navigation"}, {navigation});
+    auto const frame_of = [&](std::string_view name) {
+        for (auto const& entry : world.engine->components())
+            for (auto const& parameter : entry.profile->parameters)
+                if (entry.ref == "navigation" && parameter.name == name) return parameter.data_type_ref.codebook_ref;
+        return std::string{"there is none"};
+    };
+    EXPECT_EQ(frame_of("target_position"), "hall");
+}
+
 TEST_F(ComingAndGoing, OfANestedSubEngineIsInItsSubProfile) {
     auto const named_engines = [&] {
         std::vector<std::string> names;

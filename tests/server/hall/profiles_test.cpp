@@ -301,9 +301,12 @@ TEST(EngineParameters, AreInItsProfile) {
     auto const document = client.get("/rois/profile").body;
     EXPECT_THAT(document, HasSubstr("<rois:ParameterProfile rois:name=\"sim_speed\" rois:default_value=\"2.5\""));
     EXPECT_THAT(document, HasSubstr("rois:name=\"crs\" rois:default_value=\"urn:x-rois:def:crs:simulation::hall\""));
+    EXPECT_THAT(document, HasSubstr("rois:name=\"instance\""));
     Application desk{Way::http, gateway};
     desk.connect();
     EXPECT_THAT(desk.ask("get_profile").whole(), HasSubstr("rois:name=\"sim_speed\""));
+    EXPECT_THAT(client.get("/rois/profile/navigation").body,
+                HasSubstr("rois:codebook_ref=\"urn:x-rois:def:crs:simulation::hall\""));
 }
 
 }  // namespace
