@@ -23,18 +23,6 @@ std::vector<ParameterProfile> parameters_of_sub_engine(EngineProfile const& main
     return parameters;
 }
 
-// Positions without a frame are in the engine's: the profile says so.
-void name_frame(ComponentProfile& profile, std::vector<std::string> const& positions, std::string const& crs) {
-    auto const name_in = [&](std::vector<ParameterProfile>& list) {
-        for (auto& parameter : list) {
-            auto& frame = parameter.data_type_ref.codebook_ref;
-            if (frame.empty() && std::ranges::find(positions, parameter.name) != positions.end()) frame = crs;
-        }
-    };
-    name_in(profile.parameters);
-    for (auto& message : profile.messages) name_in(message.arguments);
-}
-
 // Returns the sub profile of a sub engine, such as "hall.robot1": the sub profile "hall.robot1" of the sub profile "hall". Adds
 // the ones that are missing.
 EngineProfile& profile_of(EngineProfile& main, std::string const& sub_engine) {
@@ -81,7 +69,6 @@ Engine::Core::SharedComponent Engine::Core::made(std::unique_ptr<Component> comp
     if (trimmed(description.ref.code) != description.ref.code)
         throw std::runtime_error("the ref " + quoted(description.ref.code) + " begins or ends with white space");
     auto whole = flattened(*description.profile, known);
-    name_frame(whole, description.positions, places_.frames.own());
     auto engine = description.engine.empty() ? profile_.object.name : description.engine;
     auto const runs = description.returns_at_once ? Provider::Runs::on_callers_thread : Provider::Runs::on_own_thread;
     auto hosted = std::make_shared<HostedComponent>(std::move(component), provider(description.provider, runs));

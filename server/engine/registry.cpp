@@ -94,6 +94,14 @@ bool is_among(std::vector<std::string> const& known, std::string_view name) {
     return std::ranges::any_of(known, [&](std::string const& each) { return equal_ignoring_case(each, name); });
 }
 
+// Positions without a frame are in the engine's: the profile says so (decision 40).
+void declare_frame(std::vector<ParameterProfile>& profiles, std::vector<std::string> const& positions, std::string const& frame) {
+    for (auto& profile : profiles) {
+        auto& declared = profile.data_type_ref.codebook_ref;
+        if (declared.empty() && is_among(positions, profile.name)) declared = frame;
+    }
+}
+
 // The published examples' component_ref has this codebook for every component: "urn:...:ComponentType" (Annex B.2).
 bool is_codebook_of_all_components(std::string_view codebook) {
     return equal_ignoring_case(codebook.substr(codebook.rfind(':') + 1), "ComponentType");
@@ -120,6 +128,8 @@ RegisteredComponent::RegisteredComponent(ComponentDescription const& description
       status_when_stopped_{description.status_when_stopped},
       confirms_binding_{description.confirms_binding} {
     declare_codebooks(profile, codebooks_);
+    declare_frame(profile.parameters, positions_, frames_.own());
+    for (auto& message : profile.messages) declare_frame(message.arguments, positions_, frames_.own());
     settable_ = settable_of(profile);
     add_parameter_messages(profile, settable_);
     start_arguments_ = start_arguments_of(profile, settable_);
@@ -272,9 +282,7 @@ bool RegisteredComponent::to_engine_frame(Results& results, std::string_view mes
     return false;
 }
 
-bool RegisteredComponent::is_position(std::string_view parameter) const {
-    return std::ranges::any_of(positions_, [&](auto const& name) { return equal_ignoring_case(name, parameter); });
-}
+bool RegisteredComponent::is_position(std::string_view parameter) const { return is_among(positions_, parameter); }
 
 std::optional<std::string> RegisteredComponent::why_no_frame(ParameterList const& normalized) const {
     if (frames_.own().empty()) return {};
