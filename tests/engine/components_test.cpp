@@ -269,7 +269,9 @@ TEST_F(ComingAndGoing, OfASubEngineGivesItFrameAndInstance) {
 
 TEST_F(ComingAndGoing, HasTheEnginesFrameInTheProfileOfItsPositions) {
     world.engine->describe({.frames = {"hall"}, .all = {}});
-    world.change({"navigation"}, {navigation});
+    auto located = navigation;
+    located.positions = {"target_position"};
+    world.change({"navigation"}, {located});
     auto const frame_of = [&](std::string_view name) {
         for (auto const& entry : world.engine->components())
             for (auto const& parameter : entry.profile->parameters)
@@ -277,6 +279,7 @@ TEST_F(ComingAndGoing, HasTheEnginesFrameInTheProfileOfItsPositions) {
         return std::string{"there is none"};
     };
     EXPECT_EQ(frame_of("target_position"), "hall");
+    EXPECT_EQ(frame_of("time_limit"), "");
 }
 
 TEST_F(ComingAndGoing, OfANestedSubEngineIsInItsSubProfile) {
