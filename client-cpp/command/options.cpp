@@ -189,6 +189,7 @@ private:
               "a file with a CommandUnitSequence (-: standard input); or a component, a command, NAME=VALUE...")
             ->required();
         execute.add_flag("--results", options_.results, "show the results of each command");
+        execute.add_flag("--check-only", options_.check_only, "only check whether the commands are possible; nothing runs");
         unwaited(execute);
     }
 

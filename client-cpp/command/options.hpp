@@ -48,6 +48,7 @@ struct Options {
     bool wait = true;
     bool results = false;
     bool check = false;
+    bool check_only = false;
     bool quiet = false;
 };
 

@@ -119,6 +119,10 @@ void run(Context& context, CommandUnitSequence sequence) {
         if (bound.insert(message->component_ref.code).second) context.bound(message->component_ref);
     }
     auto const& options = context.options();
+    if (options.check_only) {
+        context.ok(Execute{std::move(sequence), true});
+        return context.printer().line("possible; nothing has run", "check", Json{{"possible", true}});
+    }
     if (!options.wait) {
         context.show(Execute{std::move(sequence)});
         return;

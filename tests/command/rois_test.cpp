@@ -86,6 +86,8 @@ TEST_F(Rois, StartsStopsAndExecutes) {
                   "</rois:CommandUnitSequence>");
     EXPECT_EQ(run({"execute", sequence}).out, "start person_detection  OK\nstop person_detection  OK\n");
     EXPECT_THAT(run({"execute", "person_detection", "start", "--results"}).out, HasSubstr("status  "));
+    EXPECT_EQ(run({"execute", sequence, "--check-only"}).out, "possible; nothing has run\n");
+    expect(3, "time_limit", {"execute", "navigation", "start", "target_position=desk", "time_limit=-5", "--check-only"});
     expect(2, "cannot be read", {"execute", "/no/such/file.xml"});
 }
 
