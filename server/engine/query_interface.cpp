@@ -58,10 +58,10 @@ Query::Reply refused(ReturnCode code, std::string reason) { return rois::refused
 // A query that is being answered. It lives until the components that must be asked have answered.
 class Engine::Core::Inquiry : public Questions::Round, public std::enable_shared_from_this<Inquiry> {
 public:
-    Inquiry(Core& core, SharedAsked asked, std::string const& query_type, Selection selection, Instant now)
+    Inquiry(Core& core, SharedAsked asked, std::string query_type, Selection selection, Instant now)
         : core_{core},
           asked_{std::move(asked)},
-          query_type_{query_type},
+          query_type_{std::move(query_type)},
           selection_{std::move(selection)},
           until_{now.steady + core.settings_.question_deadline} {}
 

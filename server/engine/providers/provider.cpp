@@ -118,12 +118,13 @@ void Provider::after(std::shared_ptr<HostedComponent> const& component) noexcept
 void Provider::report_failure(std::shared_ptr<HostedComponent> const& from, Awaited awaited, std::exception_ptr const& failure,
                               Report each) noexcept {
     try {
-        std::string text = from ? "the component threw an unknown exception" : "a device threw an unknown exception";
+        std::string text;
         try {
             std::rethrow_exception(failure);
         } catch (std::exception const& exception) {
             text = exception.what();
-        } catch (...) {  // the text says so
+        } catch (...) {
+            text = from ? "the component threw an unknown exception" : "a device threw an unknown exception";
         }
         report(from, CallFailed{awaited, std::move(text), each});
     } catch (...) {
@@ -139,7 +140,8 @@ void Provider::call_runner() noexcept {
     try {
         std::thread{[self = shared_from_this()] { self->work(); }}.detach();
         has_thread_ = true;
-    } catch (std::exception const&) {  // no thread now: the next call tries again
+    } catch (std::exception const&) {
+        has_thread_ = false;  // the next call tries again
     }
 }
 
