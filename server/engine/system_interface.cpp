@@ -82,7 +82,9 @@ void Engine::Core::connect(Asked& asked, Connect const& connection, Instant now)
     if (opened.is_engine) engines_.push_back(&opened);
     journal_->session_opened(opened.number);
     if (everything_is_stopped_) {
-        auto error = noted(everything_was_stopped(), now);
+        auto const stop = everything_was_stopped();
+        auto error = noted(stop, now);
+        if (opened.is_engine) error.text = stop.text;
         errors_.add_receiver(opened.errors.slot);
         notifier_.notify(opened, std::move(error));
     }

@@ -106,6 +106,13 @@ TEST_F(AnEngine, GetsTheTextOfErrors) {
     EXPECT_EQ(application.last_heard<ReceiveError>().text, std::nullopt) << "of an application";
 }
 
+TEST_F(AnEngine, IsToldAtConnectThatEverythingIsStopped) {
+    world.engine->stop_everything(world.now);
+    auto another = world.connect(as_engine);
+    another.heard(1);
+    EXPECT_THAT(another.last_heard<ReceiveError>().text, testing::Optional(HasSubstr("stopped")));
+}
+
 TEST_F(AnEngine, LosesItsSessionWhenItIsSilentThoughItsLinkIsOpen) {
     engine.bind("navigation");
     engine.execute(go("go"));
