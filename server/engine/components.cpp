@@ -12,7 +12,7 @@ namespace rois {
 
 namespace {
 
-// The frame of a sub engine's positions, and what tells it apart from all other engines (decision 40).
+// The frame of a sub engine's positions, and its instance, which no other engine has (decision 40).
 std::vector<ParameterProfile> parameters_of_sub_engine(EngineProfile const& main, std::string const& name) {
     std::vector<ParameterProfile> parameters;
     for (auto const& parameter : main.parameters) {
@@ -117,7 +117,7 @@ void Engine::Core::leave(SharedComponent const& component, Instant now) {
         session->bound.erase(component.get());
         attempts([&] { journal_->released(session->number, component->ref().code); });
     }
-    for (auto* engine : engines_) engine->told.erase(component.get());
+    for (auto* engine : engines_) engine->notified.erase(component.get());
     attempts([&] { questions_.fail_all(*component, now); });
     attempts([&] { settle(now); });
     attempts([&] { component->depart(); });

@@ -88,7 +88,7 @@ private:
 
     // Sessions of other engines (engine_sessions.cpp)
     void serve_engines(Instant now);
-    void tell_states(Session&, Instant now);
+    void notify_of_states(Session&, Instant now);
 
     // System interface (system_interface.cpp)
     void connect(Asked&, Connect const&, Instant now);

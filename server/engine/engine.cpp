@@ -49,7 +49,6 @@ void Engine::Core::handle(std::shared_ptr<Asked> const& asked, Instant now) {
     auto* session = resumed != nullptr ? find(resumed->session) : session_of(*asked);
     if (session == nullptr) return asked->refuse(Refusal::no_session);
     session->lease.request_received(now.steady);
-    session->last_heard = now.steady;
     auto const too_long = why_too_long(operation);
     auto reply = std::visit(
         [&]<class Known>(Known const& known) -> Later {
@@ -290,10 +289,7 @@ void Engine::Core::heard_from(SessionId const& id, Instant now) {
 }
 
 void Engine::Core::heard_pong(SessionId const& id, Instant now) {
-    auto* session = find(id);
-    if (session == nullptr) return;
-    session->lease.pong_received(now.steady);
-    session->last_heard = now.steady;
+    if (auto* session = find(id)) session->lease.pong_received(now.steady);
 }
 
 void Engine::Core::link_opened(SessionId const& id, Link link, Instant now) {

@@ -28,7 +28,7 @@ struct Subscription;
 // Owned by the engine. Plain data without functions.
 struct Session {
     Session(MotionLease::Terms const& terms, Steady now)
-        : connected{now}, lease{terms, now}, last_activity{now}, quiet_until{now}, last_heard{now} {}
+        : connected{now}, lease{terms, now}, last_activity{now}, quiet_until{now} {}
 
     std::shared_ptr<NotificationQueue> notifications;
     SessionId id;
@@ -56,13 +56,12 @@ struct Session {
 
     // The client is another engine (decision 39).
     bool is_engine = false;
-    Steady last_heard;  // the last request or pong
-    struct Told {
+    struct Notified {
         Steady at;
         ComponentStatus status = ComponentStatus::uninitialized;
         std::uint64_t state = 0;  // RegisteredComponent::reported_states
     };
-    std::map<RegisteredComponent const*, Told> told;  // what it was told last
+    std::map<RegisteredComponent const*, Notified> notified;  // the last component_changed of each component
 
     // The session is ending: requests do not find it. If ending it fails for lack of memory, the next tick continues.
     bool ending = false;

@@ -160,7 +160,7 @@ void Engine::Core::publish(FoundError const& report, Instant now, Attempts& deli
     auto error = noted(report, now);
     auto const notification = std::make_shared<OutgoingNotification const>(error);
     error.text = report.text;
-    auto const for_engines = std::make_shared<OutgoingNotification const>(std::move(error));
+    auto const for_engines = engines_.empty() ? notification : std::make_shared<OutgoingNotification const>(std::move(error));
     auto const notify = [&](Session& session) {
         deliveries([&] {
             errors_.add_receiver(session.errors.slot);

@@ -37,7 +37,7 @@ struct Connect {
     std::optional<std::chrono::milliseconds> motion_lease;
     std::optional<std::chrono::milliseconds> motion_lease_http;
     std::optional<MotionProof> motion_proof;
-    bool is_engine = false;  // the client is another engine, which is told more (decision 39)
+    bool is_engine = false;  // the client is another engine, which receives more (decision 39)
     // After this time without a link, the session ends.
     std::optional<std::chrono::milliseconds> window{};
     struct Reply : Outcome {

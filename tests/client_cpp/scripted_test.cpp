@@ -50,6 +50,20 @@ protected:
     Client& client = robot.client();
 };
 
+TEST_F(TheScript, TakesNoAnswerWithoutACommandForARealSetParameter) {
+    auto const answered = [&](bool check_only) {
+        auto asking = begun(client, client.call(SetParameter{
+                                        {.code = "lamp", .authority = {}, .codebook_ref = {}, .version = {}}, {}, check_only}));
+        gateway.receive("set_parameter");
+        gateway.answer("<command_id/>");
+        return asking;
+    };
+    auto const reply = answered(false).get();
+    EXPECT_EQ(reply.return_code, ReturnCode::error);
+    EXPECT_THAT(reply.reason, testing::HasSubstr("no command_id"));
+    EXPECT_EQ(answered(true).get().return_code, ReturnCode::ok);
+}
+
 // The client holds events back while the subscribe_id of a new subscription is unknown.
 TEST_F(TheScript, DeliversHeldEventsOfTheOldSessionToItsStreams) {
     auto one = subscribed("a", "s-1");

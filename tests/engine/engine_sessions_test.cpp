@@ -1,4 +1,4 @@
-// Decision 39: sessions of other engines are told more, and end when the other engine counts them as lost.
+// Decision 39: sessions of other engines receive more, and end when the other engine counts them as lost.
 #include "engine/world.hpp"
 
 namespace rois {
@@ -106,7 +106,7 @@ TEST_F(AnEngine, GetsTheTextOfErrors) {
     EXPECT_EQ(application.last_heard<ReceiveError>().text, std::nullopt) << "of an application";
 }
 
-TEST_F(AnEngine, IsToldAtConnectThatEverythingIsStopped) {
+TEST_F(AnEngine, HearsAtConnectThatEverythingIsStopped) {
     world.engine->stop_everything(world.now);
     auto another = world.connect(as_engine);
     another.heard(1);
@@ -123,6 +123,24 @@ TEST_F(AnEngine, LosesItsSessionWhenItIsSilentThoughItsLinkIsOpen) {
     world.advance(5100ms);
     EXPECT_EQ(engine.refusal_of(GetProfile{}), Refusal::no_session) << "2 s of silence, and the window";
     EXPECT_TRUE(engine.notifications().wants_signs_of_life(world.now.steady));
+}
+
+TEST_F(AnEngine, KeepsItsSessionWithRequestsOfAnyKind) {
+    world.advance(4900ms);
+    EXPECT_EQ(engine.ask(Connect{}).session, engine.session);
+    world.advance(4900ms);
+    EXPECT_EQ(engine.ask(Resume{engine.session, 0}).return_code, ReturnCode::ok);
+    world.advance(4900ms);
+    EXPECT_EQ(engine.refusal_of(GetProfile{}), std::nullopt);
+}
+
+TEST_F(AnEngine, KeepsItsSessionWithPongsAlsoIfTheyDoNotProveMotion) {
+    EXPECT_EQ(engine.ask(Connect{.motion_lease = {}, .motion_lease_http = {}, .motion_proof = MotionProof::request}).return_code,
+              ReturnCode::ok);
+    world.advance(4900ms);
+    world.engine->heard_pong(engine.session, world.now);
+    world.advance(4900ms);
+    EXPECT_EQ(engine.refusal_of(GetProfile{}), std::nullopt);
 }
 
 TEST(Window, IsTheTimeAfterWhichASessionWithoutALinkEnds) {

@@ -48,7 +48,10 @@ held_after() {
     session=$(ask "<connect $names/>" | sed 's/.*<session>//; s/<.*//')
     ask "<bind $names><component_ref rois:code='navigation'/></bind>" | grep -q 'return_code="OK"' || fail "$how: no bind"
     of_peer curl -sSNv "$@" -H "RoIS-Session: $session" >"$work/heard" 2>&1 &
-    until grep -q '^> RoIS-Session' "$work/heard"; do sleep 0.02; done  # the request was sent
+    until grep -q '^> RoIS-Session' "$work/heard"; do  # the request was sent
+        kill -0 $! || fail "$how: curl has ended"
+        sleep 0.02
+    done
     ask "<execute $names><rois:CommandUnitSequence><rois:command_unit_list xsi:type='rois:CommandMessageType' rois:command_type='start'
         rois:command_id='go'><rois:component_ref rois:code='navigation'/><rois:arguments><rois:parameter rois:name='target_position'>
         <rois:data_type_ref rois:code='string[]'/><rois:value>500, 500</rois:value></rois:parameter></rois:arguments>

@@ -43,6 +43,13 @@ R const* good(Answer const& answer) {
     return expected != nullptr && expected->return_code == ReturnCode::ok ? expected : nullptr;
 }
 
+// Only the answer to a check has no command_id.
+bool lacks_command(Operation const& operation, Answer const& answer) {
+    auto const* const set = std::get_if<SetParameter>(&operation);
+    auto const* const reply = good<SetParameter::Reply>(answer);
+    return set != nullptr && reply != nullptr && !set->check_only && reply->command_id.text.empty();
+}
+
 }  // namespace
 
 Task<Answer> Core::request(Request request, std::chrono::milliseconds deadline) {
@@ -65,6 +72,8 @@ Task<Answer> Core::plain(Request request, std::chrono::milliseconds deadline) {
     auto const call = send(kind, xml::encode(request), request.request_id, deadline);
     auto& outcome = co_await call->outcome();
     auto& answer = std::get<Answer>(outcome);
+    if (lacks_command(request.operation, answer))
+        co_return NoAnswer{NoAnswer::Why::not_understood, "the answer to set_parameter has no command_id"};
     if (auto const* const op = std::get_if<Bind>(&request.operation); op != nullptr && good<Bind::Reply>(answer) != nullptr)
         note_bound(op->component_ref);
     if (auto const* const op = std::get_if<Release>(&request.operation); op != nullptr && good<Release::Reply>(answer) != nullptr)

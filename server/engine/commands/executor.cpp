@@ -25,6 +25,16 @@ std::vector<std::shared_ptr<Command>> live_commands(Session const& session) {
 // An ended session has no lease.
 bool is_proven_alive(Session const* session, Instant now) { return session != nullptr && now.steady < session->lease.end(); }
 
+// The `completed` of a command. Other engines also receive its results.
+Completed notice_of(Command const& command) {
+    Completed notice{command.id, command.status};
+    if (!command.session->is_engine) return notice;
+    notice.results = std::make_shared<Results const>(command.results);
+    notice.reason = command.reason;
+    notice.active = command.component->activity == RegisteredComponent::Activity::active;
+    return notice;
+}
+
 }  // namespace
 
 // A command and its sequence and component refer to each other. Breaks these cycles for the commands that still run.
@@ -361,19 +371,6 @@ void Executor::end(SharedCommand const& command, CompletedStatus status, std::st
         finish(command, now);
     });
 }
-
-namespace {
-
-Completed notice_of(Command const& command) {
-    Completed notice{command.id, command.status};
-    if (!command.session->is_engine) return notice;
-    notice.results = std::make_shared<Results const>(command.results);
-    notice.reason = command.reason;
-    notice.active = command.component->activity == RegisteredComponent::Activity::active;
-    return notice;
-}
-
-}  // namespace
 
 // Notifies the session, keeps the results, and continues the sequence.
 void Executor::finish(SharedCommand const& command, Instant now) {

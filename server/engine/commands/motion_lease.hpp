@@ -25,16 +25,17 @@ public:
         bool links_count = true;           // false: only requests are signs of life, not pongs and open streams
     };
 
-    MotionLease(Terms const& terms, Steady now) : terms_{terms}, last_sign_of_life_{now} {}
+    MotionLease(Terms const& terms, Steady now) : terms_{terms}, last_heard_{now}, last_sign_of_life_{now} {}
 
     Terms const& terms() const { return terms_; }
     void agree(Terms const& terms) { terms_ = terms; }
 
     void request_received(Steady now) {
-        last_sign_of_life_ = now;
+        last_heard_ = last_sign_of_life_ = now;
         end_after_link_.reset();
     }
     void pong_received(Steady now) {
+        last_heard_ = now;
         if (terms_.links_count) last_sign_of_life_ = now;
     }
     void opened(Link link, Steady now) {
@@ -46,6 +47,9 @@ public:
         if (closing == Closing::answered && terms_.links_count) request_received(now);
         if (closing == Closing::lost && links() == 0) end_after_link_ = now + for_a_successor;
     }
+
+    // The last request or pong, also if pongs are no signs of life.
+    Steady last_heard() const { return last_heard_; }
 
     std::size_t links() const { return websockets_ + streams_; }
 
@@ -64,6 +68,7 @@ private:
     std::size_t& count(Link link) { return link == Link::websocket ? websockets_ : streams_; }
 
     Terms terms_;
+    Steady last_heard_;
     Steady last_sign_of_life_;
     std::size_t websockets_ = 0;
     std::size_t streams_ = 0;

@@ -71,8 +71,10 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const 
             return page(head);
         case Endpoint::asset:
             return file_answer(site_.console.find("assets/" + route.name), head);
-        case Endpoint::engine_profile:
-            return versioned_xml(xml::encode(*gateway_.profile(), "engine." + gateway_.profile()->object.name), head);
+        case Endpoint::engine_profile: {
+            auto const profile = gateway_.profile();
+            return versioned_xml(xml::encode(*profile, "engine." + profile->object.name), head);
+        }
         case Endpoint::component_profile:
             return component_profile(route.name, head);
         case Endpoint::schema_list:
