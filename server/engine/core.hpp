@@ -60,7 +60,7 @@ public:
     std::vector<std::string> not_halted() const;
     std::vector<std::string> not_ready() const;
     void shut_down(Instant now);
-    void heard_from(SessionId const&, Instant now);
+    std::shared_ptr<NotificationQueue> heard_from(SessionId const&, Instant now);
     void heard_pong(SessionId const&, Instant now);
     void link_opened(SessionId const&, Link, Instant now);
     void link_closed(SessionId const&, Link, Closing, Instant now);

@@ -281,11 +281,12 @@ void Engine::Core::save_memory(Instant now) {
     settle(now);
 }
 
-void Engine::Core::heard_from(SessionId const& id, Instant now) {
+std::shared_ptr<NotificationQueue> Engine::Core::heard_from(SessionId const& id, Instant now) {
     auto* session = find(id);
-    if (session == nullptr) return;
+    if (session == nullptr) return {};
     session->last_activity = now.steady;
     session->quiet_until = std::max(session->quiet_until, now.steady + settings_.session_timeout);
+    return session->notifications;
 }
 
 void Engine::Core::heard_pong(SessionId const& id, Instant now) {
@@ -411,7 +412,7 @@ std::shared_ptr<NotificationQueue> Engine::notifications(SessionId const& id) co
     return session == nullptr ? nullptr : session->notifications;
 }
 
-void Engine::heard_from(SessionId const& id, Instant now) { core_->heard_from(id, now); }
+std::shared_ptr<NotificationQueue> Engine::heard_from(SessionId const& id, Instant now) { return core_->heard_from(id, now); }
 void Engine::heard_pong(SessionId const& id, Instant now) { core_->heard_pong(id, now); }
 void Engine::link_opened(SessionId const& id, Link link, Instant now) { core_->link_opened(id, link, now); }
 void Engine::link_closed(SessionId const& id, Link link, Closing closing, Instant now) {

@@ -251,9 +251,9 @@ PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via 
                                std::shared_ptr<Opener> const& opener, Reading const* reading, Instant now) {
     Hold hold;  // ends without the lock
     std::unique_lock lock{mutex_};
-    auto queue = reading != nullptr ? reading->queue_ : engine_.notifications(session);
+    auto queue = reading != nullptr ? reading->queue_ : nullptr;
+    if (via == Via::http) queue = engine_.heard_from(session, now);
     bool const known = queue != nullptr;
-    if (via == Via::http) engine_.heard_from(session, now);
     bool const connects = std::holds_alternative<Connect>(request.operation);
     bool const opens = opener && !known && connects;
     if (opens)

@@ -163,17 +163,6 @@ NotificationQueue::Hold NotificationQueue::hold() {
     return current_ = ++last_hold_;
 }
 
-void NotificationQueue::leave(Hold hold) {
-    std::lock_guard const lock{mutex_};
-    if (current_ == hold) current_ = 0;
-}
-
-void NotificationQueue::enter(Hold hold) {
-    if (hold == current_) return;
-    std::lock_guard const lock{mutex_};
-    current_ = hold;
-}
-
 bool NotificationQueue::release(Hold hold) noexcept {
     std::lock_guard const lock{mutex_};
     holds_.erase(std::ranges::lower_bound(holds_, hold));

@@ -94,8 +94,10 @@ public:
     // Begins a hold, and makes it the current one. Holds may overlap. Release each one once.
     Hold hold();
     // From now on, only notifications that name the hold as their cause are held. `enter` makes the hold current again.
-    void leave(Hold);
-    void enter(Hold);
+    void leave(Hold hold) {
+        if (current_ == hold) current_ = 0;
+    }
+    void enter(Hold hold) { current_ = hold; }
     Hold current() const { return current_; }
     // Makes the held notifications visible. Cannot fail. Returns whether there are some, or the hold has hidden the end.
     bool release(Hold) noexcept;
@@ -122,8 +124,9 @@ private:
     void forget();
 
     std::shared_ptr<void> attachment_;
-    // Guards the members below. lost_, overflowed_ and current_ change only under the engine's lock as well, so its holder may
-    // read them without this mutex.
+    Hold current_ = 0;
+    // Guards the members below. lost_ and overflowed_ change only under the engine's lock as well, so its holder may read them
+    // without this mutex.
     mutable std::mutex mutex_;
     // Ordered by sequence: forgotten entries, then sent ones, then waiting ones. A `Lost` counts for several.
     std::vector<Numbered> entries_;
@@ -139,7 +142,6 @@ private:
     std::vector<Held> held_;   // entries_ has room for them
     std::vector<Hold> holds_;  // ascending
     Hold last_hold_ = 0;
-    Hold current_ = 0;
     bool closed_ = false;
     bool overflowed_ = false;
 
