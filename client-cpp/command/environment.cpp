@@ -15,9 +15,10 @@ namespace rois::command {
 namespace {
 
 // The configuration keys of rois-gateway (server/main/keys.cpp) as variables.
-constexpr std::array<std::string_view, 54> keys{"ROIS_ALLOWED_ORIGINS",
+constexpr std::array<std::string_view, 56> keys{"ROIS_ALLOWED_ORIGINS",
                                                 "ROIS_COMMAND_RESULTS",
                                                 "ROIS_CONNECT_TIMEOUT",
+                                                "ROIS_ENGINES",
                                                 "ROIS_ENGINE_NAME",
                                                 "ROIS_ERROR_DETAILS",
                                                 "ROIS_EVENT_DETAILS",
@@ -59,6 +60,7 @@ constexpr std::array<std::string_view, 54> keys{"ROIS_ALLOWED_ORIGINS",
                                                 "ROIS_QUESTION_DEADLINE",
                                                 "ROIS_REQUEST_TIMEOUT",
                                                 "ROIS_RESUME_WINDOW",
+                                                "ROIS_ROBOTS",
                                                 "ROIS_SCENARIO",
                                                 "ROIS_SEED",
                                                 "ROIS_SESSION_TIMEOUT",

@@ -116,6 +116,7 @@ Engine::Core::Later Engine::Core::perform(Session& session, Bind const& bind_, S
             return bind(asker, *shared, when);
         };
         answer_later(*asked, make);
+        notify_of_release(*shared, when);
     };
     auto const ticket = questions_.ask(*component, now.steady + settings_.question_deadline,
                                        "the component did not answer whether it can be bound", std::move(then));
@@ -178,6 +179,7 @@ Engine::Core::Later Engine::Core::bind_first(Session& session, SharedAsked const
             return refused<BindAny::Reply>(ReturnCode::error, "no component that matches the condition can be bound now");
         };
         answer_later(*asked, make);
+        notify_of_release(*component, when);
     };
     auto const ticket = questions_.ask(*component, due, "the component did not answer whether it can be bound", std::move(then));
     component->hosted().bind(ticket, now);
@@ -198,7 +200,14 @@ void Engine::Core::unbind(Session& session, RegisteredComponent& component, Inst
     session.bound.erase(&component);
     component.bound_to = nullptr;
     component.restore_defaults(now);
+    notify_of_release(component, now);
     journal_->released(session.number, component.ref().code);
+}
+
+// Notifies a component that confirms its bindings that it has none.
+void Engine::Core::notify_of_release(RegisteredComponent& component, Instant now) {
+    bool const is_free = component.bound_to == nullptr && !component.has_departed();
+    if (component.confirms_binding() && is_free) component.hosted().released(now);
 }
 
 Reply Engine::Core::perform(Session& session, GetParameter const& get, Instant) {

@@ -25,12 +25,6 @@ enum class CommandHandle : std::uint64_t {};
 // Identifies a question of the engine to a component. Unique for the life of the engine, and ascending.
 enum class Ticket : std::uint64_t {};
 
-// The codebooks of one parameter of type RoISIdentifier (decision 31).
-struct Codebooks {
-    std::string parameter;
-    std::vector<std::string> known;  // the first one is the default
-};
-
 // The constant properties of a component.
 struct ComponentDescription {
     Identifier ref;                                   // code = the instance's name, unique in the engine (decision 25)
@@ -192,6 +186,8 @@ public:
 
     // Asks whether an application may bind the component now; only if the description has `confirms_binding`.
     virtual void bind(Ticket, Instant now);
+    // The binding has ended, or did not come about although `bind` was asked.
+    virtual void released(Instant) {}
 
     // Asks whether the component can carry out this command with these parameters. The answer is `Begin` or `Refused`, and must
     // not depend on the present situation. For `start` and set_parameter, `parameters` has all parameters that will be stored

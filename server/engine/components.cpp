@@ -47,6 +47,19 @@ EngineProfile& profile_of(EngineProfile& main, std::string const& sub_engine) {
     return *owner;
 }
 
+// Sets these parameters in the profiles of sub engines; others stay.
+void describe_engines(EngineProfile& main, std::map<std::string, std::vector<ParameterProfile>> const& engines) {
+    for (auto& sub : main.sub_profiles) {
+        describe_engines(sub, engines);
+        auto const found = engines.find(sub.object.name);
+        if (found == engines.end()) continue;
+        for (auto const& parameter : found->second) {
+            std::erase_if(sub.parameters, [&](auto const& each) { return each.name == parameter.name; });
+            sub.parameters.push_back(parameter);
+        }
+    }
+}
+
 void list(EngineProfile& main, std::string const& engine, std::string const& ref) {
     auto& owner = engine == main.object.name ? main : profile_of(main, engine);
     owner.components.push_back(ref);
@@ -179,6 +192,7 @@ void Engine::Core::change(ComponentChange change, Instant now) {
         auto const& entry = registry.add(coming.back()).entry();
         list(profile, entry.engine, entry.ref);
     }
+    describe_engines(profile, belongings[change.provider].engines);
     expect_providers(registry.all().size() + going.size() + devices_.size());
 
     std::swap(registry_, registry);

@@ -184,6 +184,7 @@ private:
     void report_stop_of_everything(Instant now);
     void forget_what_is_old(Instant now);
     void unbind(Session&, RegisteredComponent&, Instant now);
+    void notify_of_release(RegisteredComponent&, Instant now);
 
     Journal no_journal_;
     Journal* journal_ = &no_journal_;               // never null

@@ -203,7 +203,10 @@ void Engine::Core::remove(Session& session, Instant now) {
         while (!session.bound.empty()) attempts([&] { unbind(session, **session.bound.begin(), now); });
     }
     attempts.rethrow();
-    for (auto* component : session.bound) component->bound_to = nullptr;
+    for (auto* component : session.bound) {
+        component->bound_to = nullptr;
+        notify_of_release(*component, now);
+    }
     subscriptions_.remove_all(session);
     executor_.forget(session);
     notifier_.close(session);

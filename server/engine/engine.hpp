@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -59,6 +60,7 @@ struct Belongings {
     std::vector<ComponentProfile> profiles;  // in which the engine looks up sub components
     std::vector<Frame> frames;               // placed in frames of the engine, or in one another
     std::vector<NamedPlace> places;
+    std::map<std::string, std::vector<ParameterProfile>> engines{};  // by name: the parameters of the profiles of its sub engines
 };
 
 // Components to remove and to add in one step (profile_changed).

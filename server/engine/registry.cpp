@@ -149,6 +149,14 @@ RegisteredComponent::RegisteredComponent(ComponentDescription const& description
     hosted_->registered = this;
 }
 
+std::shared_ptr<ComponentTraits const> RegisteredComponent::traits() const {
+    return std::make_shared<ComponentTraits const>(ComponentTraits{.positions = positions_,
+                                                                   .codebooks = codebooks_,
+                                                                   .alternatives = alternatives_,
+                                                                   .status_when_stopped = status_when_stopped_,
+                                                                   .moves = moves_});
+}
+
 void RegisteredComponent::depart() {
     has_departed_ = true;
     hosted_->depart();

@@ -49,6 +49,7 @@ public:
     // The type in the form that conditions compare.
     std::string const& type_key() const { return type_key_; }
     bool moves() const { return moves_; }
+    std::shared_ptr<ComponentTraits const> traits() const;  // for other engines
     // Includes the messages of the sub components, and the implied ones (add_parameter_messages).
     ComponentProfile const& profile() const { return *entry_.profile; }
 

@@ -135,7 +135,10 @@ Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
         return refused<GetProfile::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     GetProfile::Reply reply;
     auto const& selected = std::get<Selection>(selection);
-    for (auto const* component : select(selected, session)) reply.components.push_back(component->entry());
+    for (auto const* component : select(selected, session)) {
+        reply.components.push_back(component->entry());
+        if (session.is_engine) reply.components.back().traits = component->traits();
+    }
     reply.profile = selected.filter().restricts() ? profile_of_engine_with(profile(), reply.components) : profile();
     return reply;
 }

@@ -60,7 +60,7 @@ void declare(CLI::App& app, Flags& flags) {
     app.add_flag("--print-config", flags.print_config, "print a commented configuration file, and exit");
     app.add_flag("--check-health", flags.check_health, "check that the gateway with this configuration is healthy, and exit");
     for (auto const& key : keys()) {
-        auto const now = key.show(Settings{});
+        auto const now = key.show(GatewaySettings{});
         app.add_option(flag_of(key), flags.values[key.name], key.help)
             ->option_text(key.value + (now.empty() ? "" : " [" + now + "]"))
             ->type_name(key.value)
@@ -74,20 +74,20 @@ std::string variable(std::string const& name) {
     return value ? value : "";
 }
 
-void set(Settings& settings, Key const& key, std::string const& where, std::string const& value) {
+void set(GatewaySettings& settings, Key const& key, std::string const& where, std::string const& value) {
     if (key.set(settings, value)) return;
     throw BadSettings{where + " must be " + key.must_be + ", not " + rois::quoted(value)};
 }
 
-void check_ports(Settings const& settings) {
+void check_ports(GatewaySettings const& settings) {
     bool const same = !settings.media.host.empty() && settings.media.port != 0 && settings.media.port == settings.net.port;
     if (same)
         throw BadSettings{"media and listen must not have the same port, " + std::to_string(settings.net.port) +
                           "; choose another port for media"};
 }
 
-Settings gather(CLI::App const& app, Flags const& flags) {
-    Settings settings;
+GatewaySettings gather(CLI::App const& app, Flags const& flags) {
+    GatewaySettings settings;
     bool const named = app.count("--config") > 0;
     if (named && flags.config.empty()) throw BadSettings{"--config must be a FILE, not ''"};
     auto const file = named ? flags.config : variable("ROIS_CONFIG");

@@ -13,7 +13,7 @@ struct CommandLine {
     std::string words;                  // output for `say`: help, version, configuration
     std::string folder;                 // the folder of profiles to check
     std::vector<std::string> warnings;  // about settings that are ignored
-    Settings settings;                  // in order of precedence: flags, environment variables, the file, defaults
+    GatewaySettings settings;           // in order of precedence: flags, environment variables, the file, defaults
 };
 
 // Throws BadSettings if a setting is invalid.

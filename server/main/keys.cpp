@@ -35,17 +35,17 @@ std::string range(std::string const& what, double least, double most) {
 
 // Selects a member of the settings.
 template <class T>
-using Member = std::function<T&(Settings&)>;
+using Member = std::function<T&(GatewaySettings&)>;
 
 template <class T>
-T const& read(Member<T> const& member, Settings const& settings) {
-    return member(const_cast<Settings&>(settings));
+T const& read(Member<T> const& member, GatewaySettings const& settings) {
+    return member(const_cast<GatewaySettings&>(settings));
 }
 
 template <class T>
 Key whole_number(std::string name, std::string help, Member<T> const& member, double least, double most) {
     Key key{std::move(name), std::move(help), "N", range("a whole number", least, most), Key::Kind::number, {}, {}};
-    key.set = [member, least, most](Settings& settings, std::string const& text) {
+    key.set = [member, least, most](GatewaySettings& settings, std::string const& text) {
         T number{};
         auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
         bool const whole = error == std::errc{} && end == text.data() + text.size();
@@ -53,18 +53,18 @@ Key whole_number(std::string name, std::string help, Member<T> const& member, do
         member(settings) = number;
         return true;
     };
-    key.show = [member](Settings const& settings) { return std::to_string(read(member, settings)); };
+    key.show = [member](GatewaySettings const& settings) { return std::to_string(read(member, settings)); };
     return key;
 }
 
 Key seconds(std::string name, std::string help, Member<milliseconds> const& member, double least = 0.1, double most = 86'400) {
     Key key{std::move(name), std::move(help), "SECONDS", range("a number of seconds", least, most), Key::Kind::number, {}, {}};
-    key.set = [member, least, most](Settings& settings, std::string const& text) {
+    key.set = [member, least, most](GatewaySettings& settings, std::string const& text) {
         auto const number = number_within(text, least, most);
         if (number) member(settings) = milliseconds{std::llround(*number * 1'000)};
         return number.has_value();
     };
-    key.show = [member](Settings const& settings) {
+    key.show = [member](GatewaySettings const& settings) {
         return text_of(static_cast<double>(read(member, settings).count()) / 1'000);
     };
     return key;
@@ -72,8 +72,8 @@ Key seconds(std::string name, std::string help, Member<milliseconds> const& memb
 
 Key file(std::string name, std::string help, Member<std::string> const& member) {
     Key key{std::move(name), std::move(help), "FILE", "a text", Key::Kind::text, {}, {}};
-    key.set = [member](Settings& settings, std::string const& text) { return member(settings) = text, true; };
-    key.show = [member](Settings const& settings) { return read(member, settings); };
+    key.set = [member](GatewaySettings& settings, std::string const& text) { return member(settings) = text, true; };
+    key.show = [member](GatewaySettings const& settings) { return read(member, settings); };
     return key;
 }
 
@@ -82,13 +82,13 @@ Key choice(std::string name, std::string help, Member<T> const& member, std::vec
     std::string all;
     for (auto const& [text, value] : choices) all += (all.empty() ? "" : "|") + text;
     Key key{std::move(name), std::move(help), all, "one of " + all, Key::Kind::text, {}, {}};
-    key.set = [member, choices](Settings& settings, std::string const& text) {
+    key.set = [member, choices](GatewaySettings& settings, std::string const& text) {
         auto const found = std::ranges::find(choices, text, &std::pair<std::string, T>::first);
         if (found == choices.end()) return false;
         member(settings) = found->second;
         return true;
     };
-    key.show = [member, choices](Settings const& settings) {
+    key.show = [member, choices](GatewaySettings const& settings) {
         return std::ranges::find(choices, read(member, settings), &std::pair<std::string, T>::second)->first;
     };
     return key;
@@ -99,7 +99,7 @@ std::string show_address(std::string const& host, std::uint16_t port) {
     return (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
 }
 
-bool set_listen(Settings& settings, std::string const& text) {
+bool set_listen(GatewaySettings& settings, std::string const& text) {
     auto const read = read_host_and_port(text);
     if (!read) return false;
     settings.net.host = read->host;
@@ -107,9 +107,9 @@ bool set_listen(Settings& settings, std::string const& text) {
     return true;
 }
 
-std::string show_listen(Settings const& settings) { return show_address(settings.net.host, settings.net.port); }
+std::string show_listen(GatewaySettings const& settings) { return show_address(settings.net.host, settings.net.port); }
 
-bool set_media(Settings& settings, std::string const& text) {
+bool set_media(GatewaySettings& settings, std::string const& text) {
     auto const read = text.empty() ? std::optional{HostAndPort{}} : read_host_and_port(text);
     if (!read) return false;
     settings.media.host = read->host;
@@ -117,12 +117,12 @@ bool set_media(Settings& settings, std::string const& text) {
     return true;
 }
 
-std::string show_media(Settings const& settings) {
+std::string show_media(GatewaySettings const& settings) {
     return settings.media.host.empty() ? "" : show_address(settings.media.host, settings.media.port);
 }
 
 // URL at which a reverse proxy serves the media. The paths of streams are appended to it.
-bool set_media_url(Settings& settings, std::string const& text) {
+bool set_media_url(GatewaySettings& settings, std::string const& text) {
     bool const is_url = (text.starts_with("http://") && text.size() > 7) || (text.starts_with("https://") && text.size() > 8);
     if (!text.empty() && (!is_url || text.find_first_of(" \t\r\n?#\"<>") != std::string::npos)) return false;
     settings.media.url = text;
@@ -130,7 +130,7 @@ bool set_media_url(Settings& settings, std::string const& text) {
 }
 
 // The engine's name becomes a part of XML ids.
-bool set_engine_name(Settings& settings, std::string const& text) {
+bool set_engine_name(GatewaySettings& settings, std::string const& text) {
     auto const is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
     auto const fits = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '.'; };
     if (text.empty() || text.size() > 64 || !is_letter(text.front()) || !std::ranges::all_of(text, fits)) return false;
@@ -167,14 +167,14 @@ std::string joined(std::vector<std::string> const& words) {
     return text;
 }
 
-bool set_origins(Settings& settings, std::string const& text) {
+bool set_origins(GatewaySettings& settings, std::string const& text) {
     auto origins = words_of(text);
     if (!std::ranges::all_of(origins, is_origin)) return false;
     settings.net.allowed_origins = std::move(origins);
     return true;
 }
 
-bool set_proxies(Settings& settings, std::string const& text) {
+bool set_proxies(GatewaySettings& settings, std::string const& text) {
     std::vector<Network> proxies;
     for (auto const& word : words_of(text)) {
         auto const network = read_network(word);
@@ -185,14 +185,14 @@ bool set_proxies(Settings& settings, std::string const& text) {
     return true;
 }
 
-std::string show_proxies(Settings const& settings) {
+std::string show_proxies(GatewaySettings const& settings) {
     std::vector<std::string> words;
     words.reserve(settings.net.proxies.size());
     for (auto const& network : settings.net.proxies) words.push_back(text_of(network));
     return joined(words);
 }
 
-bool set_hosts(Settings& settings, std::string const& text) {
+bool set_hosts(GatewaySettings& settings, std::string const& text) {
     std::vector<std::string> hosts;
     for (auto const& word : words_of(text)) {
         auto host = host_name(word);
@@ -210,7 +210,7 @@ struct SizeUnit {
 constexpr std::array<SizeUnit, 4> size_units{
     {{"GiB", std::size_t{1} << 30}, {"MiB", std::size_t{1} << 20}, {"KiB", std::size_t{1} << 10}, {"", 1}}};
 
-bool set_memory_budget(Settings& settings, std::string const& text) {
+bool set_memory_budget(GatewaySettings& settings, std::string const& text) {
     constexpr std::size_t least = std::size_t{64} << 20, most = std::size_t{1024} << 30;
     std::size_t number = 0;
     auto const* const whole = text.data() + text.size();
@@ -223,13 +223,13 @@ bool set_memory_budget(Settings& settings, std::string const& text) {
     return true;
 }
 
-std::string show_memory_budget(Settings const& settings) {
+std::string show_memory_budget(GatewaySettings const& settings) {
     auto const bytes = settings.net.memory_budget;
     auto const unit = std::ranges::find_if(size_units, [&](SizeUnit const& each) { return bytes % each.bytes == 0; });
     return std::to_string(bytes / unit->bytes) + std::string{unit->name};
 }
 
-bool set_sim_speed(Settings& settings, std::string const& text) {
+bool set_sim_speed(GatewaySettings& settings, std::string const& text) {
     auto const speed = number_within(text, 0, 1'000);
     if (speed && *speed > 0 && *speed < 0.01) return false;
     if (speed) settings.sim_speed = *speed;
@@ -242,39 +242,45 @@ std::vector<Key> general_keys() {
          "HOST:PORT, such as 127.0.0.1:8080, [::1]:8080, or 0.0.0.0:8080 for every address of this machine", Key::Kind::text,
          set_listen, show_listen},
         whole_number<std::size_t>(
-            "threads", "number of I/O threads", [](Settings & s) -> auto& { return s.net.threads; }, 1, 256),
-        choice<LogFormat>("log_format", "format of the log", [](Settings & s) -> auto& { return s.log_format; },
+            "threads", "number of I/O threads", [](GatewaySettings & s) -> auto& { return s.net.threads; }, 1, 256),
+        choice<LogFormat>("log_format", "format of the log", [](GatewaySettings & s) -> auto& { return s.log_format; },
                           {{"text", LogFormat::text}, {"json", LogFormat::json}}),
         choice<LogLevel>(
-            "log_level", "lowest level that is logged", [](Settings & s) -> auto& { return s.log_level; },
+            "log_level", "lowest level that is logged", [](GatewaySettings & s) -> auto& { return s.log_level; },
             {{"debug", LogLevel::debug}, {"info", LogLevel::info}, {"warning", LogLevel::warning}, {"error", LogLevel::error}}),
         {"engine_name", "name of the engine in its profile", "NAME",
          "a letter, then letters, digits, '-', '_' and '.', 64 at most", Key::Kind::text, set_engine_name,
-         [](Settings const& s) { return s.engine_name; }},
+         [](GatewaySettings const& s) { return s.engine_name; }},
         {"sim_speed", "simulated seconds per second; 0: simulated time stands still until simulated_hall lets it pass", "X",
          range("0, or a number", 0.01, 1'000), Key::Kind::number, set_sim_speed,
-         [](Settings const& s) { return text_of(s.sim_speed); }},
+         [](GatewaySettings const& s) { return text_of(s.sim_speed); }},
+        choice<Robots>("robots", "components of this gateway's own: those of the simulated robots, or none, for sub engines only",
+                       [](GatewaySettings & s) -> auto& { return s.robots; },
+                       {{"simulated", Robots::simulated}, {"none", Robots::none}}),
         choice<Steering>("steering",
                          "offer the component simulated_hall, with which applications steer visitors; always on with sim_speed 0",
-                         [](Settings & s) -> auto& { return s.steering; }, {{"off", Steering::off}, {"on", Steering::on}}),
+                         [](GatewaySettings & s) -> auto& { return s.steering; }, {{"off", Steering::off}, {"on", Steering::on}}),
         whole_number<std::uint64_t>(
             "seed", "seed of the simulation's random numbers; the same seed gives the same history",
-            [](Settings & s) -> auto& { return s.seed; }, 0, 9'007'199'254'740'991),
+            [](GatewaySettings & s) -> auto& { return s.seed; }, 0, 9'007'199'254'740'991),
         file(
             "floor_plan", "floor plan of the simulated hall; empty: the built-in one",
-            [](Settings & s) -> auto& { return s.floor_plan; }),
+            [](GatewaySettings & s) -> auto& { return s.floor_plan; }),
         file(
             "scenario", "scenario: which visitors come to the hall, and when; empty: the built-in one",
-            [](Settings & s) -> auto& { return s.scenario; }),
+            [](GatewaySettings & s) -> auto& { return s.scenario; }),
         {"profiles", "folder of component profiles to make components from, read again after SIGHUP; empty: none", "DIR",
-         "a text", Key::Kind::text, [](Settings& s, std::string const& text) { return s.profiles = text, true; },
-         [](Settings const& s) { return s.profiles; }},
+         "a text", Key::Kind::text, [](GatewaySettings& s, std::string const& text) { return s.profiles = text, true; },
+         [](GatewaySettings const& s) { return s.profiles; }},
+        file(
+            "engines", "sub engines, read again after SIGHUP; empty: none",
+            [](GatewaySettings & s) -> auto& { return s.engines; }),
         {"hosts", "further host names of the gateway, besides localhost, IP addresses and the name of its machine", "NAMES",
          "host names such as gateway or robots.example, without a port, separated by spaces", Key::Kind::text, set_hosts,
-         [](Settings const& s) { return joined(s.net.hosts); }},
+         [](GatewaySettings const& s) { return joined(s.net.hosts); }},
         {"allowed_origins", "origins of web pages that may send requests, besides the gateway's own", "ORIGINS",
          "origins such as https://console.example, in small letters and without a path, separated by spaces", Key::Kind::text,
-         set_origins, [](Settings const& s) { return joined(s.net.allowed_origins); }},
+         set_origins, [](GatewaySettings const& s) { return joined(s.net.allowed_origins); }},
     };
 }
 
@@ -284,68 +290,69 @@ std::vector<Key> media_keys() {
          "HOST:PORT, such as 127.0.0.1:8081, or empty", Key::Kind::text, set_media, show_media},
         {"media_url", "URL at which applications reach the media server; empty: http://HOST:PORT of media", "URL",
          "a URL such as https://robots.example/media", Key::Kind::text, set_media_url,
-         [](Settings const& s) { return s.media.url; }},
+         [](GatewaySettings const& s) { return s.media.url; }},
         choice<media::RtpTargets>("media_rtp", "RTP targets that applications may name",
-                                  [](Settings & s) -> auto& { return s.media.rtp_targets; },
+                                  [](GatewaySettings & s) -> auto& { return s.media.rtp_targets; },
                                   {{"loopback", media::RtpTargets::loopback}, {"any", media::RtpTargets::any}}),
         whole_number<std::size_t>(
             "max_media_connections", "maximum number of connections to the media server",
-            [](Settings & s) -> auto& { return s.media.max_connections; }, 1, 10'000),
+            [](GatewaySettings & s) -> auto& { return s.media.max_connections; }, 1, 10'000),
     };
 }
 
 std::vector<Key> session_keys() {
     return {
         choice<OnSessionEnd>("on_session_end", "whether the commands of a session that ends are stopped",
-                             [](Settings & s) -> auto& { return s.engine.on_session_end; },
+                             [](GatewaySettings & s) -> auto& { return s.engine.on_session_end; },
                              {{"stop", OnSessionEnd::stop}, {"continue", OnSessionEnd::continue_}}),
         seconds(
             "session_timeout", "time without a request or an open stream after which a session counts as lost",
-            [](Settings & s) -> auto& { return s.engine.session_timeout; }),
+            [](GatewaySettings & s) -> auto& { return s.engine.session_timeout; }),
         seconds(
             "resume_window", "time in which a lost session can be resumed before it ends",
-            [](Settings & s) -> auto& { return s.engine.resume_window; }, 0),
+            [](GatewaySettings & s) -> auto& { return s.engine.resume_window; }, 0),
         seconds(
             "motion_lease", "time without a sign of life on a WebSocket after which motion is held",
-            [](Settings & s) -> auto& { return s.engine.motion_lease; }, 0.5, 3600),
+            [](GatewaySettings & s) -> auto& { return s.engine.motion_lease; }, 0.5, 3600),
         seconds(
             "motion_lease_http", "time without a request after which motion is held, for applications that only send requests",
-            [](Settings & s) -> auto& { return s.engine.motion_lease_http; }, 0.5, 3600),
+            [](GatewaySettings & s) -> auto& { return s.engine.motion_lease_http; }, 0.5, 3600),
         seconds(
             "event_details", "time for which the details of an event can be fetched",
-            [](Settings & s) -> auto& { return s.engine.event_details; }),
+            [](GatewaySettings & s) -> auto& { return s.engine.event_details; }),
         seconds(
             "error_details", "time for which the details of an error can be fetched",
-            [](Settings & s) -> auto& { return s.engine.error_details; }),
+            [](GatewaySettings & s) -> auto& { return s.engine.error_details; }),
         seconds(
             "command_results", "time for which the results of a command can be fetched",
-            [](Settings & s) -> auto& { return s.engine.command_results; }),
+            [](GatewaySettings & s) -> auto& { return s.engine.command_results; }),
         seconds(
             "start_timeout", "time for a component to start a command, unless its profile sets another",
-            [](Settings & s) -> auto& { return s.engine.start_timeout; }),
+            [](GatewaySettings & s) -> auto& { return s.engine.start_timeout; }),
         seconds(
             "question_deadline", "time for a component to answer a query, or whether it can carry out a command",
-            [](Settings & s) -> auto& { return s.engine.question_deadline; }),
+            [](GatewaySettings & s) -> auto& { return s.engine.question_deadline; }),
         whole_number<std::size_t>(
-            "max_sessions", "maximum number of sessions", [](Settings & s) -> auto& { return s.engine.max_sessions; }, 1, 1e6),
+            "max_sessions", "maximum number of sessions", [](GatewaySettings & s) -> auto& { return s.engine.max_sessions; }, 1,
+            1e6),
         whole_number<std::size_t>(
             "max_waiting_notifications", "maximum number of notifications that wait for a session",
-            [](Settings & s) -> auto& { return s.engine.max_waiting_notifications; }, 16, 1e6),
+            [](GatewaySettings & s) -> auto& { return s.engine.max_waiting_notifications; }, 16, 1e6),
         whole_number<std::size_t>(
             "max_sent_notifications", "maximum number of sent notifications that are kept for a session to resume",
-            [](Settings & s) -> auto& { return s.engine.max_sent_notifications; }, 16, 1e6),
+            [](GatewaySettings & s) -> auto& { return s.engine.max_sent_notifications; }, 16, 1e6),
         whole_number<std::size_t>(
             "max_command_results", "maximum number of ended commands of a session whose results are kept",
-            [](Settings & s) -> auto& { return s.engine.max_command_results; }, 1, 1e6),
+            [](GatewaySettings & s) -> auto& { return s.engine.max_command_results; }, 1, 1e6),
         whole_number<std::size_t>(
             "max_subscribed_predicates", "maximum number of predicates in the conditions of a session's subscriptions, in total",
-            [](Settings & s) -> auto& { return s.engine.max_subscribed_predicates; }, 256, 1e6),
+            [](GatewaySettings & s) -> auto& { return s.engine.max_subscribed_predicates; }, 256, 1e6),
         whole_number<std::size_t>(
             "max_predicates", "maximum number of predicates in the conditions of all subscriptions, in total",
-            [](Settings & s) -> auto& { return s.engine.max_predicates; }, 256, 1e8),
+            [](GatewaySettings & s) -> auto& { return s.engine.max_predicates; }, 256, 1e8),
         whole_number<std::size_t>(
             "max_condition_bytes", "maximum bytes of text in the conditions of a session's subscriptions, in total",
-            [](Settings & s) -> auto& { return s.engine.max_condition_bytes; }, 1'024, 1 << 30),
+            [](GatewaySettings & s) -> auto& { return s.engine.max_condition_bytes; }, 1'024, 1 << 30),
     };
 }
 
@@ -356,63 +363,64 @@ std::vector<Key> network_keys() {
          "a whole number of bytes, or of KiB, MiB or GiB, such as 512MiB, from 64MiB to 1024GiB", Key::Kind::text,
          set_memory_budget, show_memory_budget},
         whole_number<std::size_t>(
-            "max_connections", "maximum number of connections", [](Settings & s) -> auto& { return s.net.max_connections; }, 1,
-            1e6),
+            "max_connections", "maximum number of connections",
+            [](GatewaySettings & s) -> auto& { return s.net.max_connections; }, 1, 1e6),
         whole_number<std::size_t>(
             "max_connections_per_address", "maximum number of connections of one remote address, except loopback and proxies",
-            [](Settings & s) -> auto& { return s.net.max_connections_per_address; }, 1, 1e6),
+            [](GatewaySettings & s) -> auto& { return s.net.max_connections_per_address; }, 1, 1e6),
         whole_number<std::size_t>(
             "max_sessions_per_address", "maximum number of sessions opened by one remote address, except loopback and proxies",
-            [](Settings & s) -> auto& { return s.net.max_sessions_per_address; }, 1, 1e6),
+            [](GatewaySettings & s) -> auto& { return s.net.max_sessions_per_address; }, 1, 1e6),
         whole_number<std::size_t>(
             "max_sessions_per_connection", "maximum number of sessions opened on one connection, except those of proxies",
-            [](Settings & s) -> auto& { return s.net.max_sessions_per_connection; }, 1, 1e6),
+            [](GatewaySettings & s) -> auto& { return s.net.max_sessions_per_connection; }, 1, 1e6),
         whole_number<std::size_t>(
             "max_streams_per_session", "maximum number of event streams of a session",
-            [](Settings & s) -> auto& { return s.net.max_streams_per_session; }, 1, 1e6),
+            [](GatewaySettings & s) -> auto& { return s.net.max_streams_per_session; }, 1, 1e6),
         {"proxies", "addresses of reverse proxies, to which the limits per address and per connection do not apply", "ADDRESSES",
          "IP addresses or networks such as 192.0.2.1 10.0.0.0/8 2001:db8::/32, separated by spaces", Key::Kind::text, set_proxies,
          show_proxies},
         whole_number<std::size_t>(
             "max_requests_in_flight",
             "maximum number of answers that wait for a WebSocket; the gateway then stops reading from it",
-            [](Settings & s) -> auto& { return s.net.max_requests_in_flight; }, 1, 1'024),
+            [](GatewaySettings & s) -> auto& { return s.net.max_requests_in_flight; }, 1, 1'024),
         whole_number<std::size_t>(
-            "max_body", "maximum bytes of a request document", [](Settings & s) -> auto& { return s.net.document.bytes; }, 1'024,
-            1 << 30),
+            "max_body", "maximum bytes of a request document", [](GatewaySettings & s) -> auto& { return s.net.document.bytes; },
+            1'024, 1 << 30),
         whole_number<std::size_t>(
-            "max_header", "maximum bytes of an HTTP header", [](Settings & s) -> auto& { return s.net.max_header; }, 1'024,
+            "max_header", "maximum bytes of an HTTP header", [](GatewaySettings & s) -> auto& { return s.net.max_header; }, 1'024,
             1 << 20),
         whole_number<std::size_t>(
             "max_depth", "maximum depth of nested elements in a document",
-            [](Settings & s) -> auto& { return s.net.document.depth; }, 8, 1'024),
+            [](GatewaySettings & s) -> auto& { return s.net.document.depth; }, 8, 1'024),
         whole_number<std::size_t>(
             "max_attributes", "maximum number of attributes of an element",
-            [](Settings & s) -> auto& { return s.net.document.attributes; }, 8, 1'024),
+            [](GatewaySettings & s) -> auto& { return s.net.document.attributes; }, 8, 1'024),
         whole_number<std::size_t>(
             "max_elements", "maximum number of elements of a document",
-            [](Settings & s) -> auto& { return s.net.document.elements; }, 16, 1e6),
+            [](GatewaySettings & s) -> auto& { return s.net.document.elements; }, 16, 1e6),
         choice<xml::Validation>(
             "validation", "how documents are validated: fast, with tables made from the schemas where they suffice, or in full",
-            [](Settings & s) -> auto& { return s.net.validation; },
+            [](GatewaySettings & s) -> auto& { return s.net.validation; },
             {{"fast", xml::Validation::fast}, {"full", xml::Validation::full}}),
         seconds(
-            "request_timeout", "time for a request to arrive", [](Settings & s) -> auto& { return s.net.request_timeout; }),
+            "request_timeout", "time for a request to arrive",
+            [](GatewaySettings & s) -> auto& { return s.net.request_timeout; }),
         seconds(
             "connect_timeout", "time for a new WebSocket to open or resume a session",
-            [](Settings & s) -> auto& { return s.net.connect_timeout; }),
+            [](GatewaySettings & s) -> auto& { return s.net.connect_timeout; }),
         seconds(
             "idle_timeout", "time between two requests on an HTTP connection",
-            [](Settings & s) -> auto& { return s.net.idle_timeout; }),
+            [](GatewaySettings & s) -> auto& { return s.net.idle_timeout; }),
         seconds(
             "write_timeout", "time for a client to accept the data sent to it",
-            [](Settings & s) -> auto& { return s.net.write_timeout; }),
+            [](GatewaySettings & s) -> auto& { return s.net.write_timeout; }),
         seconds(
             "ping_interval", "time between signs of life on WebSockets and event streams",
-            [](Settings & s) -> auto& { return s.net.ping_interval; }),
+            [](GatewaySettings & s) -> auto& { return s.net.ping_interval; }),
         seconds(
             "shutdown_timeout", "time for clients to receive their last notifications when the gateway stops",
-            [](Settings & s) -> auto& { return s.net.shutdown_timeout; }, 0.1, 8),
+            [](GatewaySettings & s) -> auto& { return s.net.shutdown_timeout; }, 0.1, 8),
     };
 }
 
@@ -423,7 +431,7 @@ std::string with_dashes(std::string name) {
 
 }  // namespace
 
-Settings::Settings() {
+GatewaySettings::GatewaySettings() {
     net.threads = std::clamp(std::thread::hardware_concurrency(), 1u, 4u);
     media.host.clear();
 }

@@ -17,9 +17,9 @@ struct Key {
     std::string value;    // placeholder of the value in the help: "SECONDS"
     std::string must_be;  // expected values, for error messages: "a number of seconds from 0.1 to 86400"
     Kind kind = Kind::text;
-    std::function<bool(Settings&, std::string const&)>
-        set;                                           // returns false, and changes nothing, if the text is not a valid value
-    std::function<std::string(Settings const&)> show;  // returns the value as a text that `set` accepts
+    std::function<bool(GatewaySettings&, std::string const&)>
+        set;  // returns false, and changes nothing, if the text is not a valid value
+    std::function<std::string(GatewaySettings const&)> show;  // returns the value as a text that `set` accepts
 };
 
 std::vector<Key> const& keys();

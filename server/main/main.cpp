@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "gateway/process/open_files.hpp"
 #include "main/command_line.hpp"
 #include "main/configuration_file.hpp"
+#include "main/engines_file.hpp"
 #include "main/health_check.hpp"
 #include "main/keys.hpp"
 #include "main/logging.hpp"
@@ -27,6 +29,7 @@
 #include "media/server.hpp"
 #include "net/http/documents.hpp"
 #include "net/server.hpp"
+#include "remote/remote_engines.hpp"
 #include "simulation/adapters/robots.hpp"
 #include "simulation/adapters/simulated_hall.hpp"
 #include "simulation/plan/floor_map.hpp"
@@ -55,12 +58,12 @@ std::string chosen(std::string const& file, std::string_view built_in) {
     return file.empty() ? std::string{files::simulation().at(std::string{built_in})} : text_of_file(file);
 }
 
-basic::Streams streams(Settings const& settings) {
+basic::Streams streams(GatewaySettings const& settings) {
     return settings.media.host.empty() ? basic::Streams::none : basic::Streams::served;
 }
 
 // Returns the names of the components that are made from the folder of profiles.
-std::vector<std::string> user_names(std::shared_ptr<xml::Schemas const> const& schemas, Settings const& settings,
+std::vector<std::string> user_names(std::shared_ptr<xml::Schemas const> const& schemas, GatewaySettings const& settings,
                                     std::vector<ComponentProfile> const& own) {
     std::vector<std::string> names;
     if (settings.profiles.empty()) return names;
@@ -70,7 +73,8 @@ std::vector<std::string> user_names(std::shared_ptr<xml::Schemas const> const& s
 }
 
 std::shared_ptr<simulation::Simulation> make_simulation(std::shared_ptr<xml::Schemas const> const& schemas,
-                                                        Settings const& settings, std::vector<ComponentProfile> const& profiles) {
+                                                        GatewaySettings const& settings,
+                                                        std::vector<ComponentProfile> const& profiles) {
     auto const named = [](std::string const& file, std::string const& built_in) { return file.empty() ? built_in : file; };
     auto plan = simulation::read_floor_plan(schemas, named(settings.floor_plan, "reception-hall.xml"),
                                             chosen(settings.floor_plan, "reception-hall.xml"));
@@ -95,7 +99,7 @@ std::string_view host_of_url(std::string_view url) {
 
 // Returns the network settings with all names of this gateway: the names in the key `hosts`, the machine's name, and the names in
 // the keys for addresses.
-net::Settings with_all_hosts(Settings const& settings) {
+net::Settings with_all_hosts(GatewaySettings const& settings) {
     auto all = settings.net;
     auto const add = [&](std::string_view name) {
         if (auto host = host_name(name)) all.hosts.push_back(std::move(*host));
@@ -138,7 +142,7 @@ std::shared_ptr<media::Server> make_media(media::Settings settings, net::Setting
     return std::make_shared<media::Server>(std::move(settings), fresh_secret);
 }
 
-bool has_steering(Settings const& settings) { return settings.steering == Steering::on || settings.sim_speed == 0; }
+bool has_steering(GatewaySettings const& settings) { return settings.steering == Steering::on || settings.sim_speed == 0; }
 
 ComponentProfile profile_of_hall(std::shared_ptr<xml::Schemas const> const& schemas) {
     auto const* const file = "simulated_hall.xml";
@@ -146,14 +150,14 @@ ComponentProfile profile_of_hall(std::shared_ptr<xml::Schemas const> const& sche
 }
 
 // The refs of all components that do not come from the user's profiles.
-std::vector<std::string> own_refs(Settings const& settings, simulation::FloorPlan const& plan) {
+std::vector<std::string> own_refs(GatewaySettings const& settings, simulation::FloorPlan const& plan) {
     auto refs = basic::component_refs(simulation::robot_names(plan));
     if (has_steering(settings)) refs.emplace_back(simulation::simulated_hall_ref);
     return refs;
 }
 
 // The value of a configuration key, as a text.
-std::string shown(std::string_view name, Settings const& settings) {
+std::string shown(std::string_view name, GatewaySettings const& settings) {
     return std::ranges::find(keys(), name, &Key::name)->show(settings);
 }
 
@@ -165,7 +169,7 @@ ParameterProfile engine_parameter(std::string name, std::string type, std::strin
             .description = std::move(description)};
 }
 
-EngineProfile engine_profile(Settings const& settings, simulation::FloorPlan const& plan) {
+EngineProfile engine_profile(GatewaySettings const& settings, simulation::FloorPlan const& plan, std::string const& instance) {
     EngineProfile profile;
     profile.object.identifier = "urn:x-rois:def:HRIEngine:RoISGateway::" + settings.engine_name;
     profile.object.code_space = "urn:ietf:rfc:2141";
@@ -173,9 +177,19 @@ EngineProfile engine_profile(Settings const& settings, simulation::FloorPlan con
     profile.parameters = {
         engine_parameter("sim_speed", "double", shown("sim_speed", settings),
                          "Simulated seconds per second; 0: simulated time stands still."),
-        engine_parameter("instance", "string", fresh_secret(), "Distinguishes this start of the engine from all others."),
+        engine_parameter("instance", "string", instance, "Distinguishes this start of the engine from all others."),
         engine_parameter("crs", "string", plan.crs, "The frame of the positions that the engine reports. It may accept others.")};
     return profile;
+}
+
+// Reads the file of sub engines again. If that fails, logs why and changes nothing.
+void read_again(std::string const& file, remote::RemoteEngines& engines) {
+    try {
+        spdlog::info("engines: reading {} again after SIGHUP", file);
+        engines.set(read_engines_file(file));
+    } catch (std::exception const& error) {
+        spdlog::warn("engines: nothing was changed: {}", error.what());
+    }
 }
 
 // Reads the folder of profiles again. If that fails, logs why and changes nothing.
@@ -195,6 +209,7 @@ int serve(CommandLine const& command) {
     auto const schemas = std::make_shared<xml::Schemas const>(files::schemas());
     auto const profiles = read_profiles(schemas);
     auto const simulation = make_simulation(schemas, settings, profiles);
+    auto const sub_engines = settings.engines.empty() ? std::vector<remote::SubEngine>{} : read_engines_file(settings.engines);
     if (command.wish == CommandLine::Wish::check_config) {
         for (auto const& warning : command.warnings) std::fprintf(stderr, "rois-gateway: warning: %s\n", warning.c_str());
         std::puts("configuration ok");
@@ -208,11 +223,14 @@ int serve(CommandLine const& command) {
     for (auto const& warning : command.warnings) spdlog::warn("{}", warning);
     auto const media = make_media(settings.media, net_settings);
     Readers readers;
-    Engine engine{engine_profile(settings, simulation->hall().plan()), profiles, settings.engine, readers, fresh_secret};
+    auto const instance = fresh_secret();
+    Engine engine{engine_profile(settings, simulation->hall().plan(), instance), profiles, settings.engine, readers,
+                  fresh_secret};
     engine.add(simulation, std::string{simulation::Simulation::provider});
     engine.describe(simulation::named_places(simulation->hall().plan()));
     auto const robots = simulation::robots(simulation, media);
-    for (auto& component : basic::robot_components(robots, profiles)) engine.add(std::move(component));
+    if (settings.robots == Robots::simulated)
+        for (auto& component : basic::robot_components(robots, profiles)) engine.add(std::move(component));
     if (has_steering(settings)) engine.add(simulation::simulated_hall(simulation, profile_of_hall(schemas)));
     SpeechLog const speech_log{simulation};
     Telemetry telemetry;
@@ -230,8 +248,21 @@ int serve(CommandLine const& command) {
                                    {.page = files::web().at("index.html"),
                                     .console = WebFiles{files::console()},
                                     .floor_map = xml::encode(simulation::floor_map(simulation->hall().plan()))}};
+    std::optional<remote::RemoteEngines> remote_engines;
+    if (!settings.engines.empty()) {
+        remote_engines.emplace(remote::RemoteEngines::Host{
+            .instance = instance,
+            .change = [&](ComponentChange change) { gateway.change(std::move(change)); },
+            .report = [](std::string const& name, std::string const& what) { spdlog::info("sub engine {}: {}", name, what); }});
+        engine.add(remote_engines->pulse(), "pulse");
+        remote_engines->set(sub_engines);
+    }
     net::Server server{net_settings, gateway, telemetry, documents, schemas};
-    if (!settings.profiles.empty()) server.on_hang_up([&] { read_again(user_components, gateway); });
+    if (!settings.profiles.empty() || remote_engines)
+        server.on_hang_up([&] {
+            if (!settings.profiles.empty()) read_again(user_components, gateway);
+            if (remote_engines) read_again(settings.engines, *remote_engines);
+        });
     if (media) spdlog::info("media are served under {}", media->url());
     spdlog::info("listening on {}", server.url());
     bool const halted = server.run();
@@ -239,14 +270,14 @@ int serve(CommandLine const& command) {
     return halted ? done : not_halted;
 }
 
-int check_health(Settings const& settings) {
+int check_health(GatewaySettings const& settings) {
     auto const trouble = rois::check_health(settings.net.host, settings.net.port);
     if (trouble.empty()) return done;
     std::fprintf(stderr, "rois-gateway: not healthy: %s\n", trouble.c_str());
     return could_not_start;
 }
 
-int check_profiles(std::string const& folder, Settings const& settings) {
+int check_profiles(std::string const& folder, GatewaySettings const& settings) {
     auto const schemas = std::make_shared<xml::Schemas const>(files::schemas());
     auto const checked = read_profile_folder(schemas, folder, read_profiles(schemas), streams(settings));
     std::fputs(report_of(checked).c_str(), stdout);

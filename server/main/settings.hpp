@@ -17,21 +17,26 @@ enum class LogLevel : std::uint8_t { debug, info, warning, error };
 // Whether the component simulated_hall exists (docs/simulation.md).
 enum class Steering : std::uint8_t { off, on };
 
-struct Settings {
+// Whether the robots of the simulated hall have components. Without them, the engine has only those of its sub engines.
+enum class Robots : std::uint8_t { simulated, none };
+
+struct GatewaySettings {
     net::Settings net;
     EngineSettings engine;
     media::Settings media;  // without a host, no streams are served
     std::string engine_name = "reception";
     double sim_speed = 1;  // 0: simulated time stands still, and there is steering
     Steering steering = Steering::off;
+    Robots robots = Robots::simulated;
     std::uint64_t seed = 1;
     std::string floor_plan;  // a file; empty: the built-in reception hall
     std::string scenario;
     std::string profiles;  // a folder of component profiles; empty: none
+    std::string engines;   // a file of sub engines; empty: none
     LogFormat log_format = LogFormat::text;
     LogLevel log_level = LogLevel::info;
 
-    Settings();
+    GatewaySettings();
 };
 
 // An invalid setting. The message is one line, with the place and the reason.

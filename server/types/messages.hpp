@@ -63,6 +63,7 @@ struct ComponentEntry {
     std::string type;    // URN of its profile
     std::string engine;  // name of its engine or sub engine
     std::shared_ptr<ComponentProfile const> profile;
+    std::shared_ptr<ComponentTraits const> traits{};  // only for engines
 };
 
 struct GetProfile {

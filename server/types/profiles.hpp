@@ -64,6 +64,26 @@ struct EngineProfile {
     std::vector<ParameterProfile> parameters;
 };
 
+// The codebooks of one parameter of type RoISIdentifier (decision 31).
+struct Codebooks {
+    std::string parameter;
+    std::vector<std::string> known;  // the first one is the default
+
+    bool operator==(Codebooks const&) const = default;
+};
+
+// What an engine must know of another engine's component and its profile does not say (decision 41). The members mean the same as
+// in ComponentDescription (engine/component.hpp).
+struct ComponentTraits {
+    std::vector<std::string> positions;
+    std::vector<Codebooks> codebooks;
+    std::vector<std::vector<std::string>> alternatives;
+    CompletedStatus status_when_stopped = CompletedStatus::abort;
+    bool moves = false;
+
+    bool operator==(ComponentTraits const&) const = default;
+};
+
 // Returns the profile with the messages and parameters of all its sub components added, its own first. Names are unique. The
 // first definition of a parameter sets its type and default value in all messages. Sub components are looked up in `known`.
 // Throws std::runtime_error with the URN if a sub component is unknown or includes itself.

@@ -103,8 +103,10 @@ World::World(std::vector<Part> const& parts, EngineSettings settings) {
     profile.object = {
         .identifier = "urn:x-rois:def:HRIEngine:test", .code_space = {}, .name = "main", .description = {}, .meta_data = {}};
     for (auto const* name : {"crs", "instance", "speed"})
-        profile.parameters.push_back(
-            {.name = name, .data_type_ref = {}, .default_value = std::string{name} + "1", .description = {}});
+        profile.parameters.push_back({.name = name,
+                                      .data_type_ref = Application::identifier("string"),
+                                      .default_value = std::string{name} + "1",
+                                      .description = {}});
     engine = std::make_unique<WorkingEngine>(std::move(profile), std::vector<ComponentProfile>{common}, settings, *this,
                                              [this] { return "secret-" + std::to_string(++secrets_); });
     for (auto const& part : parts) {

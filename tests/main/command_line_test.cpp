@@ -105,7 +105,7 @@ TEST(CommandLine, TakesTheMemoryBudgetInUnits) {
 
 TEST(Environment, EmptyVariablesAreNotSet) {
     Variable const seed{"ROIS_SEED", ""};
-    EXPECT_EQ(read({}).settings.seed, Settings{}.seed);
+    EXPECT_EQ(read({}).settings.seed, GatewaySettings{}.seed);
 }
 
 TEST(Precedence, IsFlagThenVariableThenFile) {

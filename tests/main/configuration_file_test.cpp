@@ -11,9 +11,9 @@ namespace {
 
 using testing::HasSubstr;
 
-Settings settings_of(std::string const& text) {
+GatewaySettings settings_of(std::string const& text) {
     TemporaryFile const file{text};
-    Settings settings;
+    GatewaySettings settings;
     read_configuration_file(file.name(), settings);
     return settings;
 }
@@ -21,7 +21,7 @@ Settings settings_of(std::string const& text) {
 // Returns the error in this text, with FILE in place of the file's name.
 std::string complaint_about(std::string const& text) {
     TemporaryFile const file{text};
-    Settings settings;
+    GatewaySettings settings;
     try {
         read_configuration_file(file.name(), settings);
         return "";
@@ -42,11 +42,11 @@ TEST(ConfigurationFile, SetsKeysAndIgnoresComments) {
     EXPECT_EQ(settings.sim_speed, 2.5);
     EXPECT_EQ(settings.net.host, "::1");
     EXPECT_EQ(settings.net.port, 9000);
-    EXPECT_EQ(settings.seed, Settings{}.seed);
+    EXPECT_EQ(settings.seed, GatewaySettings{}.seed);
 }
 
 TEST(ConfigurationFile, ThatIsPrintedSetsTheSameValues) {
-    Settings settings;
+    GatewaySettings settings;
     settings.seed = 77;
     auto const printed = commented_configuration(settings);
     EXPECT_THAT(printed, HasSubstr("\"session_timeout\": 60,\n"));
@@ -78,7 +78,7 @@ TEST(ConfigurationFile, WithAMistakeIsRefusedInOneLine) {
 }
 
 TEST(Keys, AcceptTheValuesThatTheyShow) {
-    Settings settings;
+    GatewaySettings settings;
     for (auto const& key : keys()) {
         auto const shown = key.show(settings);
         EXPECT_TRUE(shown.empty() || key.set(settings, shown)) << key.name;
@@ -87,11 +87,11 @@ TEST(Keys, AcceptTheValuesThatTheyShow) {
 }
 
 TEST(Keys, ChangeNothingIfAValueIsInvalid) {
-    Settings settings;
+    GatewaySettings settings;
     for (auto const& key : keys()) {
         if (key.kind != Key::Kind::number) continue;
         EXPECT_FALSE(key.set(settings, "x")) << key.name;
-        EXPECT_EQ(key.show(settings), key.show(Settings{})) << key.name;
+        EXPECT_EQ(key.show(settings), key.show(GatewaySettings{})) << key.name;
     }
 }
 

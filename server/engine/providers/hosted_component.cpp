@@ -21,6 +21,10 @@ void HostedComponent::bind(Ticket ticket, Instant now) {
         ticket, [=](Component* component) { component->bind(ticket, now); }, true);
 }
 
+void HostedComponent::released(Instant now) {
+    add({}, [=](Component* component) { component->released(now); });
+}
+
 void HostedComponent::prepare(Ticket ticket, std::string command_type, ParameterList parameters, Instant now) {
     add(
         ticket,

@@ -21,6 +21,7 @@ public:
 
     void attach();
     void bind(Ticket, Instant now);
+    void released(Instant now);
     void prepare(Ticket, std::string command_type, ParameterList parameters, Instant now);
     void begin(CommandHandle, Begin, Instant now);
     void halt(Ticket, Instant now) noexcept;

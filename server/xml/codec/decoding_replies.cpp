@@ -46,10 +46,36 @@ bool read(Node node, Connect::Reply& reply) {
     return !reply.session.text.empty();
 }
 
+// Null if the entry has none.
+std::shared_ptr<ComponentTraits const> decode_traits(Node entry) {
+    auto const moves = entry.attribute("moves");
+    auto const when_stopped = to_code<CompletedStatus>(entry.attribute("when_stopped").value_or(""));
+    if (!moves || !when_stopped) return {};
+    ComponentTraits traits{
+        .positions = {}, .codebooks = {}, .alternatives = {}, .status_when_stopped = *when_stopped, .moves = *moves == "true"};
+    for (auto const part : entry.children()) {
+        if (part.name() == "position") {
+            traits.positions.emplace_back(part.text());
+        } else if (part.name() == "codebook") {
+            auto parameter = part.attribute_text("parameter");
+            if (traits.codebooks.empty() || traits.codebooks.back().parameter != parameter)
+                traits.codebooks.push_back({std::move(parameter), {}});
+            traits.codebooks.back().known.emplace_back(part.text());
+        } else if (part.name() == "alternatives") {
+            auto& group = traits.alternatives.emplace_back();
+            for (auto const parameter : part.children()) group.emplace_back(parameter.text());
+        }
+    }
+    return std::make_shared<ComponentTraits const>(std::move(traits));
+}
+
 bool read(Node node, GetProfile::Reply& reply) {
     for (auto const entry : node.child("components").children())
-        reply.components.push_back(
-            {entry.attribute_text("ref"), entry.attribute_text("type"), entry.attribute_text("engine"), {}});
+        reply.components.push_back({entry.attribute_text("ref"),
+                                    entry.attribute_text("type"),
+                                    entry.attribute_text("engine"),
+                                    {},
+                                    decode_traits(entry)});
     return static_cast<bool>(node.child("components"));
 }
 

@@ -43,11 +43,25 @@ void write(Writer& out, HasOnlyResults auto const& reply) { write_results(out, r
 
 void write(Writer& out, Connect::Reply const& reply) { out.element("session", reply.session.text); }
 
+void write_traits(Writer& out, ComponentTraits const& traits) {
+    out.constant("moves", traits.moves ? "true" : "false").constant("when_stopped", to_text(traits.status_when_stopped));
+    for (auto const& position : traits.positions) out.element("position", position);
+    for (auto const& [parameter, known] : traits.codebooks)
+        for (auto const& codebook : known) out.start("codebook").attribute("parameter", parameter).text(codebook).end();
+    for (auto const& group : traits.alternatives) {
+        out.start("alternatives");
+        for (auto const& parameter : group) out.element("parameter", parameter);
+        out.end();
+    }
+}
+
 void write(Writer& out, GetProfile::Reply const& reply) {
     write_profile(out, *reply.profile, "engine." + reply.profile->object.name);
     out.start("components");
     for (auto const& entry : reply.components) {
-        out.start("component").attribute("ref", entry.ref).attribute("type", entry.type).attribute("engine", entry.engine).end();
+        out.start("component").attribute("ref", entry.ref).attribute("type", entry.type).attribute("engine", entry.engine);
+        if (entry.traits) write_traits(out, *entry.traits);
+        out.end();
     }
     out.end();
     for (auto const& entry : reply.components) write_profile(out, *entry.profile, "profile." + entry.ref);

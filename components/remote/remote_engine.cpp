@@ -1,0 +1,397 @@
+// The components of a sub engine: they come and go with its profile, and each question or command becomes one request.
+#include "remote/remote_engine.hpp"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "remote/remote_component.hpp"
+#include "types/identifier_length.hpp"
+#include "types/text/texts.hpp"
+
+namespace rois::remote {
+
+namespace {
+
+constexpr int deepest = 8;  // levels of engines
+
+void collect(EngineProfile const& profile, int level, std::vector<std::string>& instances) {
+    if (level > deepest) throw std::runtime_error("its engines have more than " + std::to_string(deepest) + " levels");
+    auto const* instance = find_parameter(profile.parameters, "instance");
+    if (instance != nullptr && instance->default_value) instances.push_back(*instance->default_value);
+    for (auto const& sub : profile.sub_profiles) collect(sub, level + 1, instances);
+}
+
+// The instances of the sub engine and of its own ones, for the engines that this one is a sub engine of.
+void add_engines(EngineProfile const& profile, Translation const& translation,
+                 std::map<std::string, std::vector<ParameterProfile>>& engines) {
+    auto& parameters = engines[translation.engine_here(profile.object.name)];
+    for (auto const& each : profile.parameters)
+        if (each.name == "instance") parameters.push_back(each);
+    for (auto const& sub : profile.sub_profiles) add_engines(sub, translation, engines);
+}
+
+// Throws std::runtime_error if this engine cannot have such a component.
+void check(ComponentEntry const& entry, std::string const& name, std::string const& own_name) {
+    auto const& ref = entry.ref;
+    auto const prefix = entry.engine == own_name ? std::string{} : entry.engine + ".";
+    auto const code = ref.starts_with(prefix) ? std::string_view{ref}.substr(prefix.size()) : std::string_view{ref};
+    auto const refuse = [&](std::string const& why) {
+        throw std::runtime_error("its component " + quoted(ref, 100) + " " + why);
+    };
+    if (code.empty() || trimmed(code) != code) refuse("has no name, or one that begins or ends with white space");
+    if (code.find('.') != std::string_view::npos) refuse("has a dot in its name, and is not of an engine with such a name");
+    if (name.size() + 1 + ref.size() > longest_identifier)
+        refuse("has a name of " + std::to_string(ref.size()) + " characters: expected at most " +
+               std::to_string(longest_identifier - name.size() - 1));
+    if (!entry.profile || !entry.traits) refuse("lacks its profile, or what only engines are told of it");
+}
+
+CompletedStatus status_of_refusal(ReturnCode code) {
+    if (code == ReturnCode::out_of_resources) return CompletedStatus::out_of_resources;
+    return code == ReturnCode::timeout ? CompletedStatus::timeout : CompletedStatus::error;
+}
+
+Condition only(std::string const& ref) {
+    return {PropertyComparison{.left = {ValueReference{"component_ref"}}, .right = {Literal{ref}}}};
+}
+
+CommandUnit unit_of(std::string const& ref, std::string type, std::string id, ParameterList arguments) {
+    CommandMessage message{.component_ref = {}, .command_type = std::move(type), .command_id = {std::move(id)}, .arguments = {}};
+    message.component_ref.code = ref;
+    message.arguments = std::move(arguments);
+    return {.delay_time = {}, .unit = std::move(message)};
+}
+
+Outcome const& outcome_of(Reply const& reply) {
+    return std::visit([](Outcome const& outcome) -> Outcome const& { return outcome; }, reply);
+}
+
+}  // namespace
+
+RemoteEngine::RemoteEngine(SubEngine settings, std::shared_ptr<Surroundings> surroundings)
+    : settings_{std::move(settings)}, surroundings_{std::move(surroundings)} {}
+
+// --- Its profile ---
+
+void RemoteEngine::ask_profile() {
+    profile_changed_ = profile_asked_;
+    if (std::exchange(profile_asked_, true)) return;
+    ask(GetProfile{}, [self = shared_from_this()](Reply const* reply) {
+        self->profile_asked_ = false;
+        auto const* profile = reply == nullptr ? nullptr : std::get_if<GetProfile::Reply>(reply);
+        if (profile == nullptr) return;
+        self->take_profile(*profile);
+        if (std::exchange(self->profile_changed_, false)) self->ask_profile();
+    });
+}
+
+void RemoteEngine::take_profile(GetProfile::Reply const& reply) {
+    try {
+        if (reply.return_code != ReturnCode::ok || !reply.profile)
+            throw std::runtime_error("it does not tell its profile: " + reply.reason);
+        std::vector<std::string> instances;
+        collect(*reply.profile, 2, instances);
+        if (auto const why = surroundings_->why_loop(settings_.name, instances)) throw std::runtime_error(*why);
+        enter(reply);
+    } catch (std::exception const& problem) {
+        leave(problem.what());
+        session_ = {};
+        return give_up_link(problem.what());
+    }
+    if (lost_at_ && !last_error_.empty()) surroundings_->report(settings_.name, "present again");
+    lost_at_.reset();
+    failures_ = 0;
+    last_error_.clear();
+    subscribe();
+    restore();
+}
+
+// Components whose profile has changed leave, and come again.
+void RemoteEngine::enter(GetProfile::Reply const& reply) {
+    auto const& profile = *reply.profile;
+    auto const* crs = find_parameter(profile.parameters, "crs");
+    auto const frame = crs == nullptr ? std::string{} : crs->default_value.value_or("");
+    Translation const translation{settings_.name, profile.object.name, frame, !settings_.placement};
+    ComponentChange change{.going = {}, .coming = {}, .belongings = {}, .provider = settings_.name};
+    if (settings_.placement && !frame.empty()) {
+        auto const& [position, orientation, covariance] = *settings_.placement;
+        change.belongings.frames.push_back({.crs = translation.frame_here(),
+                                            .base = {},
+                                            .position = position,
+                                            .orientation = orientation,
+                                            .covariance = covariance});
+    }
+    add_engines(profile, translation, change.belongings.engines);
+    Parts parts;
+    auto const is_taken = [&](std::string const& ref) {
+        return settings_.components.empty() || std::ranges::find(settings_.components, ref) != settings_.components.end();
+    };
+    for (auto const& entry : reply.components) {
+        if (!is_taken(entry.ref)) continue;
+        check(entry, settings_.name, profile.object.name);
+        if (parts.size() >= settings_.most_components)
+            throw std::runtime_error("it has more than " + std::to_string(settings_.most_components) + " components");
+        auto const known = part_of(entry.ref);
+        bool const stays = known && *known->entry.profile == *entry.profile && *known->entry.traits == *entry.traits &&
+                           known->entry.engine == entry.engine;
+        auto& part = parts[entry.ref];
+        if (part) throw std::runtime_error("it has two components with the ref " + quoted(entry.ref));
+        part = stays ? known : std::make_shared<Part>(entry, translation.component_here(entry.ref));
+        if (stays) continue;
+        auto shown = *entry.profile;
+        shown.sub_components.clear();  // their messages are in it
+        translation.to_here(shown);
+        ComponentDescription description;
+        description.ref.code = part->ref;
+        description.engine = translation.engine_here(entry.engine);
+        description.profile = std::make_shared<ComponentProfile const>(std::move(shown));
+        description.provider = settings_.name;
+        description.returns_at_once = true;
+        description.crs = translation.frame_here();
+        description.positions = entry.traits->positions;
+        description.codebooks = entry.traits->codebooks;
+        description.alternatives = entry.traits->alternatives;
+        description.status_when_stopped = entry.traits->status_when_stopped;
+        description.moves = entry.traits->moves;
+        description.confirms_binding = true;
+        change.coming.push_back(std::make_unique<RemoteComponent>(std::move(description), part, shared_from_this()));
+    }
+    for (auto const& [ref, part] : parts_) {
+        auto const found = parts.find(ref);
+        if (found != parts.end() && found->second == part) continue;
+        change.going.push_back(part->ref);
+    }
+    translation_ = translation;
+    auto const before = std::exchange(parts_, std::move(parts));
+    bool const changes = !change.going.empty() || !change.coming.empty();
+    try {
+        if (changes || before.empty()) surroundings_->change(std::move(change));
+    } catch (...) {
+        parts_ = before;
+        throw;
+    }
+    for (auto const& [ref, part] : before)
+        if (part_of(ref) != part && part->binding != Part::Binding::none) ask(Release{{.code = ref}}, [](Reply const*) {});
+    if (changes) surroundings_->report(settings_.name, "present with " + std::to_string(parts_.size()) + " components");
+}
+
+// All events, whether an application here wants them or not: so no subscription here has to wait for the sub engine.
+void RemoteEngine::subscribe() {
+    for (auto const& [ref, part] : parts_) {
+        for (auto const& message : part->entry.profile->messages) {
+            if (message.kind != MessageKind::event || !subscribed_.insert(message.name).second) continue;
+            ask(Subscribe{.event_type = message.name, .condition = {}, .inline_results = true}, [](Reply const*) {});
+        }
+    }
+}
+
+// In a new session, the components that applications here have bound are bound again.
+void RemoteEngine::restore() {
+    for (auto const& [ref, part] : parts_) {
+        if (!part->is_wanted || part->binding != Part::Binding::none) continue;
+        part->binding = Part::Binding::asked;
+        ask(Bind{{.code = ref}}, [part](Reply const* reply) {
+            bool const is_bound = reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok;
+            part->binding = is_bound ? Part::Binding::held : Part::Binding::none;
+        });
+    }
+}
+
+std::shared_ptr<Part> RemoteEngine::part_of(std::string_view ref) const {
+    auto const found = parts_.find(ref);
+    return found == parts_.end() ? nullptr : found->second;
+}
+
+// --- What it reports ---
+
+void RemoteEngine::operator()(ReceiveEvent const& event) {
+    auto const part = part_of(event.component_ref.code);
+    if (!part || !event.results) return;
+    auto results = *event.results;
+    translation_.to_here(results);
+    part->report(EventOccurred{event.event_type, std::make_shared<Results const>(std::move(results))});
+}
+
+void RemoteEngine::operator()(ReceiveError const& error) {
+    auto const text = error.text.value_or("an error without a text");
+    auto const part = error.component_ref ? part_of(error.component_ref->code) : nullptr;
+    if (part) return part->report(ErrorOccurred{error.error_type, text});
+    note(text);
+}
+
+void RemoteEngine::operator()(ComponentChanged const& changed) {
+    auto const& known = states_[changed.component_ref.code] = changed;
+    if (auto const part = part_of(changed.component_ref.code)) report_state(*part, known);
+}
+
+void RemoteEngine::report_state(Part& part, ComponentChanged const& changed) const {
+    ComponentState state{.status = changed.status, .location = {}, .parameters = changed.results.parameters};
+    if (!changed.results.located.empty()) {
+        auto& location = state.location.emplace(changed.results.located.front());
+        translation_.to_here(location);
+        location.ref = translation_.engine_here(location.ref);
+    }
+    part.report(std::make_shared<ComponentState const>(std::move(state)));
+}
+
+void RemoteEngine::operator()(Completed const& completed) {
+    auto const found = commands_.find(completed.command_id.text);
+    if (found == commands_.end()) return;  // it ended before, or never began
+    auto const end = std::move(found->second);
+    commands_.erase(found);
+    end(completed);
+}
+
+// --- What this engine asks ---
+
+void RemoteEngine::attach(std::shared_ptr<Part> const& part) {
+    auto const state = states_.find(part->entry.ref);
+    if (state != states_.end()) report_state(*part, state->second);
+}
+
+void RemoteEngine::bind(std::shared_ptr<Part> const& part, Ticket ticket) {
+    part->is_wanted = true;
+    if (part->binding == Part::Binding::held) return part->answer(ticket, Done{});
+    part->binding = Part::Binding::asked;
+    part->is_released = false;
+    ask(Bind{{.code = part->entry.ref}}, [self = shared_from_this(), part, ticket](Reply const* reply) {
+        auto const code = reply == nullptr ? ReturnCode::error : outcome_of(*reply).return_code;
+        part->binding = code == ReturnCode::ok ? Part::Binding::held : Part::Binding::none;
+        if (reply == nullptr) return part->answer(ticket, Failed{"its engine is lost"});
+        if (code == ReturnCode::out_of_resources) return part->answer(ticket, Refused{outcome_of(*reply).reason});
+        if (code != ReturnCode::ok) return part->answer(ticket, Failed{outcome_of(*reply).reason});
+        part->answer(ticket, Done{});
+        if (std::exchange(part->is_released, false)) self->released(part);
+    });
+}
+
+// While the binding is asked for, waits for the answer: it may be late, and the binding then not wanted any more.
+void RemoteEngine::released(std::shared_ptr<Part> const& part) {
+    part->is_wanted = false;
+    if (part->binding == Part::Binding::asked) part->is_released = true;
+    if (part->binding != Part::Binding::held) return;
+    part->binding = Part::Binding::none;
+    ask(Release{{.code = part->entry.ref}}, [](Reply const*) {});
+}
+
+// For `start`, the stored parameters are set first: they may have been set while the sub engine was lost.
+CommandUnitSequence RemoteEngine::sequence_of(Part const& part, std::string const& command_type, ParameterList const& parameters,
+                                              std::string const& id) const {
+    auto const& ref = part.entry.ref;
+    auto list = translation_.to_there(parameters);
+    CommandUnitSequence sequence;
+    auto& units = sequence.command_unit_list;
+    if (command_type == "start") {
+        auto const* set = find_message(*part.entry.profile, MessageKind::command, "set_parameter");
+        auto const is_stored = [&](Parameter const& each) {
+            return set != nullptr && find_parameter(set->arguments, each.name) != nullptr;
+        };
+        auto const arguments = std::stable_partition(list.begin(), list.end(), is_stored);
+        ParameterList const stored{list.begin(), arguments};
+        list.erase(list.begin(), arguments);
+        if (!stored.empty()) units.push_back(unit_of(ref, "set_parameter", id.empty() ? "" : id + "s", stored));
+    }
+    units.push_back(unit_of(ref, command_type, id, std::move(list)));
+    return sequence;
+}
+
+void RemoteEngine::prepare(std::shared_ptr<Part> const& part, Ticket ticket, std::string const& command_type,
+                           ParameterList const& parameters) {
+    Execute check{.command_unit_list = sequence_of(*part, command_type, parameters, {}), .check_only = true};
+    ask(std::move(check), [self = shared_from_this(), part, ticket, command_type, parameters](Reply const* reply) {
+        if (reply == nullptr) return part->answer(ticket, Failed{"its engine is lost"});
+        auto const& outcome = outcome_of(*reply);
+        if (outcome.return_code == ReturnCode::bad_parameter) return part->answer(ticket, Refused{outcome.reason});
+        if (outcome.return_code != ReturnCode::ok) return part->answer(ticket, Failed{outcome.reason});
+        part->answer(ticket, [self, part, command_type, parameters](CommandHandle command, Instant) {
+            self->run([=](RemoteEngine& engine) { engine.start(part, command, command_type, parameters); });
+        });
+    });
+}
+
+void RemoteEngine::start(std::shared_ptr<Part> const& part, CommandHandle command, std::string const& command_type,
+                         ParameterList const& parameters) {
+    auto const id = "c" + std::to_string(++last_command_);
+    auto sequence = sequence_of(*part, command_type, parameters, id);
+    auto const setting = id + "s";
+    bool const sets = sequence.command_unit_list.size() > 1;
+    part->running.insert(command);
+    auto const end = [part, command](CommandEnded ended) {
+        if (part->running.erase(command) > 0) part->report(std::move(ended));
+    };
+    commands_[id] = [self = shared_from_this(), end, command](Completed const& completed) {
+        CommandEnded ended{
+            .command = command, .status = completed.status, .results = {}, .afterwards = {}, .reason = completed.reason};
+        if (completed.results) ended.results = *completed.results;
+        self->translation_.to_here(ended.results);
+        if (completed.active) ended.afterwards = *completed.active ? Afterwards::active : Afterwards::idle;
+        end(std::move(ended));
+    };
+    if (sets)
+        commands_[setting] = [end, command](Completed const& completed) {
+            if (completed.status == CompletedStatus::ok) return;
+            end({.command = command, .status = completed.status, .results = {}, .afterwards = {}, .reason = completed.reason});
+        };
+    ask(Execute{std::move(sequence)},
+        [self = shared_from_this(), part, command, end, id, setting](Reply const* reply) {
+            if (reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok) {
+                if (part->running.contains(command)) part->report(CommandStarted{command});
+                return;
+            }
+            self->commands_.erase(id);
+            self->commands_.erase(setting);
+            auto const status = reply == nullptr ? CompletedStatus::abort : status_of_refusal(outcome_of(*reply).return_code);
+            auto const reason = reply == nullptr ? "its engine is lost" : outcome_of(*reply).reason;
+            end({.command = command, .status = status, .results = {}, .afterwards = {}, .reason = reason});
+        },
+        {id});
+}
+
+// Without a binding there, nothing runs for this engine.
+void RemoteEngine::halt(std::shared_ptr<Part> const& part, Ticket ticket) {
+    if (part->binding != Part::Binding::held || session_.text.empty() || is_given_up_) return part->report(HaltConfirmed{ticket});
+    part->halts.push_back(ticket);
+    if (part->halts.size() > 1) return;
+    command(part, "stop", [part](CompletedStatus status) {
+        auto const tickets = std::exchange(part->halts, {});
+        if (status == CompletedStatus::ok && !tickets.empty()) part->report(HaltConfirmed{tickets.back()});
+    });
+}
+
+void RemoteEngine::pause(std::shared_ptr<Part> const& part, Ticket ticket, std::string const& command_type) {
+    command(part, command_type, [part, ticket, command_type](CompletedStatus status) {
+        if (status == CompletedStatus::ok)
+            part->answer(ticket, Done{});
+        else
+            part->answer(ticket, Failed{"its engine could not " + command_type + " it"});
+    });
+}
+
+// Runs a command without arguments. Calls `then` once, with the end.
+void RemoteEngine::command(std::shared_ptr<Part> const& part, std::string const& command_type,
+                           std::function<void(CompletedStatus)> const& then) {
+    auto const id = "c" + std::to_string(++last_command_);
+    commands_[id] = [then](Completed const& completed) { then(completed.status); };
+    ask(Execute{{{unit_of(part->entry.ref, command_type, id, {})}}},
+        [self = shared_from_this(), then, id](Reply const* reply) {
+            if (reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok) return;
+            if (self->commands_.erase(id) > 0) then(CompletedStatus::error);
+        },
+        {id});
+}
+
+void RemoteEngine::query(std::shared_ptr<Part> const& part, Ticket ticket, std::string const& query_type) {
+    Query asked{.query_type = query_type, .condition = {}};
+    asked.condition.filter = only(part->entry.ref);
+    ask(std::move(asked), [self = shared_from_this(), part, ticket](Reply const* reply) {
+        auto const* answer = reply == nullptr ? nullptr : std::get_if<Query::Reply>(reply);
+        if (answer == nullptr || answer->return_code != ReturnCode::ok) return part->answer(ticket, std::vector<Results>{});
+        auto results = answer->results;
+        self->translation_.to_here(results);
+        part->answer(ticket, one_row(std::move(results)));
+    });
+}
+
+}  // namespace rois::remote

@@ -1,0 +1,157 @@
+// A sub engine (7.2): the link to its gateway, our session there, and its components, which it adds to this engine
+// (docs/engines.md).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/engine.hpp"
+#include "links/link.hpp"
+#include "remote/part.hpp"
+#include "remote/sub_engine.hpp"
+#include "remote/translation.hpp"
+#include "types/messages.hpp"
+#include "xml/codec/codec.hpp"
+
+namespace rois::remote {
+
+// What a sub engine needs. All functions are called on the thread of the links, except `post`.
+class Surroundings {
+public:
+    virtual ~Surroundings() = default;
+
+    virtual Steady now() const = 0;
+    // Calls `ring` once, at this time or soon afterwards.
+    virtual void at(Steady, std::function<void()> ring) = 0;
+    // Thread-safe: calls the function on the thread of the links.
+    virtual void post(std::function<void()>) = 0;
+    virtual std::shared_ptr<client::Link> link(SubEngine const&, client::Link::Listener&) = 0;
+    // Changes this engine's components. Throws std::exception with the reason if it refuses.
+    virtual void change(ComponentChange) = 0;
+    // Returns why the engines with these instances must not be connected to this one, or nothing: one of them is this engine, or
+    // another sub engine has it. Otherwise they belong to this sub engine, instead of those before.
+    virtual std::optional<std::string> why_loop(std::string const& sub_engine, std::vector<std::string> const& instances) = 0;
+    // Returns whether this engine's clock runs. If not, the sub engine receives no signs of life, and its robot stops.
+    virtual bool is_alive() const = 0;
+    // A line of the log about the sub engine.
+    virtual void report(std::string const& sub_engine, std::string const& what) = 0;
+};
+
+// Used on the thread of the links, except `run`.
+class RemoteEngine final : public std::enable_shared_from_this<RemoteEngine>, private client::Link::Listener {
+public:
+    // How it stands, for people.
+    enum class Standing : std::uint8_t {
+        away,        // no session: the next attempt follows after a pause
+        connecting,  // no session: an attempt runs
+        present,     // its components can be used
+        lost         // the link is lost; the session goes on if it returns within the window
+    };
+
+    RemoteEngine(SubEngine, std::shared_ptr<Surroundings>);
+
+    SubEngine const& settings() const { return settings_; }
+    Standing standing() const;
+    std::string const& last_error() const { return last_error_; }
+    std::size_t components() const { return parts_.size(); }
+
+    void begin();
+    // Ends the session. Its components leave. Nothing happens after this.
+    void end();
+
+    // From any thread: calls the function on the thread of the links.
+    void run(std::function<void(RemoteEngine&)>);
+
+    // What the engine asks of a component.
+    void attach(std::shared_ptr<Part> const&);
+    void bind(std::shared_ptr<Part> const&, Ticket);
+    void released(std::shared_ptr<Part> const&);
+    void prepare(std::shared_ptr<Part> const&, Ticket, std::string const& command_type, ParameterList const&);
+    void start(std::shared_ptr<Part> const&, CommandHandle, std::string const& command_type, ParameterList const&);
+    void halt(std::shared_ptr<Part> const&, Ticket);
+    void pause(std::shared_ptr<Part> const&, Ticket, std::string const& command_type);  // suspend or resume
+    void query(std::shared_ptr<Part> const&, Ticket, std::string const& query_type);
+
+private:
+    // Called with the answer, or with null: the session has ended before it came.
+    using Then = std::function<void(Reply const*)>;
+    struct Open {
+        client::Link::Document document;
+        Then then;
+        CommandId once;  // of an execute, which must not be performed twice
+    };
+
+    // --- remote_session.cpp: the link and the session ---
+    void attempt();
+    void connected() override;
+    void attached() override {}
+    void document(std::string_view) override;
+    void failed(std::string const& reason, client::Failure) override;
+    void pinged() override {}
+    void take(xml::Answered const&);
+    void take(Fault const&);
+    void take(xml::NumberedNotification const&);
+    void opened(Connect::Reply const&);
+    void resumed(ReturnCode);
+    void send_again();
+    void give_up_link(std::string const& reason);
+    void give_up(std::string const& reason);
+    void leave(std::string const& reason);
+    void await_next_attempt();
+    void give_signs_of_life(std::uint64_t session);
+    void note(std::string const& what);
+    void ask(Operation, Then, CommandId once = {});
+
+    // --- remote_engine.cpp: its profile and components ---
+    using Parts = std::map<std::string, std::shared_ptr<Part>, std::less<>>;  // by their refs there
+    void report_state(Part&, ComponentChanged const&) const;
+    void command(std::shared_ptr<Part> const&, std::string const& command_type, std::function<void(CompletedStatus)> const& then);
+    void ask_profile();
+    void take_profile(GetProfile::Reply const&);
+    void enter(GetProfile::Reply const&);
+    void subscribe();
+    void restore();
+    std::shared_ptr<Part> part_of(std::string_view ref) const;
+    void operator()(ReceiveEvent const&);
+    void operator()(ReceiveError const&);
+    void operator()(Completed const&);
+    void operator()(Lost const&) {}
+    void operator()(ProfileChanged const&) { ask_profile(); }
+    void operator()(ComponentChanged const&);
+    CommandUnitSequence sequence_of(Part const&, std::string const& command_type, ParameterList const&,
+                                    std::string const& id) const;
+
+    SubEngine settings_;
+    std::shared_ptr<Surroundings> surroundings_;
+    std::string last_error_;
+    Translation translation_;
+    xml::AnswerReader reader_;
+    Parts parts_;
+    std::map<std::string, ComponentChanged, std::less<>> states_;  // by refs there, also of components that are not here yet
+    std::map<std::string, std::function<void(Completed const&)>, std::less<>> commands_;  // whose end is expected, by id
+    std::set<std::string> subscribed_;                                                    // event types
+
+    std::shared_ptr<client::Link> link_;  // null between attempts
+    SessionId session_;                   // empty: none
+    std::uint64_t last_sequence_ = 0;
+    bool is_open_ = false;  // requests can be sent
+    std::map<std::uint64_t, Open> open_;
+    std::uint64_t last_request_ = 0;
+    std::uint64_t last_command_ = 0;
+    std::uint64_t era_ = 0;          // counts attempts and lost links: alarms of an earlier one are void
+    unsigned failures_ = 0;          // in a row
+    bool is_given_up_ = false;       // the session, which may still exist there
+    std::optional<Steady> lost_at_;  // when the session lost its link; until its components are there again
+    bool profile_asked_ = false;     // and not answered yet
+    bool profile_changed_ = false;   // since then
+    bool is_over_ = false;
+};
+
+}  // namespace rois::remote

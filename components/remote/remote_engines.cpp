@@ -1,0 +1,112 @@
+#include "remote/remote_engines.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "core/loop.hpp"
+#include "remote/remote_engine.hpp"
+#include "types/text/texts.hpp"
+
+namespace rois::remote {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto ping_interval = 1s;  // two seconds of silence end a link
+constexpr auto longest_pause_of_clock = 500ms;
+
+class Pulse final : public Device {
+public:
+    void advance(Instant now) override { last_.store(now.steady, std::memory_order_relaxed); }
+    bool beats(Steady now) const { return now - last_.load(std::memory_order_relaxed) < longest_pause_of_clock; }
+
+private:
+    std::atomic<Steady> last_ = Steady{};
+};
+
+}  // namespace
+
+// All members are used on the thread of the links, except `post`, and `pulse_` itself.
+class RemoteEngines::Links final : public Surroundings, public std::enable_shared_from_this<Links> {
+public:
+    explicit Links(Host host) : host_{std::move(host)} {}
+
+    void start() { loop_.start(shared_from_this()); }
+    void stop() {
+        post([this] {
+            set({});
+            loop_.finish();
+        });
+        loop_.join();
+    }
+    std::shared_ptr<Device> pulse() const { return pulse_; }
+
+    void set(std::vector<SubEngine> const& wanted) {
+        auto const stays = [&](RemoteEngine const& engine) {
+            return std::ranges::find(wanted, engine.settings()) != wanted.end();
+        };
+        for (auto const& [name, engine] : std::exchange(engines_, {})) {
+            if (stays(*engine))
+                engines_.emplace(name, engine);
+            else
+                engine->end();
+        }
+        for (auto const& each : wanted) {
+            auto& engine = engines_[each.name];
+            if (engine) continue;
+            engine = std::make_shared<RemoteEngine>(each, shared_from_this());
+            engine->begin();
+        }
+    }
+
+    void post(std::function<void()> what) override { loop_.post(std::move(what)); }
+
+private:
+    Steady now() const override { return std::chrono::steady_clock::now(); }
+    void at(Steady when, std::function<void()> ring) override { loop_.at(when, std::move(ring)); }
+
+    std::shared_ptr<client::Link> link(SubEngine const& to, client::Link::Listener& listener) override {
+        auto& settings = settings_[to.name];
+        settings.url = to.url;
+        settings.ping_interval = ping_interval;
+        settings.longest_document = to.longest_document;
+        return client::websocket_link(loop_, client::read_url(to.url), settings, listener);
+    }
+
+    void change(ComponentChange change) override { host_.change(std::move(change)); }
+    void report(std::string const& sub_engine, std::string const& what) override { host_.report(sub_engine, what); }
+    bool is_alive() const override { return pulse_->beats(now()); }
+
+    std::optional<std::string> why_loop(std::string const& sub_engine, std::vector<std::string> const& instances) override {
+        for (auto const& instance : instances) {
+            if (instance == host_.instance) return "it has this engine as a sub engine: that would be a loop";
+            for (auto const& [other, known] : instances_)
+                if (other != sub_engine && std::ranges::find(known, instance) != known.end())
+                    return "the sub engine " + quoted(other) + " is the same engine, or has it";
+        }
+        instances_[sub_engine] = instances;
+        return {};
+    }
+
+    Host const host_;
+    client::Loop loop_;
+    std::shared_ptr<Pulse> const pulse_ = std::make_shared<Pulse>();
+    std::map<std::string, std::shared_ptr<RemoteEngine>> engines_;
+    std::map<std::string, Settings> settings_;  // of the links, which refer to them
+    std::map<std::string, std::vector<std::string>> instances_;
+};
+
+RemoteEngines::RemoteEngines(Host host) : links_{std::make_shared<Links>(std::move(host))} { links_->start(); }
+
+RemoteEngines::~RemoteEngines() { links_->stop(); }
+
+void RemoteEngines::set(std::vector<SubEngine> wanted) {
+    links_->post([links = links_, wanted = std::move(wanted)] { links->set(wanted); });
+}
+
+std::shared_ptr<Device> RemoteEngines::pulse() const { return links_->pulse(); }
+
+}  // namespace rois::remote

@@ -1,0 +1,43 @@
+// All sub engines of this engine, and the thread of their links.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/component.hpp"
+#include "engine/engine.hpp"
+#include "remote/sub_engine.hpp"
+
+namespace rois::remote {
+
+// Thread-safe.
+class RemoteEngines {
+public:
+    // Both functions are called on the thread of the links. `change` changes this engine's components, and may throw. `report`
+    // receives lines for the log.
+    struct Host {
+        std::string instance;  // of this engine
+        std::function<void(ComponentChange)> change;
+        std::function<void(std::string const& sub_engine, std::string const& what)> report;
+    };
+
+    explicit RemoteEngines(Host);
+    // Ends all sessions there.
+    ~RemoteEngines();
+    RemoteEngines(RemoteEngines const&) = delete;
+    RemoteEngines& operator=(RemoteEngines const&) = delete;
+
+    // The sub engines from now on. Those whose settings have not changed stay as they are.
+    void set(std::vector<SubEngine>);
+
+    // A device by which the engine's clock shows that it runs. Add it to the engine.
+    std::shared_ptr<Device> pulse() const;
+
+private:
+    class Links;
+    std::shared_ptr<Links> links_;
+};
+
+}  // namespace rois::remote

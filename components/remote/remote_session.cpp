@@ -1,0 +1,257 @@
+// The link to a sub engine, and the session there: connects, resumes the session within its window, and gives it up after that.
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include "remote/remote_engine.hpp"
+#include "types/text/texts.hpp"
+
+namespace rois::remote {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto time_for_attempt = 5s;
+constexpr auto first_pause = 100ms;
+constexpr auto longest_pause = 30s;
+constexpr auto between_signs_of_life = 250ms;
+
+// The request_id of requests that have no number.
+constexpr std::string_view opening = "connect";
+constexpr std::string_view sign_of_life = "alive";
+constexpr std::string_view resuming = "resume";  // as client::Link sends it
+// Asks, in front of a request's number, whether an execute was performed whose answer was lost.
+constexpr std::string_view was_performed = "performed ";
+
+std::optional<std::uint64_t> number_of(std::string_view text) {
+    std::uint64_t number = 0;
+    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || end != text.data() + text.size()) return {};
+    return number;
+}
+
+bool is_ok(Reply const& reply) {
+    return std::visit([](Outcome const& outcome) { return outcome.return_code == ReturnCode::ok; }, reply);
+}
+
+}  // namespace
+
+void RemoteEngine::begin() { attempt(); }
+
+void RemoteEngine::run(std::function<void(RemoteEngine&)> what) {
+    surroundings_->post([self = shared_from_this(), what = std::move(what)] { what(*self); });
+}
+
+// Repeated attempts fail for the same reason: it is logged once.
+void RemoteEngine::note(std::string const& what) {
+    if (std::exchange(last_error_, what) == what) return;
+    surroundings_->report(settings_.name, what);
+}
+
+RemoteEngine::Standing RemoteEngine::standing() const {
+    if (is_open_ && !parts_.empty()) return Standing::present;
+    if (lost_at_ && !is_given_up_) return Standing::lost;
+    return link_ ? Standing::connecting : Standing::away;
+}
+
+void RemoteEngine::attempt() {
+    if (is_over_) return;
+    auto const era = ++era_;
+    try {
+        link_ = surroundings_->link(settings_, *this);
+    } catch (std::exception const& problem) {
+        return give_up_link(problem.what());
+    }
+    surroundings_->at(surroundings_->now() + time_for_attempt, [self = shared_from_this(), era] {
+        if (self->era_ == era && !self->is_open_) self->give_up_link("no session within 5 s");
+    });
+    link_->open();
+}
+
+void RemoteEngine::connected() {
+    if (!session_.text.empty()) return link_->attach(session_, last_sequence_);
+    Connect const connect{.motion_lease = settings_.motion_lease,
+                          .motion_lease_http = {},
+                          .motion_proof = MotionProof::request,
+                          .is_engine = true,
+                          .window = settings_.window};
+    link_->send(client::document_of({connect, std::string{opening}}));
+}
+
+void RemoteEngine::document(std::string_view text) {
+    auto const self = shared_from_this();
+    auto const read = reader_.read(text);
+    if (!read) return give_up_link("it sent a document that is none of an engine's");
+    std::visit([this](auto const& message) { take(message); }, *read);
+}
+
+void RemoteEngine::take(Fault const& fault) {
+    if (fault.code == FaultCode::no_session && fault.request_id == resuming) return resumed(ReturnCode::bad_parameter);
+    if (!is_open_) return give_up_link("no session: " + fault.reason);
+    auto const number = number_of(fault.request_id);
+    auto const found = number ? open_.find(*number) : open_.end();
+    if (found == open_.end()) return;
+    auto const open = std::move(found->second);
+    open_.erase(found);
+    note("it refused a request: " + fault.reason);
+    open.then(nullptr);
+}
+
+void RemoteEngine::take(xml::Answered const& answered) {
+    auto const& [reply, id] = answered;
+    if (auto const* opened_now = std::get_if<Connect::Reply>(&reply); opened_now != nullptr && id == opening)
+        return opened(*opened_now);
+    if (auto const* resume = std::get_if<Resume::Reply>(&reply)) return resumed(resume->return_code);
+    if (std::holds_alternative<Disconnect::Reply>(reply)) {
+        session_ = {};
+        is_open_ = false;
+        return connected();
+    }
+    bool const asks = id.starts_with(was_performed);
+    auto const number = number_of(asks ? std::string_view{id}.substr(was_performed.size()) : id);
+    auto const found = number ? open_.find(*number) : open_.end();
+    if (found == open_.end()) return;  // late, twice, or never asked
+    if (asks && !is_ok(reply)) return link_->send(found->second.document);
+    auto const open = std::move(found->second);
+    open_.erase(found);
+    if (!asks) return open.then(&reply);
+    Reply const performed{Execute::Reply{}};
+    open.then(&performed);
+}
+
+void RemoteEngine::take(xml::NumberedNotification const& notification) {
+    if (notification.sequence <= last_sequence_) return;  // it was received before
+    last_sequence_ = notification.sequence;
+    std::visit([this](auto const& each) { (*this)(each); }, notification.notification);
+}
+
+void RemoteEngine::opened(Connect::Reply const& reply) {
+    if (reply.return_code != ReturnCode::ok) return give_up_link("no session: " + reply.reason);
+    session_ = reply.session;
+    is_given_up_ = false;
+    subscribed_.clear();
+    last_sequence_ = 0;
+    is_open_ = true;
+    profile_asked_ = false;
+    give_signs_of_life(era_);
+    ask_profile();
+}
+
+// A session that was given up, but has not ended there, is ended now: nothing that was given up goes on.
+void RemoteEngine::resumed(ReturnCode code) {
+    if (code != ReturnCode::ok) {
+        give_up("its session has ended");
+        session_ = {};
+        failures_ = 0;  // it answers
+        return give_up_link("its session has ended");
+    }
+    is_open_ = true;
+    if (is_given_up_) return link_->send(client::document_of({Disconnect{}, std::string{opening}}));
+    lost_at_.reset();
+    failures_ = 0;
+    surroundings_->report(settings_.name, "the link is back, and nothing was lost");
+    give_signs_of_life(era_);
+    send_again();
+}
+
+// The answers to these requests may have been lost. All may be performed twice, except an execute.
+void RemoteEngine::send_again() {
+    for (auto const& [number, open] : open_) {
+        if (open.once.text.empty())
+            link_->send(open.document);
+        else
+            link_->send(
+                client::document_of({GetCommandResult{open.once, {}}, std::string{was_performed} + std::to_string(number)}));
+    }
+}
+
+void RemoteEngine::ask(Operation operation, Then then, CommandId once) {
+    if (session_.text.empty() || is_given_up_ || is_over_) return then(nullptr);
+    auto const number = ++last_request_;
+    auto const document = client::document_of({std::move(operation), std::to_string(number)});
+    open_.emplace(number, Open{document, std::move(then), std::move(once)});
+    if (is_open_) link_->send(document);
+}
+
+// The sub engine counts requests, not pongs, as signs of life: the thread of the links would answer pings even while this engine
+// hangs.
+void RemoteEngine::give_signs_of_life(std::uint64_t era) {
+    if (era != era_ || !is_open_) return;
+    bool const is_bound =
+        std::ranges::any_of(parts_, [](auto const& each) { return each.second->binding != Part::Binding::none; });
+    if (is_bound && surroundings_->is_alive()) link_->send(client::document_of({Connect{}, std::string{sign_of_life}}));
+    surroundings_->at(surroundings_->now() + between_signs_of_life,
+                      [self = shared_from_this(), era] { self->give_signs_of_life(era); });
+}
+
+void RemoteEngine::failed(std::string const& reason, client::Failure) { give_up_link(reason); }
+
+// The session goes on if the link returns within the window. The sub engine counts the same time.
+void RemoteEngine::give_up_link(std::string const& reason) {
+    ++era_;
+    if (auto const link = std::exchange(link_, nullptr)) link->cut();
+    is_open_ = false;
+    if (is_over_) return;
+    note(reason);
+    if (!session_.text.empty() && !is_given_up_ && !lost_at_) {
+        lost_at_ = surroundings_->now();
+        auto const when_still_lost = [&](std::chrono::milliseconds time, void (RemoteEngine::*then)(std::string const&),
+                                         std::string what) {
+            surroundings_->at(*lost_at_ + time, [self = shared_from_this(), at = lost_at_, then, what = std::move(what)] {
+                if (self->lost_at_ == at) ((*self).*then)(what);
+            });
+        };
+        when_still_lost(settings_.window, &RemoteEngine::give_up, "given up: its link did not return within the window");
+        when_still_lost(settings_.resume_window, &RemoteEngine::leave, "it did not return");
+    }
+    await_next_attempt();
+}
+
+// Its commands end, and its components are in ERROR until there is a new session. The sub engine ends the session now, too.
+void RemoteEngine::give_up(std::string const& reason) {
+    if (session_.text.empty() || std::exchange(is_given_up_, true)) return;
+    note(reason);
+    auto const why = "the engine " + quoted(settings_.name) + " is lost: " + reason;
+    for (auto& [number, open] : std::exchange(open_, {})) open.then(nullptr);
+    Completed const aborted{.command_id = {}, .status = CompletedStatus::abort, .results = {}, .reason = why};
+    for (auto& [id, end] : std::exchange(commands_, {})) end(aborted);
+    states_.clear();
+    for (auto const& [ref, part] : parts_) {
+        part->binding = Part::Binding::none;
+        part->report(std::make_shared<ComponentState const>(ComponentState{ComponentStatus::error, {}, {}}));
+        part->report(ErrorOccurred{ErrorType::component_not_responding, why, Report::once});
+    }
+}
+
+// Its components leave until it returns.
+void RemoteEngine::leave(std::string const& reason) {
+    give_up(reason);
+    lost_at_.reset();
+    ComponentChange change{.going = {}, .coming = {}, .belongings = {}, .provider = settings_.name};
+    for (auto const& [ref, part] : parts_) change.going.push_back(part->ref);
+    try {
+        if (!parts_.empty()) surroundings_->change(std::move(change));
+        parts_.clear();
+        surroundings_->why_loop(settings_.name, {});
+    } catch (std::exception const& problem) {
+        note(problem.what());
+    }
+}
+
+void RemoteEngine::end() {
+    if (std::exchange(is_over_, true)) return;
+    if (is_open_) link_->send(client::document_of({Disconnect{}, std::string{opening}}));
+    leave("this engine no longer uses it");
+    give_up_link("");
+}
+
+void RemoteEngine::await_next_attempt() {
+    auto const pause = std::min<std::chrono::milliseconds>(longest_pause, first_pause * (1 << std::min(failures_, 10U)));
+    ++failures_;
+    surroundings_->at(surroundings_->now() + pause, [self = shared_from_this(), era = era_] {
+        if (self->era_ == era) self->attempt();
+    });
+}
+
+}  // namespace rois::remote

@@ -1,0 +1,41 @@
+// The settings of a sub engine: an entry of the engines file (docs/engines.md).
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rois::remote {
+
+// The position of the sub engine's frame in this engine's frame: mm, and roll, pitch and yaw in degrees.
+struct Placement {
+    std::array<double, 3> position{};
+    std::array<double, 3> orientation{};
+    std::vector<double> covariance;  // as Frame::covariance
+
+    bool operator==(Placement const&) const = default;
+};
+
+struct SubEngine {
+    std::string name;                     // in front of the names of its components, engines and frames
+    std::string url;                      // its gateway
+    std::vector<std::string> components;  // the refs there of the components that are taken; empty: all
+    // Without a placement, its positions are passed on unchanged: its frame has the same name here.
+    std::optional<Placement> placement{};
+
+    // How long a lost link may be missing: after that, the sub engine and this engine give up the session.
+    std::chrono::milliseconds window = std::chrono::seconds{3};
+    // After that, its components leave.
+    std::chrono::milliseconds resume_window = std::chrono::seconds{30};
+    // How long its robot moves on without a sign of life of this engine.
+    std::chrono::milliseconds motion_lease = std::chrono::seconds{1};
+    std::size_t most_components = 1'000;
+    std::size_t longest_document = 4'000'000;  // bytes
+
+    bool operator==(SubEngine const&) const = default;
+};
+
+}  // namespace rois::remote

@@ -1,0 +1,200 @@
+#include "main/engines_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <functional>
+#include <set>
+
+#include "engine/frames/frames.hpp"
+#include "main/configuration_file.hpp"
+#include "main/json_file.hpp"
+#include "main/settings.hpp"
+#include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
+
+namespace rois {
+
+namespace {
+
+using nlohmann::json;
+using remote::SubEngine;
+
+constexpr std::size_t longest_name = 64;
+
+// Returns where the text of each entry of the list begins: in this file, the objects inside of the first list.
+std::vector<std::size_t> begins_of_entries(std::string const& text) {
+    std::vector<std::size_t> begins;
+    int depth = 0;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (text.compare(at, 2, "//") == 0) {
+            at = std::min(text.find('\n', at), text.size());
+        } else if (text[at] == '"') {
+            while (++at < text.size() && text[at] != '"')
+                if (text[at] == '\\') ++at;
+        } else if (text[at] == '{') {
+            if (++depth == 2) begins.push_back(at);
+        } else if (text[at] == '}') {
+            --depth;
+        }
+    }
+    return begins;
+}
+
+// Throws the text of what is expected.
+struct Expected {
+    std::string what;
+};
+
+std::string name_of(json const& value) {
+    auto const fits = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    };
+    if (value.is_string()) {
+        auto name = value.get<std::string>();
+        if (!name.empty() && name.size() <= longest_name && std::ranges::all_of(name, fits)) return name;
+    }
+    throw Expected{"a name of letters, digits, '_' and '-', with at most " + std::to_string(longest_name) + " characters"};
+}
+
+std::string url_of(json const& value) {
+    if (value.is_string()) {
+        auto url = value.get<std::string>();
+        for (auto const* scheme : {"ws://", "wss://", "http://", "https://"})
+            if (url.starts_with(scheme) && url.size() > std::string_view{scheme}.size()) return url;
+    }
+    throw Expected{"the URL of a gateway, such as ws://127.0.0.1:8081"};
+}
+
+std::vector<std::string> refs_of(json const& value) {
+    std::vector<std::string> refs;
+    bool fits = value.is_array() && !value.empty();
+    for (auto const& each : value) {
+        fits = fits && each.is_string();
+        if (fits) refs.push_back(each.get<std::string>());
+    }
+    if (!fits) throw Expected{"a list of refs of components, such as [\"navigation\", \"speech\"]"};
+    return refs;
+}
+
+std::vector<double> numbers_of(json const& value, std::vector<std::size_t> const& sizes, std::string const& expected) {
+    bool const fits = value.is_array() && std::ranges::find(sizes, value.size()) != sizes.end() &&
+                      std::ranges::all_of(value, [](json const& each) { return each.is_number(); });
+    if (!fits) throw Expected{expected};
+    return value.get<std::vector<double>>();
+}
+
+std::array<double, 3> triple_of(json const& value, std::string const& expected) {
+    auto const numbers = numbers_of(value, {3}, expected);
+    return {numbers[0], numbers[1], numbers[2]};
+}
+
+std::chrono::milliseconds seconds_of(json const& value, double least, double most) {
+    auto const seconds = value.is_number() ? value.get<double>() : -1;
+    if (seconds >= least && seconds <= most) return std::chrono::milliseconds{static_cast<std::int64_t>(seconds * 1'000)};
+    auto const number = [](double each) { return json(each).dump(); };
+    throw Expected{"a number of seconds from " + number(least) + " to " + number(most)};
+}
+
+remote::Placement& placement(SubEngine& engine) { return engine.placement ? *engine.placement : engine.placement.emplace(); }
+
+struct Property {
+    std::string_view name;
+    std::function<void(SubEngine&, json const&)> set;
+};
+
+std::vector<Property> const& properties() {
+    static std::vector<Property> const all{
+        {"name", [](SubEngine& engine, json const& value) { engine.name = name_of(value); }},
+        {"url", [](SubEngine& engine, json const& value) { engine.url = url_of(value); }},
+        {"components", [](SubEngine& engine, json const& value) { engine.components = refs_of(value); }},
+        {"position",
+         [](SubEngine& engine, json const& value) { placement(engine).position = triple_of(value, "[x, y, z] in mm"); }},
+        {"orientation",
+         [](SubEngine& engine, json const& value) {
+             placement(engine).orientation = triple_of(value, "[roll, pitch, yaw] in degrees");
+         }},
+        {"covariance",
+         [](SubEngine& engine, json const& value) {
+             placement(engine).covariance =
+                 numbers_of(value, {9, 36}, "9 numbers (x, y, yaw) or 36 (x, y, z, roll, pitch, yaw), in mm and degrees");
+         }},
+        {"window", [](SubEngine& engine, json const& value) { engine.window = seconds_of(value, 1, 60); }},
+        {"resume_window", [](SubEngine& engine, json const& value) { engine.resume_window = seconds_of(value, 1, 86'400); }},
+        {"motion_lease", [](SubEngine& engine, json const& value) { engine.motion_lease = seconds_of(value, 0.5, 3'600); }},
+        {"most_components", [](SubEngine& engine, json const& value) {
+             auto const most = value.is_number_unsigned() ? value.get<std::size_t>() : 0;
+             if (most < 1 || most > 100'000) throw Expected{"a whole number from 1 to 100000"};
+             engine.most_components = most;
+         }}};
+    return all;
+}
+
+// Reads an entry. `where`: the place of a key of it.
+SubEngine read(json const& entry, std::function<std::string(std::string const&)> const& where) {
+    SubEngine engine;
+    auto const named = [&] { return engine.name.empty() ? std::string{} : "sub engine " + rois::quoted(engine.name) + ": "; };
+    for (auto const* mandatory : {"name", "url"})
+        if (!entry.contains(mandatory)) throw BadSettings{where("") + "a sub engine has no " + rois::quoted(mandatory)};
+    auto const set = [&](std::string const& name, json const& value) {
+        auto const property = std::ranges::find(properties(), name, &Property::name);
+        if (property == properties().end()) {
+            std::vector<std::string> names;
+            for (auto const& each : properties()) names.emplace_back(each.name);
+            throw BadSettings{where(name) + named() + rois::quoted(name) + " is not a key of a sub engine: expected one of " +
+                              listed(names)};
+        }
+        try {
+            property->set(engine, value);
+        } catch (Expected const& expected) {
+            throw BadSettings{where(name) + named() + name + " must be " + expected.what + ", not " +
+                              rois::quoted(value.dump(), 100)};
+        }
+    };
+    set("name", entry["name"]);
+    for (auto const& [name, value] : entry.items()) set(name, value);
+    if (engine.resume_window < engine.window)
+        throw BadSettings{where("resume_window") + named() + "resume_window must not be shorter than window"};
+    if (engine.placement) {
+        try {
+            Frames const checked{"here",
+                                 {{.crs = "there",
+                                   .base = {},
+                                   .position = engine.placement->position,
+                                   .orientation = engine.placement->orientation,
+                                   .covariance = engine.placement->covariance}}};
+        } catch (std::invalid_argument const& problem) {
+            throw BadSettings{where("covariance") + named() + problem.what()};
+        }
+    }
+    return engine;
+}
+
+}  // namespace
+
+std::vector<SubEngine> read_engines_file(std::string const& file) {
+    auto const text = text_of_file(file);
+    auto const object = parse_json(file, text);
+    for (auto const& [name, value] : object.items())
+        if (name != "engines" || !value.is_array())
+            throw BadSettings{file + ":" + place_of_key(text, name) +
+                              ": expected only \"engines\": [ ... ], a list of sub engines"};
+    if (!object.contains("engines")) throw BadSettings{file + ":1:1: expected \"engines\": [ ... ], a list of sub engines"};
+    std::vector<SubEngine> engines;
+    std::set<std::string> names;
+    auto const begins = begins_of_entries(text);
+    for (auto const& entry : object["engines"]) {
+        if (!entry.is_object())
+            throw BadSettings{file + ":" + place_of_key(text, "engines") + ": each sub engine must be an object, { ... }"};
+        auto const begin = begins[engines.size()];
+        auto const where = [&](std::string const& key) {
+            return file + ":" + place_of_key(text, key, Which::first, begin) + ": ";
+        };
+        auto& engine = engines.emplace_back(read(entry, where));
+        if (!names.insert(engine.name).second)
+            throw BadSettings{where("name") + "there are two sub engines with the name " + rois::quoted(engine.name)};
+    }
+    return engines;
+}
+
+}  // namespace rois

@@ -1,0 +1,162 @@
+#include "remote/two_engines.hpp"
+
+namespace rois {
+
+namespace {
+
+struct SubEngines : testing::Test {
+    TwoEngines engines{{navigation, speech, localization}};
+    Application desk = engines.main.connect();
+
+    ScriptedComponent& robot() { return engines.hall["navigation"]; }
+};
+
+}  // namespace
+
+TEST_F(SubEngines, HaveTheirComponentsInThisEngine) {
+    EXPECT_THAT(desk.search(), ElementsAre("hall.localization", "hall.navigation", "hall.speech"));
+    auto const profile = desk.ask(GetProfile{}).profile;
+    ASSERT_EQ(profile->sub_profiles.size(), 1u);
+    EXPECT_EQ(profile->sub_profiles[0].object.name, "hall");
+    EXPECT_EQ(desk.status_of("hall.navigation"), "READY");
+}
+
+TEST_F(SubEngines, AreAskedForBindings) {
+    EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::ok);
+    auto guard = engines.hall.connect();
+    EXPECT_EQ(guard.bind("navigation"), ReturnCode::out_of_resources) << "it belongs to an application of the main engine";
+    EXPECT_EQ(guard.bind("speech"), ReturnCode::ok);
+    EXPECT_EQ(engines.bind(desk, "hall.speech"), ReturnCode::out_of_resources);
+    engines.advance(300ms);
+    EXPECT_EQ(desk.status_of("hall.speech"), "BUSY");
+    desk.release("hall.navigation");
+    engines.settle();
+    EXPECT_EQ(guard.bind("navigation"), ReturnCode::ok);
+}
+
+TEST_F(SubEngines, PerformCommands) {
+    engines.bind(desk, "hall.navigation");
+    engines.execute(desk, go("go", "hall.navigation"));
+    EXPECT_EQ(desk.status_of("hall.navigation"), "READY");
+    EXPECT_EQ(in_words(robot().started_with), in_words(engines.hall["navigation"].started_with));
+    EXPECT_THAT(robot().told, testing::Contains(HasSubstr("start")));
+    robot().finishes();
+    engines.settle();
+    EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("completed go OK")));
+    engines.execute(desk, named("dock", command("dock", "hall.navigation")));
+    robot().finishes(CompletedStatus::ok, {.parameters = {value("charge", "int", {"80"})}, .located = {}});
+    engines.settle();
+    EXPECT_EQ(desk.result_of("dock"), "OK charge=80");
+}
+
+TEST_F(SubEngines, RefuseCommandsBeforeTheyRun) {
+    engines.bind(desk, "hall.navigation");
+    auto const refused = engines.execute(desk, start("hall.navigation"));
+    EXPECT_EQ(refused.return_code, ReturnCode::bad_parameter);
+    EXPECT_THAT(refused.reason, HasSubstr("target_position"));
+}
+
+TEST_F(SubEngines, AreStopped) {
+    engines.bind(desk, "hall.navigation");
+    engines.execute(desk, go("go", "hall.navigation"));
+    engines.execute(desk, named("stop", stop("hall.navigation")));
+    EXPECT_THAT(robot().told, testing::Contains("halt"));
+    EXPECT_THAT(desk.heard(), testing::IsSupersetOf({HasSubstr("completed go ABORT"), HasSubstr("completed stop OK")}));
+}
+
+TEST_F(SubEngines, AnswerQueries) {
+    auto const reply = engines.ask(desk, Query{"route", equal("component_ref", "hall.navigation")});
+    EXPECT_EQ(reply.return_code, ReturnCode::ok) << reply.reason;
+    EXPECT_EQ(reply.component_ref.code, "hall.navigation");
+}
+
+TEST_F(SubEngines, ReportEvents) {
+    desk.subscribe("reached_target");
+    robot().fires("reached_target", {value("is_final_target", "bool", {"true"})});
+    engines.settle();
+    EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("reached_target hall.navigation")));
+}
+
+TEST_F(SubEngines, ReportErrors) {
+    engines.bind(desk, "hall.navigation");
+    robot().reports(ErrorType::user_defined_error, "the bumper was touched");
+    engines.settle();
+    EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("USER_DEFINED_ERROR hall.navigation")));
+}
+
+TEST_F(SubEngines, LoseNothingIfTheLinkReturnsWithinTheWindow) {
+    engines.bind(desk, "hall.navigation");
+    engines.execute(desk, go("go", "hall.navigation"));
+    engines.cut();
+    engines.advance(1s);
+    robot().finishes();
+    engines.mend();
+    engines.advance(1s);
+    EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("completed go OK")));
+    EXPECT_EQ(desk.status_of("hall.navigation"), "READY");
+}
+
+TEST_F(SubEngines, AreGivenUpAfterTheWindow) {
+    engines.bind(desk, "hall.navigation");
+    engines.execute(desk, go("go", "hall.navigation"));
+    desk.heard();
+    engines.cut();
+    engines.advance(3100ms);
+    EXPECT_THAT(desk.heard(),
+                testing::IsSupersetOf({HasSubstr("completed go ABORT"), HasSubstr("COMPONENT_NOT_RESPONDING hall.navigation")}));
+    EXPECT_EQ(desk.status_of("hall.navigation"), "ERROR");
+    EXPECT_THAT(robot().told, testing::Contains("halt"));
+    EXPECT_EQ(engines.execute(desk, go("again", "hall.navigation")).return_code, ReturnCode::error);
+    engines.mend();
+    engines.advance(5s);
+    EXPECT_EQ(desk.status_of("hall.navigation"), "READY");
+    EXPECT_EQ(engines.execute(desk, go("later", "hall.navigation")).return_code, ReturnCode::ok) << "it is still bound";
+    auto guard = engines.hall.connect();
+    EXPECT_EQ(guard.bind("navigation"), ReturnCode::out_of_resources);
+}
+
+TEST_F(SubEngines, LeaveAfterTheResumeWindow) {
+    engines.cut();
+    engines.advance(31s);
+    EXPECT_THAT(desk.search(), IsEmpty());
+    EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::bad_parameter);
+    engines.mend();
+    engines.advance(31s);
+    EXPECT_EQ(desk.search().size(), 3u);
+}
+
+TEST_F(SubEngines, ComeAndGoWithTheirProfile) {
+    engines.hall.change({"speech"}, {detection});
+    engines.advance(100ms);
+    EXPECT_THAT(desk.search(), ElementsAre("hall.detection", "hall.localization", "hall.navigation"));
+}
+
+TEST_F(SubEngines, ThatDoNotAnswerLeaveOperationsWithTimeout) {
+    engines.hold_back(true);
+    EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::timeout);
+    EXPECT_EQ(engines.ask(desk, Query{"route", {}}).return_code, ReturnCode::timeout);
+    engines.hold_back(false);
+    engines.settle();
+    auto guard = engines.hall.connect();
+    EXPECT_EQ(guard.bind("navigation"), ReturnCode::ok) << "the late binding was given back";
+}
+
+TEST_F(SubEngines, HoldTheirMotionIfTheClockOfThisEngineStandsStill) {
+    engines.bind(desk, "hall.navigation");
+    engines.execute(desk, go("go", "hall.navigation"));
+    engines.advance(3s);
+    EXPECT_THAT(robot().told, testing::Not(testing::Contains("suspend"))) << "its signs of life arrive";
+}
+
+TEST(ALoop, IsRefused) {
+    TwoEngines engines{{navigation}};
+    auto desk = engines.main.connect();
+    EXPECT_EQ(desk.search().size(), 1u);
+    engines.instance_of_main = "instance1";  // that of the hall
+    engines.hall.change({}, {speech});
+    engines.advance(2s);
+    EXPECT_THAT(desk.search(), IsEmpty());
+    EXPECT_THAT(engines.reported, testing::Contains(HasSubstr("loop")));
+}
+
+}  // namespace rois

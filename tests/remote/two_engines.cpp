@@ -1,0 +1,220 @@
+#include "remote/two_engines.hpp"
+
+#include "files/files.hpp"
+#include "xml/validation/schemas.hpp"
+
+namespace rois {
+
+namespace {
+
+std::shared_ptr<xml::Schemas const> schemas() {
+    static xml::Platform const platform;
+    static auto const all = std::make_shared<xml::Schemas const>(files::schemas());
+    return all;
+}
+
+}  // namespace
+
+// The hall's end of the link does what the network layer does.
+class TwoEngines::Wire final : public client::Link {
+public:
+    Wire(TwoEngines& engines, Listener& listener) : Link{listener}, engines_{engines} {}
+
+    void open() override { opening_ = true; }
+    void send(Document document) override { to_hall_.push_back(std::move(document)); }
+    void attach(SessionId const& session, std::uint64_t last_sequence) override {
+        send(client::document_of({Resume{session, last_sequence}, "resume"}));
+    }
+    void cut() override {
+        listener_ = nullptr;
+        close();
+    }
+    void broke() {
+        close();
+        fail("the link broke", client::Failure::passing);
+    }
+    bool is_dead() const { return listener_ == nullptr; }
+
+    // Takes one step. Returns false if there is nothing to do.
+    bool deliver() {
+        if (std::exchange(opening_, false)) {
+            if (engines_.is_broken_)
+                fail("cannot be reached", client::Failure::passing);
+            else
+                listener_->connected();
+            return true;
+        }
+        if (!to_hall_.empty()) {
+            auto const document = to_hall_.front();
+            to_hall_.pop_front();
+            perform(*document);
+            return true;
+        }
+        if (engines_.is_held_back_) return false;
+        if (!waiting_.empty() && waiting_.front().second->said) {
+            auto const [id, operation] = waiting_.front();
+            waiting_.pop_front();
+            answer(id, *operation);
+            return true;
+        }
+        if (!session_.text.empty() && reads_)
+            for (auto const& [sequence, notification] : reads_->read(after_, 1)) {
+                after_ = sequence;
+                listener_->document(std::string{xml::notification_head(notification->body)} + std::to_string(sequence) +
+                                    xml::notification_tail(notification->body));
+                return true;
+            }
+        return false;
+    }
+
+private:
+    void perform(std::string const& document) {
+        auto const read = reader_.read(document);
+        ASSERT_TRUE(std::holds_alternative<Request>(read)) << document << std::get<Fault>(read).reason;
+        auto const& [operation, id] = std::get<Request>(read);
+        engines_.asked_.push_back(document.substr(1, document.find(' ') - 1));
+        auto const& session = std::holds_alternative<Resume>(operation) ? std::get<Resume>(operation).session : session_;
+        waiting_.emplace_back(id, engines_.hall.begin_to_say(session, operation));
+    }
+
+    void answer(std::string const& id, TestedOperation const& operation) {
+        if (auto const* refusal = std::get_if<Refusal>(&*operation.said)) {
+            Fault fault{*refusal == Refusal::no_session ? FaultCode::no_session : FaultCode::too_many, "refused", {}, id};
+            return listener_->document(xml::encode(fault));
+        }
+        auto const& reply = std::get<Reply>(*operation.said);
+        if (auto const* connected = std::get_if<Connect::Reply>(&reply); connected != nullptr && session_.text.empty())
+            join(connected->session, 0);
+        auto const* resume = std::get_if<Resume>(&operation.operation());
+        if (resume != nullptr && std::get<Resume::Reply>(reply).return_code == ReturnCode::ok)
+            join(resume->session, resume->last_sequence);
+        if (std::holds_alternative<Disconnect::Reply>(reply)) session_ = {};
+        listener_->document(xml::encode(reply, id));
+    }
+
+    void join(SessionId const& session, std::uint64_t after) {
+        session_ = session;
+        after_ = after;
+        reads_ = engines_.hall.engine->notifications(session);
+        engines_.hall.engine->link_opened(session, Link_::websocket, engines_.hall.now);
+    }
+
+    void close() {
+        if (session_.text.empty()) return;
+        engines_.hall.engine->link_closed(session_, Link_::websocket, Closing::lost, engines_.hall.now);
+        session_ = {};
+    }
+
+    using Link_ = rois::Link;
+
+    TwoEngines& engines_;
+    xml::RequestReader reader_{schemas()};
+    bool opening_ = false;
+    std::deque<Document> to_hall_;
+    std::deque<std::pair<std::string, std::shared_ptr<TestedOperation>>> waiting_;
+    SessionId session_;
+    std::uint64_t after_ = 0;
+    std::shared_ptr<NotificationQueue> reads_;
+};
+
+class TwoEngines::Around final : public remote::Surroundings {
+public:
+    explicit Around(TwoEngines& engines) : engines_{engines} {}
+
+    Steady now() const override { return engines_.main.now.steady; }
+    void at(Steady when, std::function<void()> ring) override { alarms_.emplace(when, std::move(ring)); }
+    void post(std::function<void()> what) override { posted_.push_back(std::move(what)); }
+    std::shared_ptr<client::Link> link(remote::SubEngine const&, client::Link::Listener& listener) override {
+        return engines_.link_for(listener);
+    }
+    void change(ComponentChange change) override { engines_.main.engine->change(std::move(change), engines_.main.now); }
+    std::optional<std::string> why_loop(std::string const&, std::vector<std::string> const& instances) override {
+        if (std::ranges::find(instances, engines_.instance_of_main) == instances.end()) return {};
+        return "that would be a loop";
+    }
+    bool is_alive() const override { return engines_.main_is_alive; }
+    void report(std::string const&, std::string const& what) override { engines_.reported.push_back(what); }
+
+    // Takes one step. Returns false if there is nothing to do.
+    bool run() {
+        if (posted_.empty() && (alarms_.empty() || alarms_.begin()->first > now())) return false;
+        std::function<void()> next;
+        if (!posted_.empty()) {
+            next = std::move(posted_.front());
+            posted_.pop_front();
+        } else {
+            next = std::move(alarms_.extract(alarms_.begin()).mapped());
+        }
+        next();
+        return true;
+    }
+    void drop() {
+        posted_.clear();
+        alarms_.clear();
+    }
+
+private:
+    TwoEngines& engines_;
+    std::deque<std::function<void()>> posted_;
+    std::multimap<Steady, std::function<void()>> alarms_;
+};
+
+remote::SubEngine TwoEngines::hall_settings() {
+    remote::SubEngine settings;
+    settings.name = "hall";
+    settings.url = "ws://hall";
+    return settings;
+}
+
+TwoEngines::TwoEngines(std::vector<Part> const& parts, remote::SubEngine settings)
+    : main{std::vector<Part>{}, {}}, hall{parts, {}}, around_{std::make_shared<Around>(*this)} {
+    remote_ = std::make_shared<remote::RemoteEngine>(std::move(settings), around_);
+    remote_->begin();
+    advance(100ms);
+}
+
+TwoEngines::~TwoEngines() {
+    around_->drop();
+    if (wire_) wire_->cut();
+}
+
+std::shared_ptr<client::Link> TwoEngines::link_for(client::Link::Listener& listener) {
+    return wire_ = std::make_shared<Wire>(*this, listener);
+}
+
+void TwoEngines::settle() {
+    auto const work = [](World& world) { world.engine->and_work([] {}, world.now); };
+    bool goes_on = true;
+    while (goes_on) {
+        goes_on = around_->run() || (wire_ && !wire_->is_dead() && wire_->deliver());
+        work(main);
+        work(hall);
+    }
+}
+
+void TwoEngines::advance(std::chrono::milliseconds time) {
+    for (auto passed = 0ms; passed < time; passed += 50ms) {
+        if (main_is_alive)
+            main.advance(50ms);
+        else
+            main.now = {main.now.steady + 50ms, main.now.utc + 50ms};
+        hall.advance(50ms);
+        settle();
+    }
+}
+
+Reply TwoEngines::ask(Application const& by, Operation const& operation) {
+    auto const asked = main.begin_to_say(by.session, operation);
+    settle();
+    for (int i = 0; i < 40 && !asked->said; ++i) advance(50ms);
+    return std::get<Reply>(asked->said.value());
+}
+
+void TwoEngines::cut() {
+    is_broken_ = true;
+    if (wire_ && !wire_->is_dead()) wire_->broke();
+}
+
+std::vector<std::string> TwoEngines::asked() { return std::exchange(asked_, {}); }
+
+}  // namespace rois

@@ -1,0 +1,84 @@
+// Two engines and the link between them, on one thread and with one clock: `hall` is a sub engine of `main`. All documents are
+// encoded and read as on a real link.
+//     TwoEngines engines{{navigation}};
+//     auto desk = engines.main.connect();
+//     desk.bind("hall.navigation");
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/world.hpp"
+#include "remote/remote_engine.hpp"
+#include "xml/codec/codec.hpp"
+
+namespace rois {
+
+// An application of the main engine. Its operations may be answered later, after documents went over the link.
+class TwoEngines;
+
+class TwoEngines final {
+public:
+    explicit TwoEngines(std::vector<Part> const& parts, remote::SubEngine settings = hall_settings());
+    ~TwoEngines();
+
+    static remote::SubEngine hall_settings();
+
+    World main;
+    World hall;
+
+    // Both clocks go on, in steps of 50 ms.
+    void advance(std::chrono::milliseconds);
+    // Delivers documents until none is under way.
+    void settle();
+
+    // Performs an operation at the main engine, and delivers its documents.
+    Reply ask(Application const&, Operation const&);
+    template <class Operation>
+    typename Operation::Reply ask(Application const& by, Operation operation) {
+        return std::get<typename Operation::Reply>(ask(by, rois::Operation{std::move(operation)}));
+    }
+    ReturnCode bind(Application const& by, std::string const& ref) {
+        return ask(by, Bind{Application::identifier(ref)}).return_code;
+    }
+    template <class... Units>
+    Execute::Reply execute(Application const& by, Units... units) {
+        return ask(by, Execute{{std::vector<CommandUnit>{std::move(units)...}}});
+    }
+
+    // The link breaks, and cannot be opened until it is mended.
+    void cut();
+    void mend() { is_broken_ = false; }
+    // The hall's answers and notifications are kept back.
+    void hold_back(bool yes) { is_held_back_ = yes; }
+    // The clock of the main engine stands still.
+    bool main_is_alive = true;
+    // Changes the instances that a profile may not have.
+    std::string instance_of_main = "main's own";
+
+    std::vector<std::string> reported;  // lines for the log
+    remote::RemoteEngine& remote() { return *remote_; }
+    std::shared_ptr<client::Link> link_for(client::Link::Listener&);
+
+    // Documents to the hall since the last call, by the name of their operations.
+    std::vector<std::string> asked();
+
+private:
+    class Wire;
+    class Around;
+
+    bool deliver();
+
+    std::shared_ptr<Around> around_;
+    std::shared_ptr<remote::RemoteEngine> remote_;
+    std::shared_ptr<Wire> wire_;
+    bool is_broken_ = false;
+    bool is_held_back_ = false;
+    std::vector<std::string> asked_;
+};
+
+}  // namespace rois
