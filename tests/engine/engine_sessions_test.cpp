@@ -29,6 +29,16 @@ TEST_F(AnEngine, IsToldTheStateOfEachComponent) {
     EXPECT_THAT(application.heard(), IsEmpty()) << "of an application";
 }
 
+TEST_F(AnEngine, GetsTheTraitsOfComponents) {
+    auto const entries = engine.ask(GetProfile{}).components;
+    ASSERT_EQ(entries.size(), 2u);
+    ASSERT_TRUE(entries[1].traits);
+    EXPECT_EQ(entries[1].ref, "speech");
+    EXPECT_EQ(entries[1].traits->alternatives, (std::vector<std::vector<std::string>>{{"speech_text", "SSML_text"}}));
+    EXPECT_EQ(entries[1].traits->status_when_stopped, CompletedStatus::abort);
+    EXPECT_FALSE(world.connect().ask(GetProfile{}).components[1].traits) << "an application";
+}
+
 TEST_F(AnEngine, IsToldLocationsAndParameters) {
     world["navigation"].where = Located{};
     world["navigation"].where->of = "robot";

@@ -13,6 +13,7 @@
 #include <deque>
 #include <optional>
 
+#include "core/loop.hpp"
 #include "links/event_source.hpp"
 #include "links/link.hpp"
 

@@ -8,13 +8,14 @@
 #include <string_view>
 #include <utility>
 
-#include "core/loop.hpp"
 #include "links/target.hpp"
 #include "rois/settings.hpp"
 #include "types/messages.hpp"
 #include "xml/codec/codec.hpp"
 
 namespace rois::client {
+
+class Loop;
 
 enum class Failure : std::uint8_t {
     passing,    // retry

@@ -12,6 +12,7 @@
 #include <deque>
 #include <optional>
 
+#include "core/loop.hpp"
 #include "links/link.hpp"
 
 namespace rois::client {
