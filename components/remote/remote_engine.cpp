@@ -45,7 +45,7 @@ void check(ComponentEntry const& entry, std::string const& name, std::string con
     if (name.size() + 1 + ref.size() > longest_identifier)
         refuse("has a name of " + std::to_string(ref.size()) + " characters: expected at most " +
                std::to_string(longest_identifier - name.size() - 1));
-    if (!entry.profile || !entry.traits) refuse("lacks its profile, or what only engines are told of it");
+    if (!entry.profile || !entry.traits) refuse("lacks its profile or its traits (decision 41)");
 }
 
 CompletedStatus status_of_refusal(ReturnCode code) {

@@ -29,7 +29,7 @@ public:
     RemoteEngines(RemoteEngines const&) = delete;
     RemoteEngines& operator=(RemoteEngines const&) = delete;
 
-    // The sub engines from now on. Those whose settings have not changed stay as they are.
+    // Sets the sub engines. A sub engine with the same settings as before stays connected.
     void set(std::vector<SubEngine>);
 
     // A device by which the engine's clock shows that it runs. Add it to the engine.

@@ -41,7 +41,7 @@ std::vector<std::size_t> begins_of_entries(std::string const& text) {
     return begins;
 }
 
-// Throws the text of what is expected.
+// Thrown for a wrong value: the expected one.
 struct Expected {
     std::string what;
 };

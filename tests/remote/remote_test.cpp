@@ -148,6 +148,30 @@ TEST_F(SubEngines, HoldTheirMotionIfTheClockOfThisEngineStandsStill) {
     EXPECT_THAT(robot().told, testing::Not(testing::Contains("suspend"))) << "its signs of life arrive";
 }
 
+TEST(ASubEngineWithAPlacement, HasItsPositionsInOurFrame) {
+    auto settings = TwoEngines::hall_settings();
+    settings.placement = {.position = {1000, 0, 0}, .orientation = {0, 0, 90}, .covariance = {}};
+    TwoEngines engines{{localization, navigation}, settings, "crs1"};
+    auto desk = engines.main.connect();
+    desk.subscribe("person_localized", {}, true);
+    Located found{
+        .of = "position_data", .ref = "person-1", .crs = "crs1", .position = {100, 0, 0}, .orientation = {}, .certainty = {}};
+    engines.hall["localization"].fires(
+        "person_localized",
+        {value("person_ref", "RoISIdentifier[]", {"person-1"}), positions("position_data", {"100, 0, 0"}, "crs1")}, {found});
+    engines.settle();
+    EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("person_localized hall.localization")));
+    auto const event = desk.last_heard<ReceiveEvent>();
+    ASSERT_EQ(event.results->located.size(), 1u);
+    EXPECT_EQ(event.results->located[0].crs, "here");
+    EXPECT_THAT(event.results->located[0].position, ElementsAre(1000, 100, 0));
+    EXPECT_EQ(find(event.results->parameters, "position_data")->values, std::vector<std::string>{"1000, 100, 90"});
+
+    engines.bind(desk, "hall.navigation");
+    engines.execute(desk, start("hall.navigation", {positions("target_position", {"1000, 100, 90"}, "here")}));
+    EXPECT_EQ(find(engines.hall["navigation"].started_with, "target_position")->values, std::vector<std::string>{"100, 0, 0"});
+}
+
 TEST(ALoop, IsRefused) {
     TwoEngines engines{{navigation}};
     auto desk = engines.main.connect();

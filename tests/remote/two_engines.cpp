@@ -166,9 +166,13 @@ remote::SubEngine TwoEngines::hall_settings() {
     return settings;
 }
 
-TwoEngines::TwoEngines(std::vector<Part> const& parts, remote::SubEngine settings)
+TwoEngines::TwoEngines(std::vector<Part> const& parts, remote::SubEngine settings, std::string const& crs_of_hall)
     : main{std::vector<Part>{}, {}}, hall{parts, {}}, around_{std::make_shared<Around>(*this)} {
     remote_ = std::make_shared<remote::RemoteEngine>(std::move(settings), around_);
+    if (!crs_of_hall.empty()) {
+        main.engine->describe({.frames = {"here"}, .all = {}});
+        hall.engine->describe({.frames = {crs_of_hall}, .all = {}});
+    }
     remote_->begin();
     advance(100ms);
 }

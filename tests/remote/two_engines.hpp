@@ -18,12 +18,11 @@
 
 namespace rois {
 
-// An application of the main engine. Its operations may be answered later, after documents went over the link.
-class TwoEngines;
-
 class TwoEngines final {
 public:
-    explicit TwoEngines(std::vector<Part> const& parts, remote::SubEngine settings = hall_settings());
+    // `crs_of_hall`: the hall's frame; that of the main engine is then "here". Empty: none has a frame.
+    explicit TwoEngines(std::vector<Part> const& parts, remote::SubEngine settings = hall_settings(),
+                        std::string const& crs_of_hall = {});
     ~TwoEngines();
 
     static remote::SubEngine hall_settings();
@@ -50,7 +49,7 @@ public:
         return ask(by, Execute{{std::vector<CommandUnit>{std::move(units)...}}});
     }
 
-    // The link breaks, and cannot be opened until it is mended.
+    // Breaks the link. It cannot be opened before `mend`.
     void cut();
     void mend() { is_broken_ = false; }
     // The hall's answers and notifications are kept back.

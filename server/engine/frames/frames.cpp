@@ -103,6 +103,7 @@ Frames Frames::with(std::vector<Frame> others) const {
 void Frames::add(std::vector<Frame> others) {
     for (auto& frame : others) {
         if (own_.empty() || frame.crs.empty()) throw std::invalid_argument("a frame, or the engine's own frame, has no name");
+        if (frame.base.empty()) frame.base = own_;
         auto const placement = Placement::of(frame);
         auto key = lower_case(frame.crs);
         if (equal_ignoring_case(frame.crs, own_) || placed_.contains(key))
@@ -111,7 +112,7 @@ void Frames::add(std::vector<Frame> others) {
     }
     for (auto const& [key, placed] : placed_) {
         auto const& [crs, base, position, orientation, covariance] = placed->frame;
-        if (base.empty() || !know(base))
+        if (!know(base))
             throw std::invalid_argument("the frame " + quoted(crs, 200) + " is placed in " + quoted(base, 200) +
                                         ", which is unknown; expected one of " + listed(names()));
         if (ancestry(crs).size() > placed_.size())

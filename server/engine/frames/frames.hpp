@@ -20,7 +20,7 @@ namespace rois {
 // A frame and its position in another frame.
 struct Frame {
     std::string crs;
-    std::string base;                  // the frame in which this one is placed
+    std::string base;                  // the frame in which this one is placed; empty: the engine's own
     std::array<double, 3> position{};  // of its origin, mm
     std::array<double, 3>
         orientation{};  // of its axes: roll, pitch, yaw in degrees; turned by roll about x first, by yaw about z last
