@@ -21,10 +21,11 @@ public:
     ComponentEntry const entry;  // as the sub engine lists it
     std::string const ref;       // here
 
-    enum class Binding : std::uint8_t { none, asked, held } binding = Binding::none;
-    bool is_released = false;  // while the binding is asked for
+    // The binding there. `is_wanted`: an application here has bound the component, or asks for that.
+    bool is_wanted = false;
+    bool is_held = false;
+    int binds_asked = 0;  // not answered yet
 
-    bool is_wanted = false;  // an application here has bound it, so it is bound again in a new session
     std::set<CommandHandle> running;
     std::vector<Ticket> halts;  // that wait for the end of one `stop`
 

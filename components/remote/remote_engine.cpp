@@ -64,8 +64,8 @@ CommandUnit unit_of(std::string const& ref, std::string type, std::string id, Pa
     return {.delay_time = {}, .unit = std::move(message)};
 }
 
-Outcome const& outcome_of(Reply const& reply) {
-    return std::visit([](Outcome const& outcome) -> Outcome const& { return outcome; }, reply);
+Outcome outcome_of(Reply const& reply) {
+    return std::visit([](Outcome const& outcome) { return outcome; }, reply);
 }
 
 }  // namespace
@@ -173,7 +173,7 @@ void RemoteEngine::enter(GetProfile::Reply const& reply) {
         throw;
     }
     for (auto const& [ref, part] : before)
-        if (part_of(ref) != part && part->binding != Part::Binding::none) ask(Release{{.code = ref}}, [](Reply const*) {});
+        if (part_of(ref) != part && part->is_held) ask(Release{{.code = ref}}, [](Reply const*) {});
     if (changes) surroundings_->report(settings_.name, "present with " + std::to_string(parts_.size()) + " components");
 }
 
@@ -187,16 +187,11 @@ void RemoteEngine::subscribe() {
     }
 }
 
-// In a new session, the components that applications here have bound are bound again.
+// The components that applications here have bound are bound again: in a new session, and after each change of the profile,
+// because a component may have left and returned.
 void RemoteEngine::restore() {
-    for (auto const& [ref, part] : parts_) {
-        if (!part->is_wanted || part->binding != Part::Binding::none) continue;
-        part->binding = Part::Binding::asked;
-        ask(Bind{{.code = ref}}, [part](Reply const* reply) {
-            bool const is_bound = reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok;
-            part->binding = is_bound ? Part::Binding::held : Part::Binding::none;
-        });
-    }
+    for (auto const& [ref, part] : parts_)
+        if (part->is_wanted) bind_there(part, [](Reply const*) {});
 }
 
 std::shared_ptr<Part> RemoteEngine::part_of(std::string_view ref) const {
@@ -253,26 +248,34 @@ void RemoteEngine::attach(std::shared_ptr<Part> const& part) {
 
 void RemoteEngine::bind(std::shared_ptr<Part> const& part, Ticket ticket) {
     part->is_wanted = true;
-    if (part->binding == Part::Binding::held) return part->answer(ticket, Done{});
-    part->binding = Part::Binding::asked;
-    part->is_released = false;
-    ask(Bind{{.code = part->entry.ref}}, [self = shared_from_this(), part, ticket](Reply const* reply) {
-        auto const code = reply == nullptr ? ReturnCode::error : outcome_of(*reply).return_code;
-        part->binding = code == ReturnCode::ok ? Part::Binding::held : Part::Binding::none;
+    if (part->is_held && part->binds_asked == 0) return part->answer(ticket, Done{});
+    bind_there(part, [part, ticket](Reply const* reply) {
         if (reply == nullptr) return part->answer(ticket, Failed{"its engine is lost"});
-        if (code == ReturnCode::out_of_resources) return part->answer(ticket, Refused{outcome_of(*reply).reason});
-        if (code != ReturnCode::ok) return part->answer(ticket, Failed{outcome_of(*reply).reason});
-        part->answer(ticket, Done{});
-        if (std::exchange(part->is_released, false)) self->released(part);
+        auto const outcome = outcome_of(*reply);
+        if (outcome.return_code == ReturnCode::ok) return part->answer(ticket, Done{});
+        if (outcome.return_code == ReturnCode::out_of_resources) return part->answer(ticket, Refused{outcome.reason});
+        part->answer(ticket, Failed{outcome.reason});
     });
 }
 
-// While the binding is asked for, waits for the answer: it may be late, and the binding then not wanted any more.
+void RemoteEngine::bind_there(std::shared_ptr<Part> const& part, Then const& then) {
+    ++part->binds_asked;
+    ask(Bind{{.code = part->entry.ref}}, [self = shared_from_this(), part, then](Reply const* reply) {
+        --part->binds_asked;
+        part->is_held = reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok;
+        then(reply);
+        self->release_unwanted(part);
+    });
+}
+
 void RemoteEngine::released(std::shared_ptr<Part> const& part) {
     part->is_wanted = false;
-    if (part->binding == Part::Binding::asked) part->is_released = true;
-    if (part->binding != Part::Binding::held) return;
-    part->binding = Part::Binding::none;
+    release_unwanted(part);
+}
+
+// An answer may be late, and the binding then not wanted any more.
+void RemoteEngine::release_unwanted(std::shared_ptr<Part> const& part) {
+    if (part->is_wanted || part->binds_asked > 0 || !std::exchange(part->is_held, false)) return;
     ask(Release{{.code = part->entry.ref}}, [](Reply const*) {});
 }
 
@@ -288,7 +291,7 @@ CommandUnitSequence RemoteEngine::sequence_of(Part const& part, std::string cons
         auto const is_stored = [&](Parameter const& each) {
             return set != nullptr && find_parameter(set->arguments, each.name) != nullptr;
         };
-        auto const arguments = std::stable_partition(list.begin(), list.end(), is_stored);
+        auto const arguments = std::ranges::stable_partition(list, is_stored).begin();
         ParameterList const stored{list.begin(), arguments};
         list.erase(list.begin(), arguments);
         if (!stored.empty()) units.push_back(unit_of(ref, "set_parameter", id.empty() ? "" : id + "s", stored));
@@ -302,7 +305,7 @@ void RemoteEngine::prepare(std::shared_ptr<Part> const& part, Ticket ticket, std
     Execute check{.command_unit_list = sequence_of(*part, command_type, parameters, {}), .check_only = true};
     ask(std::move(check), [self = shared_from_this(), part, ticket, command_type, parameters](Reply const* reply) {
         if (reply == nullptr) return part->answer(ticket, Failed{"its engine is lost"});
-        auto const& outcome = outcome_of(*reply);
+        auto const outcome = outcome_of(*reply);
         if (outcome.return_code == ReturnCode::bad_parameter) return part->answer(ticket, Refused{outcome.reason});
         if (outcome.return_code != ReturnCode::ok) return part->answer(ticket, Failed{outcome.reason});
         part->answer(ticket, [self, part, command_type, parameters](CommandHandle command, Instant) {
@@ -351,7 +354,7 @@ void RemoteEngine::start(std::shared_ptr<Part> const& part, CommandHandle comman
 
 // Without a binding there, nothing runs for this engine.
 void RemoteEngine::halt(std::shared_ptr<Part> const& part, Ticket ticket) {
-    if (part->binding != Part::Binding::held || session_.text.empty() || is_given_up_) return part->report(HaltConfirmed{ticket});
+    if (!part->is_held || session_.text.empty() || is_given_up_) return part->report(HaltConfirmed{ticket});
     part->halts.push_back(ticket);
     if (part->halts.size() > 1) return;
     command(part, "stop", [part](CompletedStatus status) {

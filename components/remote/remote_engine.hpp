@@ -100,6 +100,7 @@ private:
     void take(xml::NumberedNotification const&);
     void opened(Connect::Reply const&);
     void resumed(ReturnCode);
+    void session_ended();
     void send_again();
     void give_up_link(std::string const& reason);
     void give_up(std::string const& reason);
@@ -118,6 +119,8 @@ private:
     void enter(GetProfile::Reply const&);
     void subscribe();
     void restore();
+    void bind_there(std::shared_ptr<Part> const&, Then const&);
+    void release_unwanted(std::shared_ptr<Part> const&);
     std::shared_ptr<Part> part_of(std::string_view ref) const;
     void operator()(ReceiveEvent const&);
     void operator()(ReceiveError const&);

@@ -20,7 +20,6 @@ constexpr auto between_signs_of_life = 250ms;
 // The request_id of requests that have no number.
 constexpr std::string_view opening = "connect";
 constexpr std::string_view sign_of_life = "alive";
-constexpr std::string_view resuming = "resume";  // as client::Link sends it
 // Asks, in front of a request's number, whether an execute was performed whose answer was lost.
 constexpr std::string_view was_performed = "performed ";
 
@@ -87,7 +86,7 @@ void RemoteEngine::document(std::string_view text) {
 }
 
 void RemoteEngine::take(Fault const& fault) {
-    if (fault.code == FaultCode::no_session && fault.request_id == resuming) return resumed(ReturnCode::bad_parameter);
+    if (fault.code == FaultCode::no_session && !session_.text.empty()) return session_ended();
     if (!is_open_) return give_up_link("no session: " + fault.reason);
     auto const number = number_of(fault.request_id);
     auto const found = number ? open_.find(*number) : open_.end();
@@ -138,14 +137,16 @@ void RemoteEngine::opened(Connect::Reply const& reply) {
     ask_profile();
 }
 
+void RemoteEngine::session_ended() {
+    give_up("its session has ended");
+    session_ = {};
+    failures_ = 0;  // it answers
+    give_up_link("its session has ended");
+}
+
 // A session that was given up, but has not ended there, is ended now: nothing that was given up goes on.
 void RemoteEngine::resumed(ReturnCode code) {
-    if (code != ReturnCode::ok) {
-        give_up("its session has ended");
-        session_ = {};
-        failures_ = 0;  // it answers
-        return give_up_link("its session has ended");
-    }
+    if (code != ReturnCode::ok) return session_ended();
     is_open_ = true;
     if (is_given_up_) return link_->send(client::document_of({Disconnect{}, std::string{opening}}));
     lost_at_.reset();
@@ -178,8 +179,7 @@ void RemoteEngine::ask(Operation operation, Then then, CommandId once) {
 // hangs.
 void RemoteEngine::give_signs_of_life(std::uint64_t era) {
     if (era != era_ || !is_open_) return;
-    bool const is_bound =
-        std::ranges::any_of(parts_, [](auto const& each) { return each.second->binding != Part::Binding::none; });
+    bool const is_bound = std::ranges::any_of(parts_, [](auto const& each) { return each.second->is_held; });
     if (is_bound && surroundings_->is_alive()) link_->send(client::document_of({Connect{}, std::string{sign_of_life}}));
     surroundings_->at(surroundings_->now() + between_signs_of_life,
                       [self = shared_from_this(), era] { self->give_signs_of_life(era); });
@@ -218,7 +218,7 @@ void RemoteEngine::give_up(std::string const& reason) {
     for (auto& [id, end] : std::exchange(commands_, {})) end(aborted);
     states_.clear();
     for (auto const& [ref, part] : parts_) {
-        part->binding = Part::Binding::none;
+        part->is_held = false;
         part->report(std::make_shared<ComponentState const>(ComponentState{ComponentStatus::error, {}, {}}));
         part->report(ErrorOccurred{ErrorType::component_not_responding, why, Report::once});
     }

@@ -115,11 +115,13 @@ Engine::Core::Later Engine::Core::perform(Session& session, Bind const& bind_, S
                                             "the component " + quoted(shared->ref().code) + " cannot be bound now");
             return bind(asker, *shared, when);
         };
+        --shared->binds_asked;
         answer_later(*asked, make);
         notify_of_release(*shared, when);
     };
     auto const ticket = questions_.ask(*component, now.steady + settings_.question_deadline,
                                        "the component did not answer whether it can be bound", std::move(then));
+    ++component->binds_asked;
     component->hosted().bind(ticket, now);
     return {};
 }
@@ -178,10 +180,12 @@ Engine::Core::Later Engine::Core::bind_first(Session& session, SharedAsked const
             if (!answer) return refused<BindAny::Reply>(ReturnCode::timeout, did_not_answer(*component) + "; nothing is bound");
             return refused<BindAny::Reply>(ReturnCode::error, "no component that matches the condition can be bound now");
         };
+        --component->binds_asked;
         answer_later(*asked, make);
         notify_of_release(*component, when);
     };
     auto const ticket = questions_.ask(*component, due, "the component did not answer whether it can be bound", std::move(then));
+    ++component->binds_asked;
     component->hosted().bind(ticket, now);
     return {};
 }
@@ -206,7 +210,7 @@ void Engine::Core::unbind(Session& session, RegisteredComponent& component, Inst
 
 // Notifies a component that confirms its bindings that it has none.
 void Engine::Core::notify_of_release(RegisteredComponent& component, Instant now) {
-    bool const is_free = component.bound_to == nullptr && !component.has_departed();
+    bool const is_free = component.bound_to == nullptr && component.binds_asked == 0 && !component.has_departed();
     if (component.confirms_binding() && is_free) component.hosted().released(now);
 }
 

@@ -119,6 +119,7 @@ public:
     bool confirms_binding() const { return confirms_binding_; }
 
     Session* bound_to = nullptr;
+    std::size_t binds_asked = 0;  // questions whether it can be bound, without an answer
     bool is_free() const { return bound_to == nullptr && !has_failed_to_halt(); }
     ParameterList parameters;  // stored for the session that has bound it; the defaults without a binding
     Activity activity = Activity::idle;

@@ -33,7 +33,8 @@ std::vector<std::size_t> begins_of_entries(std::string const& text) {
             while (++at < text.size() && text[at] != '"')
                 if (text[at] == '\\') ++at;
         } else if (text[at] == '{') {
-            if (++depth == 2) begins.push_back(at);
+            ++depth;
+            if (depth == 2) begins.push_back(at);
         } else if (text[at] == '}') {
             --depth;
         }
@@ -73,7 +74,7 @@ std::vector<std::string> refs_of(json const& value) {
         fits = fits && each.is_string();
         if (fits) refs.push_back(each.get<std::string>());
     }
-    if (!fits) throw Expected{"a list of refs of components, such as [\"navigation\", \"speech\"]"};
+    if (!fits) throw Expected{R"(a list of refs of components, such as ["navigation", "speech"])"};
     return refs;
 }
 

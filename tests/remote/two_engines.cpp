@@ -29,6 +29,9 @@ public:
         listener_ = nullptr;
         close();
     }
+    void answer_pings() {
+        if (!session_.text.empty()) engines_.hall.engine->heard_pong(session_, engines_.hall.now);
+    }
     void broke() {
         close();
         fail("the link broke", client::Failure::passing);
@@ -203,6 +206,7 @@ void TwoEngines::advance(std::chrono::milliseconds time) {
         else
             main.now = {main.now.steady + 50ms, main.now.utc + 50ms};
         hall.advance(50ms);
+        if (wire_ && !wire_->is_dead()) wire_->answer_pings();
         settle();
     }
 }

@@ -52,6 +52,7 @@ public:
     // Breaks the link. It cannot be opened before `mend`.
     void cut();
     void mend() { is_broken_ = false; }
+    bool is_cut() const { return is_broken_; }
     // The hall's answers and notifications are kept back.
     void hold_back(bool yes) { is_held_back_ = yes; }
     // The clock of the main engine stands still.
