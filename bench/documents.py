@@ -91,6 +91,7 @@ def all_documents():
     rois = f'xmlns="{MESSAGE}" xmlns:rois="{ROIS}"'
     label = "in the garden, under the old tree by the wall"
     documents = {f"query-{name}kB": query_of_size(size) for name, size in SIZES.items() if size >= 600}
+    documents["query-0.6kB-hall"] = query_of_size(SIZES["0.6"], component="hall.system_information")
     documents["query-0.3kB"] = smallest_query(SIZES["0.3"])
     documents["execute-20kB"] = execute_of_size(SIZES["20"])
     documents["reading"] = query("reading")

@@ -67,6 +67,11 @@ class Server:
         except OSError:
             return False
 
+    def cpu_seconds(self):
+        """CPU time since its start, in steps of 10 ms."""
+        user, system = pathlib.Path(f"/proc/{self.pid}/stat").read_text().rsplit(")", 1)[1].split()[11:13]
+        return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
+
     def resident_bytes(self):
         """Resident memory, including shared pages."""
         return self._memory("VmRSS")
@@ -90,11 +95,11 @@ class Server:
             self.process.wait()
 
 
-def gateway(threads=1, *arguments, free=False):
+def gateway(threads=1, *arguments, free=False, name=None):
     """`free`: not pinned, also with one thread."""
     command = [BIN / "rois-gateway", "--listen", "127.0.0.1:{port}", "--threads", threads, "--log-level", "warning"]
     command += ["--max-sessions", 20_000, "--max-connections", 20_000, *arguments]
-    return Server(f"gateway-{threads}{'-free' * free}", command, "/readyz", len(CORES) if free else threads)
+    return Server(name or f"gateway-{threads}{'-free' * free}", command, "/readyz", len(CORES) if free else threads)
 
 
 def stage(threads=1, probes=10, bystanders=0):

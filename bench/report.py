@@ -4,9 +4,9 @@ import collections
 import json
 import statistics
 
-from parts import client, console, fanout, floods, growth, memory, requests
+from parts import client, console, engines, fanout, floods, growth, memory, requests
 
-AGAINST = collections.ChainMap(requests.AGAINST, fanout.AGAINST, client.AGAINST)  # row -> the row that it is compared with
+AGAINST = collections.ChainMap(requests.AGAINST, fanout.AGAINST, client.AGAINST, engines.AGAINST)  # row -> the row that it is compared with
 
 
 def medians(rounds):
@@ -113,6 +113,13 @@ def protections(middle):
     return 100 * middle["protections"]["cpu_us"] / middle[requests.HTTP]["cpu_us"]
 
 
+def longer(middle):
+    """How much longer a single query takes through a sub engine, in µs. None if not measured."""
+    if engines.ONE_REMOTE not in middle:
+        return None
+    return middle[engines.ONE_REMOTE]["p50_us"] - middle[engines.ONE_LOCAL]["p50_us"]
+
+
 def goals(rounds):
     """The goals of ./dev bench. `rounds`: row -> measurements, of all parts."""
     middle = medians(rounds)
@@ -150,6 +157,9 @@ def goals(rounds):
         at_most("8 console: the page's process at rest", value_of(console.REST, "page_percent"), 5, "% of a core"),
         at_most("9 all protections: CPU, compared with that of a query", protections(middle), 3, "%"),
         at_most("9 p99 of every way to stop, under every flood", max(stops) if stops else None, 50, "ms"),
+        at_most("10 query of a sub engine: CPU of the main engine", ratio(rounds, engines.MAIN, engines.LOCAL), 2.3, "times"),
+        at_most("10 query of a sub engine: CPU of both engines", ratio(rounds, engines.BOTH, engines.LOCAL), 3.4, "times"),
+        at_most("10 query of a sub engine, alone: p50 longer by", longer(middle), 200, "µs"),
     ]
 
 
