@@ -1,9 +1,9 @@
 // What a sub engine knows of one of its components. It outlives the component.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,8 +26,9 @@ public:
     bool is_held = false;
     int binds_asked = 0;  // not answered yet
 
-    std::set<CommandHandle> running;
-    std::vector<Ticket> halts;  // that wait for the end of one `stop`
+    std::vector<Ticket> halts;                        // that wait for the end of one `stop`
+    int begins_asked = 0;                             // commands that its engine has not accepted yet
+    std::vector<std::function<void()>> after_begins;  // a suspend or resume, which would overtake them
 
     // Thread-safe. Reports are dropped unless there is a port.
     void attach(ComponentPort& port) {

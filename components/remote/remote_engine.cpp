@@ -32,16 +32,20 @@ void add_engines(EngineProfile const& profile, Translation const& translation,
     for (auto const& sub : profile.sub_profiles) add_engines(sub, translation, engines);
 }
 
-// Throws std::runtime_error if this engine cannot have such a component.
-void check(ComponentEntry const& entry, std::string const& name, std::string const& own_name) {
+// Throws std::runtime_error if this engine cannot have such a component. A ref with a dot begins with the name of its engine, or
+// of one that this is a sub engine of: "robot.navigation" may be of the engine "robot.arm".
+void check(ComponentEntry const& entry, std::string const& name) {
     auto const& ref = entry.ref;
-    auto const prefix = entry.engine == own_name ? std::string{} : entry.engine + ".";
-    auto const code = ref.starts_with(prefix) ? std::string_view{ref}.substr(prefix.size()) : std::string_view{ref};
+    auto const dot = ref.rfind('.');
+    auto const prefix = dot == std::string::npos ? std::string_view{} : std::string_view{ref}.substr(0, dot);
+    auto const code = dot == std::string::npos ? std::string_view{ref} : std::string_view{ref}.substr(dot + 1);
+    bool const is_of_prefix =
+        prefix.empty() ? dot == std::string::npos : (entry.engine + ".").starts_with(std::string{prefix} + ".");
     auto const refuse = [&](std::string const& why) {
         throw std::runtime_error("its component " + quoted(ref, 100) + " " + why);
     };
     if (code.empty() || trimmed(code) != code) refuse("has no name, or one that begins or ends with white space");
-    if (code.find('.') != std::string_view::npos) refuse("has a dot in its name, and is not of an engine with such a name");
+    if (!is_of_prefix) refuse("has a dot in its name, and is not of an engine with such a name");
     if (name.size() + 1 + ref.size() > longest_identifier)
         refuse("has a name of " + std::to_string(ref.size()) + " characters: expected at most " +
                std::to_string(longest_identifier - name.size() - 1));
@@ -130,7 +134,7 @@ void RemoteEngine::enter(GetProfile::Reply const& reply) {
     };
     for (auto const& entry : reply.components) {
         if (!is_taken(entry.ref)) continue;
-        check(entry, settings_.name, profile.object.name);
+        check(entry, settings_.name);
         if (parts.size() >= settings_.most_components)
             throw std::runtime_error("it has more than " + std::to_string(settings_.most_components) + " components");
         auto const known = part_of(entry.ref);
@@ -279,75 +283,47 @@ void RemoteEngine::release_unwanted(std::shared_ptr<Part> const& part) {
     ask(Release{{.code = part->entry.ref}}, [](Reply const*) {});
 }
 
-// For `start`, the stored parameters are set first: they may have been set while the sub engine was lost.
-CommandUnitSequence RemoteEngine::sequence_of(Part const& part, std::string const& command_type, ParameterList const& parameters,
-                                              std::string const& id) const {
-    auto const& ref = part.entry.ref;
-    auto list = translation_.to_there(parameters);
-    CommandUnitSequence sequence;
-    auto& units = sequence.command_unit_list;
-    if (command_type == "start") {
-        auto const* set = find_message(*part.entry.profile, MessageKind::command, "set_parameter");
-        auto const is_stored = [&](Parameter const& each) {
-            return set != nullptr && find_parameter(set->arguments, each.name) != nullptr;
-        };
-        auto const arguments = std::ranges::stable_partition(list, is_stored).begin();
-        ParameterList const stored{list.begin(), arguments};
-        list.erase(list.begin(), arguments);
-        if (!stored.empty()) units.push_back(unit_of(ref, "set_parameter", id.empty() ? "" : id + "s", stored));
-    }
-    units.push_back(unit_of(ref, command_type, id, std::move(list)));
-    return sequence;
-}
-
+// `start` takes the stored parameters as arguments: they may have been stored while the sub engine was lost.
 void RemoteEngine::prepare(std::shared_ptr<Part> const& part, Ticket ticket, std::string const& command_type,
                            ParameterList const& parameters) {
-    Execute check{.command_unit_list = sequence_of(*part, command_type, parameters, {}), .check_only = true};
+    auto unit = unit_of(part->entry.ref, command_type, {}, translation_.to_there(parameters));
+    Execute check{.command_unit_list = {{std::move(unit)}}, .check_only = true};
     ask(std::move(check), [self = shared_from_this(), part, ticket, command_type, parameters](Reply const* reply) {
         if (reply == nullptr) return part->answer(ticket, Failed{"its engine is lost"});
         auto const outcome = outcome_of(*reply);
         if (outcome.return_code == ReturnCode::bad_parameter) return part->answer(ticket, Refused{outcome.reason});
         if (outcome.return_code != ReturnCode::ok) return part->answer(ticket, Failed{outcome.reason});
         part->answer(ticket, [self, part, command_type, parameters](CommandHandle command, Instant) {
-            self->run([=](RemoteEngine& engine) { engine.start(part, command, command_type, parameters); });
+            self->run([=](RemoteEngine& engine) { engine.begin(part, command, command_type, parameters); });
         });
     });
 }
 
-void RemoteEngine::start(std::shared_ptr<Part> const& part, CommandHandle command, std::string const& command_type,
+void RemoteEngine::begin(std::shared_ptr<Part> const& part, CommandHandle command, std::string const& command_type,
                          ParameterList const& parameters) {
     auto const id = "c" + std::to_string(++last_command_);
-    auto sequence = sequence_of(*part, command_type, parameters, id);
-    auto const setting = id + "s";
-    bool const sets = sequence.command_unit_list.size() > 1;
-    part->running.insert(command);
-    auto const end = [part, command](CommandEnded ended) {
-        if (part->running.erase(command) > 0) part->report(std::move(ended));
-    };
-    commands_[id] = [self = shared_from_this(), end, command](Completed const& completed) {
+    commands_[id] = [self = shared_from_this(), part, command](Completed const& completed) {
         CommandEnded ended{
             .command = command, .status = completed.status, .results = {}, .afterwards = {}, .reason = completed.reason};
         if (completed.results) ended.results = *completed.results;
         self->translation_.to_here(ended.results);
         if (completed.active) ended.afterwards = *completed.active ? Afterwards::active : Afterwards::idle;
-        end(std::move(ended));
+        part->report(std::move(ended));
     };
-    if (sets)
-        commands_[setting] = [end, command](Completed const& completed) {
-            if (completed.status == CompletedStatus::ok) return;
-            end({.command = command, .status = completed.status, .results = {}, .afterwards = {}, .reason = completed.reason});
-        };
-    ask(Execute{std::move(sequence)},
-        [self = shared_from_this(), part, command, end, id, setting](Reply const* reply) {
-            if (reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok) {
-                if (part->running.contains(command)) part->report(CommandStarted{command});
-                return;
-            }
-            self->commands_.erase(id);
-            self->commands_.erase(setting);
+    auto unit = unit_of(part->entry.ref, command_type, id, translation_.to_there(parameters));
+    ++part->begins_asked;
+    ask(Execute{{{std::move(unit)}}},
+        [self = shared_from_this(), part, command, id](Reply const* reply) {
+            if (--part->begins_asked == 0)
+                for (auto const& next : std::exchange(part->after_begins, {})) next();
+            bool const is_accepted = reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok;
+            auto const known = self->commands_.find(id);
+            if (known == self->commands_.end()) return;  // it has completed
+            if (is_accepted) return part->report(CommandStarted{command});
+            self->commands_.erase(known);
             auto const status = reply == nullptr ? CompletedStatus::abort : status_of_refusal(outcome_of(*reply).return_code);
             auto const reason = reply == nullptr ? "its engine is lost" : outcome_of(*reply).reason;
-            end({.command = command, .status = status, .results = {}, .afterwards = {}, .reason = reason});
+            part->report(CommandEnded{.command = command, .status = status, .results = {}, .afterwards = {}, .reason = reason});
         },
         {id});
 }
@@ -364,6 +340,8 @@ void RemoteEngine::halt(std::shared_ptr<Part> const& part, Ticket ticket) {
 }
 
 void RemoteEngine::pause(std::shared_ptr<Part> const& part, Ticket ticket, std::string const& command_type) {
+    if (part->begins_asked > 0)
+        return part->after_begins.push_back([=, self = shared_from_this()] { self->pause(part, ticket, command_type); });
     command(part, command_type, [part, ticket, command_type](CompletedStatus status) {
         if (status == CompletedStatus::ok)
             part->answer(ticket, Done{});

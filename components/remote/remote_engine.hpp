@@ -74,7 +74,7 @@ public:
     void bind(std::shared_ptr<Part> const&, Ticket);
     void released(std::shared_ptr<Part> const&);
     void prepare(std::shared_ptr<Part> const&, Ticket, std::string const& command_type, ParameterList const&);
-    void start(std::shared_ptr<Part> const&, CommandHandle, std::string const& command_type, ParameterList const&);
+    void begin(std::shared_ptr<Part> const&, CommandHandle, std::string const& command_type, ParameterList const&);
     void halt(std::shared_ptr<Part> const&, Ticket);
     void pause(std::shared_ptr<Part> const&, Ticket, std::string const& command_type);  // suspend or resume
     void query(std::shared_ptr<Part> const&, Ticket, std::string const& query_type);
@@ -128,8 +128,6 @@ private:
     void operator()(Lost const&) {}
     void operator()(ProfileChanged const&) { ask_profile(); }
     void operator()(ComponentChanged const&);
-    CommandUnitSequence sequence_of(Part const&, std::string const& command_type, ParameterList const&,
-                                    std::string const& id) const;
 
     SubEngine settings_;
     std::shared_ptr<Surroundings> surroundings_;

@@ -20,7 +20,7 @@ public:
         if (bound == "OUT_OF_RESOURCES") throw NotPlayed{"another application uses " + component.ref};
         auto const set = kit::component_ref(component.ref) + kit::parameters({turned(dial, 50)});
         for (int i = 0; i < 3; ++i) ids.push_back(client.call("set_parameter", set).text("command_id"));
-        client.notifications(2, 5);  // until the last one has completed
+        for (int i = 0; i < 3; ++i) client.notifications(i, 5);  // until the last one has completed
     }
 
     HttpClient client;
