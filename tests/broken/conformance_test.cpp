@@ -19,6 +19,7 @@
 #include "broken/judging.hpp"
 #include "broken/proxy.hpp"
 #include "broken/variants.hpp"
+#include "kit/gateway_process.hpp"
 #include "kit/profile_folder.hpp"
 
 namespace rois::broken {
@@ -57,6 +58,40 @@ TEST(Conformance, FindsNoBrokenRuleWithTwoRobots) {
     auto const judged = judge(url(gateway.port()) + " --patience 3 --room 0");
     EXPECT_EQ(judged.exit_code, 0) << judged.text;
     EXPECT_THAT(judged.text, testing::HasSubstr("  holds          events_of_an_action_come_before_its_end over HTTP "));
+}
+
+// An engine without components of its own, above another one.
+class Above {
+public:
+    explicit Above(std::uint16_t below) : gateway_{{"--robots", "none", "--engines", engines(below), "--sim-speed", "20"}} {
+        EXPECT_THAT(gateway_.log_with("present with"), testing::HasSubstr("present with"));
+    }
+    std::uint16_t port() const { return gateway_.port(); }
+
+private:
+    std::string engines(std::uint16_t below) const {
+        folder_.put("engines.json", R"({"engines": [{"name": "below", "url": ")" + url(below) + R"("}]})");
+        return folder_.name() + "/engines.json";
+    }
+
+    kit::ProfileFolder folder_;
+    kit::GatewayProcess gateway_;
+};
+
+TEST(Conformance, FindsNoBrokenRuleThroughASubEngine) {
+    EmptyHall hall;
+    Above const above{hall.port()};
+    auto const judged = judge(url(above.port()));
+    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+}
+
+TEST(Conformance, FindsNoBrokenRuleThroughThreeLevels) {
+    EmptyHall hall;
+    Above const first{hall.port()};
+    Above const second{first.port()};
+    Above const third{second.port()};
+    auto const judged = judge(url(third.port()));
+    EXPECT_EQ(judged.exit_code, 0) << judged.text;
 }
 
 TEST(Conformance, FindsNoBrokenRuleWithComponentsOfAUser) {
