@@ -148,7 +148,8 @@ void RemoteEngine::enter(GetProfile::Reply const& reply) {
         shown.sub_components.clear();  // their messages are in it
         translation.to_here(shown);
         ComponentDescription description;
-        description.ref.code = part->ref;
+        description.ref = {
+            .code = part->ref, .authority = shown.object.code_space, .codebook_ref = shown.object.identifier, .version = {}};
         description.engine = translation.engine_here(entry.engine);
         description.profile = std::make_shared<ComponentProfile const>(std::move(shown));
         description.provider = settings_.name;

@@ -62,8 +62,8 @@ public:
     void shut_down(Instant now);
     std::shared_ptr<NotificationQueue> heard_from(SessionId const&, Instant now);
     void heard_pong(SessionId const&, Instant now);
-    void link_opened(SessionId const&, Link, Instant now);
-    void link_closed(SessionId const&, Link, Closing, Instant now);
+    void link_opened(SessionId const&, LinkKind, Instant now);
+    void link_closed(SessionId const&, LinkKind, Closing, Instant now);
 
     std::shared_ptr<EngineProfile const> profile() const;
     std::vector<ComponentEntry> components() const;
@@ -148,7 +148,8 @@ private:
     std::vector<RegisteredComponent*> select(Selection const&, Session const& asker) const;
     struct ToBind {
         std::vector<RegisteredComponent*> components;  // in order of preference
-        // Set if a robot meets a group condition but cannot be used, because another session has bound this component of it.
+        // Set if a robot meets a group condition but cannot be used, because another session has bound this component of the
+        // robot.
         RegisteredComponent const* held_of_group = nullptr;
     };
     // Returns the components that match. If the selection neither sorts nor has a group, stops at the first free component. A

@@ -296,16 +296,16 @@ void Engine::Core::heard_pong(SessionId const& id, Instant now) {
     if (auto* session = find(id)) session->lease.pong_received(now.steady);
 }
 
-void Engine::Core::link_opened(SessionId const& id, Link link, Instant now) {
+void Engine::Core::link_opened(SessionId const& id, LinkKind link, Instant now) {
     if (auto* session = find(id)) session->lease.opened(link, now.steady);
 }
 
-void Engine::Core::link_closed(SessionId const& id, Link link, Closing closing, Instant now) {
+void Engine::Core::link_closed(SessionId const& id, LinkKind link, Closing closing, Instant now) {
     auto* session = find(id);
     if (session == nullptr) return;
     session->lease.closed(link, closing, now.steady);
     session->last_activity = now.steady;
-    auto const grace = link == Link::stream ? settings_.session_timeout : std::chrono::milliseconds{0};
+    auto const grace = link == LinkKind::stream ? settings_.session_timeout : std::chrono::milliseconds{0};
     session->quiet_until = std::max(session->quiet_until, now.steady + grace);
     await_end_of_window(*session);
 }
@@ -417,8 +417,8 @@ std::shared_ptr<NotificationQueue> Engine::notifications(SessionId const& id) co
 
 std::shared_ptr<NotificationQueue> Engine::heard_from(SessionId const& id, Instant now) { return core_->heard_from(id, now); }
 void Engine::heard_pong(SessionId const& id, Instant now) { core_->heard_pong(id, now); }
-void Engine::link_opened(SessionId const& id, Link link, Instant now) { core_->link_opened(id, link, now); }
-void Engine::link_closed(SessionId const& id, Link link, Closing closing, Instant now) {
+void Engine::link_opened(SessionId const& id, LinkKind link, Instant now) { core_->link_opened(id, link, now); }
+void Engine::link_closed(SessionId const& id, LinkKind link, Closing closing, Instant now) {
     core_->link_closed(id, link, closing, now);
 }
 void Engine::end(SessionId const& id, Instant now) { core_->end(id, now); }

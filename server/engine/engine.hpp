@@ -38,8 +38,8 @@ enum class Refusal : std::uint8_t { no_session, too_many_sessions, no_memory, sh
 // An operation that waits for its answer. The engine shares it until then.
 class Asked {
 public:
-    // `from`: the notifications of the session that asks; null: the client has none. Those that the operation causes wait until
-    // the hold is released (decision 22); 0: none does.
+    // `from`: the notifications of the session that asks; null: the client has none. Notifications that the operation causes wait
+    // until the hold is released (decision 22). 0: there is no hold.
     Asked(std::shared_ptr<NotificationQueue> from, NotificationQueue::Hold until_answered)
         : notifications{std::move(from)}, hold{until_answered} {}
     virtual ~Asked() = default;
@@ -55,7 +55,7 @@ public:
     NotificationQueue::Hold const hold;
 };
 
-// What a provider of components brings with it: known while it is there.
+// The profiles, frames and places of a provider of components. The engine knows them while the provider has components.
 struct Belongings {
     std::vector<ComponentProfile> profiles;  // in which the engine looks up sub components
     std::vector<Frame> frames;               // placed in frames of the engine, or in one another
@@ -67,7 +67,7 @@ struct Belongings {
 struct ComponentChange {
     std::vector<std::string> going;  // refs of the components to remove
     std::vector<std::unique_ptr<Component>> coming;
-    Belongings belongings;      // replaces what the provider has brought before
+    Belongings belongings;      // replaces the earlier ones of the provider
     std::string provider = {};  // empty: the gateway itself
 };
 
@@ -130,7 +130,7 @@ public:
     // budget measures the memory. The budget must outlive the last call to the engine.
     void keep_within(MemoryBudget&);
 
-    // Sets the function that is called when a component has reported something and no thread is there to handle it. It is called
+    // Sets the function that is called when a component has reported something and no thread is in `work`. It is called
     // on any thread, must return at once and not call the engine; `work` must then be called soon.
     void on_report(std::function<void()> wake);
 
@@ -175,8 +175,8 @@ public:
     // or closed. Operations renew the motion lease without such a report. `heard_from` returns the session's queue, or null.
     std::shared_ptr<NotificationQueue> heard_from(SessionId const&, Instant now);
     void heard_pong(SessionId const&, Instant now);
-    void link_opened(SessionId const&, Link, Instant now);
-    void link_closed(SessionId const&, Link, Closing, Instant now);
+    void link_opened(SessionId const&, LinkKind, Instant now);
+    void link_closed(SessionId const&, LinkKind, Closing, Instant now);
 
     // Ends a session, if it exists, as if it had disconnected.
     void end(SessionId const&, Instant now);

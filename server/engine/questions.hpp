@@ -35,7 +35,7 @@ public:
         std::size_t unanswered_ = 0;
     };
 
-    // A ticket that identifies nothing else. For halts, which are not questions.
+    // Returns a new ticket for a halt, which is not a question.
     Ticket fresh_ticket() { return Ticket{++last_}; }
 
     // Begins a round, which may have ended before. A tick after `due` ends the questions that are not answered then.
@@ -51,7 +51,7 @@ public:
     // Returns false if the question is unknown: it was answered before, or the answer is late.
     bool answered(Ticket, ComponentAnswer&&, Instant now);
 
-    // Ends the rounds whose time is over. The silent components report that.
+    // Ends the rounds whose time is over. Each silent component reports COMPONENT_NOT_RESPONDING.
     void expire(Instant now);
 
     // Answers the questions to a component that leaves the engine.

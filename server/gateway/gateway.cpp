@@ -251,8 +251,9 @@ PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via 
                                std::shared_ptr<Opener> const& opener, Reading const* reading, Instant now) {
     Hold hold;  // ends without the lock
     std::unique_lock lock{mutex_};
-    auto queue = reading != nullptr ? reading->queue_ : nullptr;
-    if (via == Via::http) queue = engine_.heard_from(session, now);
+    auto queue = reading != nullptr ? reading->queue_
+                 : via == Via::http ? engine_.heard_from(session, now)
+                                    : engine_.notifications(session);
     bool const known = queue != nullptr;
     bool const connects = std::holds_alternative<Connect>(request.operation);
     bool const opens = opener && !known && connects;
@@ -302,14 +303,14 @@ std::optional<Fault> Gateway::refusal_of(Opener const& opener) {
     return {};
 }
 
-std::variant<std::unique_ptr<Reading>, Fault> Gateway::read(SessionId const& session, Link link, std::uint64_t after,
+std::variant<std::unique_ptr<Reading>, Fault> Gateway::read(SessionId const& session, LinkKind link, std::uint64_t after,
                                                             Reader& reader, Readers::Until until) {
     auto reading = std::make_unique<Reading>(*this, link, after, reader);
     std::lock_guard const lock{mutex_};
     auto queue = engine_.notifications(session);
     if (!queue || queue->closed()) return no_such_session();
     if (auto const last = queue->last_sequence(); after > last) return beyond(after, last);
-    if (until == Readers::Until::closed && link == Link::stream && Readers::streams(*queue) >= streams_per_session_) {
+    if (until == Readers::Until::closed && link == LinkKind::stream && Readers::streams(*queue) >= streams_per_session_) {
         telemetry_.reached(Telemetry::Limit::streams_per_session);
         return Fault{FaultCode::too_many,
                      "this session has " + std::to_string(streams_per_session_) +

@@ -53,7 +53,7 @@ private:
 class Reading {
 public:
     // Does not join the readers: only Gateway::read does.
-    Reading(Gateway& gateway, Link link, std::uint64_t after, Reader& reader)
+    Reading(Gateway& gateway, LinkKind link, std::uint64_t after, Reader& reader)
         : gateway_{gateway}, link_{link}, after_{after}, reader_{reader} {}
     ~Reading();
     Reading(Reading const&) = delete;
@@ -80,7 +80,7 @@ private:
     friend class Gateway;
 
     Gateway& gateway_;
-    Link link_;
+    LinkKind link_;
     Closing closing_ = Closing::lost;
     std::uint64_t after_;
     Reader& reader_;
@@ -161,7 +161,7 @@ public:
 
     // Starts to read behind the sequence `after`. Returns a fault if the session is unknown, if `after` is above its last
     // sequence, or if it has too many event streams.
-    std::variant<std::unique_ptr<Reading>, Fault> read(SessionId const&, Link, std::uint64_t after, Reader&,
+    std::variant<std::unique_ptr<Reading>, Fault> read(SessionId const&, LinkKind, std::uint64_t after, Reader&,
                                                        Readers::Until = Readers::Until::closed);
 
     // Halts all components and starts the engine's clock. Call it once, before the first request.

@@ -10,7 +10,7 @@ namespace rois {
 // The readers of one session: usually one. Attached to its queue.
 struct Readers::Audience {
     struct Joined {
-        Link link;
+        LinkKind link;
         Reader* reader;
         Until until;
     };
@@ -61,11 +61,11 @@ std::shared_ptr<Readers::Audience> const& Readers::with_room(SessionId const& se
     return found->second;
 }
 
-void Readers::join(NotificationQueue& queue, Link link, Reader& reader, Until until) {
+void Readers::join(NotificationQueue& queue, LinkKind link, Reader& reader, Until until) {
     auto const& audience = with_room(queue.session(), queue.attachment());
     auto& joined = audience->joined;
-    auto const is_websocket = [](Audience::Joined const& other) { return other.link == Link::websocket; };
-    if (link == Link::websocket) {
+    auto const is_websocket = [](Audience::Joined const& other) { return other.link == LinkKind::websocket; };
+    if (link == LinkKind::websocket) {
         for (auto const& other : joined)
             if (is_websocket(other)) other.reader->take_over();
         take_out(joined, is_websocket);
@@ -75,7 +75,7 @@ void Readers::join(NotificationQueue& queue, Link link, Reader& reader, Until un
 }
 
 void Readers::join(SessionId const& session, Reader& reader) {
-    with_room(session, nullptr)->joined.push_back({Link::stream, &reader, Until::answered});
+    with_room(session, nullptr)->joined.push_back({LinkKind::stream, &reader, Until::answered});
 }
 
 void Readers::leave(SessionId const& session, Reader const& reader) {
@@ -95,7 +95,7 @@ std::size_t Readers::count(SessionId const& session) const {
 std::size_t Readers::streams(NotificationQueue const& queue) {
     auto const* const audience = audience_of(queue);
     if (audience == nullptr) return 0;
-    auto const is_stream = [](auto const& one) { return one.link == Link::stream && one.until == Until::closed; };
+    auto const is_stream = [](auto const& one) { return one.link == LinkKind::stream && one.until == Until::closed; };
     return static_cast<std::size_t>(std::ranges::count_if(audience->joined, is_stream));
 }
 

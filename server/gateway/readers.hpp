@@ -50,7 +50,7 @@ public:
     // When the reader leaves: a long poll leaves when it is answered.
     enum class Until : std::uint8_t { answered, closed };
     // A WebSocket that joins takes over from the session's earlier one. If it throws, the reader has not joined.
-    void join(NotificationQueue&, Link, Reader&, Until = Until::closed);
+    void join(NotificationQueue&, LinkKind, Reader&, Until = Until::closed);
     // Joins an ended session, to see when the other readers leave.
     void join(SessionId const&, Reader&);
     void leave(SessionId const&, Reader const&);

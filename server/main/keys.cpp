@@ -330,7 +330,7 @@ std::vector<Key> session_keys() {
             "start_timeout", "time for a component to start a command, unless its profile sets another",
             [](GatewaySettings & s) -> auto& { return s.engine.start_timeout; }),
         seconds(
-            "question_deadline", "time for a component to answer a query, or whether it can carry out a command",
+            "question_deadline", "time for a component to answer a query, or to say whether it can carry out a command",
             [](GatewaySettings & s) -> auto& { return s.engine.question_deadline; }),
         whole_number<std::size_t>(
             "max_sessions", "maximum number of sessions", [](GatewaySettings & s) -> auto& { return s.engine.max_sessions; }, 1,

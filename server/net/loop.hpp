@@ -80,7 +80,7 @@ private:
     std::deque<Duty> duties_;
     bool over_ = false;
     Steady last_moment_ = Steady::max();                          // set by shut_down: the remaining connections are cut then
-    asio::io_context io_{BOOST_ASIO_CONCURRENCY_HINT_UNSAFE_IO};  // one thread uses its sockets
+    asio::io_context io_{BOOST_ASIO_CONCURRENCY_HINT_UNSAFE_IO};  // an option of Asio: no locks for the sockets
     Wakes wakes_;
 };
 

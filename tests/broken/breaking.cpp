@@ -36,7 +36,7 @@ std::string response(std::string const& request, std::string const& return_code,
 }
 
 Breaking says(std::string const& operation, std::string const& due, std::string const& return_code, std::string const& children) {
-    return {.answer = [=](std::string const& request, std::string const& answer, Link&) -> Documents {
+    return {.answer = [=](std::string const& request, std::string const& answer, ProxiedConnection&) -> Documents {
         bool const is_due = answer.find("return_code=\"" + due + "\"") != std::string::npos ||
                             answer.find("code=\"" + due + "\"") != std::string::npos;
         if (!is(request, operation) || !is_due) return {answer};
@@ -52,7 +52,7 @@ Breaking does_nothing_at(std::string const& operation) {
 }
 
 Breaking edits_answers(std::string const& operation, Edit const& edit) {
-    return {.answer = [=](std::string const& request, std::string const& answer, Link&) -> Documents {
+    return {.answer = [=](std::string const& request, std::string const& answer, ProxiedConnection&) -> Documents {
         if (!operation.empty() && !is(request, operation)) return {answer};
         return {edited(answer, edit)};
     }};

@@ -112,7 +112,7 @@ Breaking pretends_to_stop(std::string const& component) {
         })(root);
         if (state->stops) retyped(component, "stop", "set_parameter")(root);
     });
-    breaking.answer = [=](std::string const& request, std::string const& answer, Link&) -> Documents {
+    breaking.answer = [=](std::string const& request, std::string const& answer, ProxiedConnection&) -> Documents {
         if (!is(request, "execute")) return {answer};
         if (std::exchange(state->stops, false)) {
             state->pretended = ids_in(answer, component, "set_parameter");
@@ -134,7 +134,7 @@ Breaking pretends_to_stop(std::string const& component) {
 
 Breaking completes_at_once(std::string const& component) {
     auto const over = std::make_shared<std::set<std::string>>();
-    return {.answer = [=](std::string const& request, std::string const& answer, Link&) -> Documents {
+    return {.answer = [=](std::string const& request, std::string const& answer, ProxiedConnection&) -> Documents {
                 Documents said{answer};
                 if (!is(request, "execute")) return said;
                 for (auto const& id : ids_in(answer, component, "start"))
@@ -156,7 +156,7 @@ Breaking completes_late(std::string const& component) {
         Clock::time_point due;
     };
     auto const state = std::make_shared<State>();
-    return {.answer = [=](std::string const& request, std::string const& answer, Link&) -> Documents {
+    return {.answer = [=](std::string const& request, std::string const& answer, ProxiedConnection&) -> Documents {
                 if (is(request, "execute")) state->starts.merge(ids_in(answer, component, "start"));
                 if (state->held.empty() || Clock::now() < state->due) return {answer};
                 return {answer, std::exchange(state->held, "")};

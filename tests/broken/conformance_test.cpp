@@ -242,14 +242,15 @@ std::string with_other_prefixes(std::string document) {
 }
 
 Breaking writes_other_prefixes() {
-    return {
-        .answer = [](std::string const&, std::string const& answer, Link&) -> Documents { return {with_other_prefixes(answer)}; },
-        .notification = [](std::string const& notification) -> Documents { return {with_other_prefixes(notification)}; },
-        .http_reply =
-            [](Message const& request, Message& reply) {
-                for (auto const* const documents : {"GET /rois/notifications?", "GET /rois/profile"})
-                    if (request.first_line.starts_with(documents)) reply.body = with_other_prefixes(reply.body);
-            }};
+    return {.answer = [](std::string const&, std::string const& answer, ProxiedConnection&) -> Documents {
+                return {with_other_prefixes(answer)};
+            },
+            .notification = [](std::string const& notification) -> Documents { return {with_other_prefixes(notification)}; },
+            .http_reply =
+                [](Message const& request, Message& reply) {
+                    for (auto const* const documents : {"GET /rois/notifications?", "GET /rois/profile"})
+                        if (request.first_line.starts_with(documents)) reply.body = with_other_prefixes(reply.body);
+                }};
 }
 
 // Bodies in chunks, header fields in lower case without a space (RFC 9112, 5 and 7.1).
@@ -331,14 +332,15 @@ TEST(Conformance, ReportsAGatewayThatOpensNoSessionInXml) {
 TEST(Conformance, BlamesNoGatewayForComponentsThatAreInUse) {
     EmptyHall gateway;
     auto const is_taken = std::make_shared<std::atomic<bool>>(false);
-    Proxy const proxy{gateway.port(), [=]() -> Breaking {
-                          return {.answer = [=](std::string const& request, std::string const& answer, Link&) -> Documents {
-                              if (is(request, "release") || is(request, "disconnect")) *is_taken = true;
-                              if (is(request, "bind") && is_taken->exchange(false))
-                                  return {response(request, "OUT_OF_RESOURCES", "<reason>another application</reason>")};
-                              return {answer};
-                          }};
-                      }};
+    Proxy const proxy{
+        gateway.port(), [=]() -> Breaking {
+            return {.answer = [=](std::string const& request, std::string const& answer, ProxiedConnection&) -> Documents {
+                if (is(request, "release") || is(request, "disconnect")) *is_taken = true;
+                if (is(request, "bind") && is_taken->exchange(false))
+                    return {response(request, "OUT_OF_RESOURCES", "<reason>another application</reason>")};
+                return {answer};
+            }};
+        }};
     for (auto const* const check : {"disconnect_releases_components", "disconnect_stops_what_runs",
                                     "after_release_nothing_is_allowed", "release_stops_what_runs", "follow_"}) {
         *is_taken = false;

@@ -54,7 +54,7 @@ bool has_header(Message const& message, std::string_view text) {
 }
 
 // Both directions of a WebSocket, each in its own thread.
-class Conversation final : public Link {
+class Conversation final : public ProxiedConnection {
 public:
     Conversation(kit::Socket& application, kit::Socket& gateway, Breaking& breaking)
         : application_{application}, gateway_{gateway}, breaking_{breaking} {}
@@ -160,7 +160,7 @@ private:
 };
 
 // Serves HTTP until the connection becomes a WebSocket or an event stream.
-class Connection final : public Link {
+class Connection final : public ProxiedConnection {
 public:
     Connection(int application, std::uint16_t gateway, Breaking breaking)
         : application_{application}, port_{gateway}, gateway_{kit::connect_to(gateway)}, breaking_{std::move(breaking)} {}

@@ -17,9 +17,9 @@ namespace rois::broken {
 using Documents = std::vector<std::string>;
 
 // The messages between an application and the gateway over one connection.
-class Link {
+class ProxiedConnection {
 public:
-    virtual ~Link() = default;
+    virtual ~ProxiedConnection() = default;
     // Sends the gateway a request; the application does not receive the answer.
     virtual void ask_aside(std::string const& request) = 0;
 };
@@ -40,7 +40,7 @@ struct Breaking {
     std::function<std::string(std::string request)> request{};
     // Returns the documents to send instead of this answer. Over a WebSocket, notifications among them get the next sequence
     // numbers.
-    std::function<Documents(std::string const& request, std::string answer, Link&)> answer{};
+    std::function<Documents(std::string const& request, std::string answer, ProxiedConnection&)> answer{};
     // Returns the documents to send instead of this notification, over a WebSocket. Later notifications are renumbered.
     std::function<Documents(std::string notification)> notification{};
     // Change whole messages, over HTTP only.

@@ -174,7 +174,9 @@ void nest_engines(pugi::xml_node root) {
 
 // Edits the gateway's documents about itself and the world.
 Breaking says_otherwise(Edit const& edit) {
-    return {.answer = [=](std::string const&, std::string const& answer, Link&) -> Documents { return {edited(answer, edit)}; },
+    return {.answer = [=](std::string const&, std::string const& answer, ProxiedConnection&) -> Documents {
+                return {edited(answer, edit)};
+            },
             .notification = [=](std::string const& notification) -> Documents { return {edited(notification, edit)}; },
             .http_reply =
                 [=](Message const& request, Message& reply) {
@@ -193,7 +195,7 @@ void sort(pugi::xml_node search_response, bool falling) {
 Breaking has_names(Names const& names, Edit const& edit) {
     auto breaking = says_otherwise(edit);
     auto const reverse = reversed(names);
-    breaking.answer = [=](std::string const& request, std::string const& answer, Link&) -> Documents {
+    breaking.answer = [=](std::string const& request, std::string const& answer, ProxiedConnection&) -> Documents {
         return {edited(answer, [&](pugi::xml_node root) {
             edit(root);
             if (is(request, "search") && has_text(request, "<fes:SortBy>")) sort(root, has_text(request, ">DESC<"));
@@ -272,7 +274,9 @@ Breaking has_other_ids() {
                     for (auto const& id : ids) replace_all(request, strange + id, id);
                     return request;
                 },
-            .answer = [=](std::string const&, std::string const& answer, Link&) -> Documents { return {renamed(answer)}; },
+            .answer = [=](std::string const&, std::string const& answer, ProxiedConnection&) -> Documents {
+                return {renamed(answer)};
+            },
             .notification = [=](std::string const& notification) -> Documents { return {renamed(notification)}; }};
 }
 

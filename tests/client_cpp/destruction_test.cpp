@@ -32,21 +32,21 @@ TEST_P(Destruction, AtOnce) {
     for (int i = 0; i < 20; ++i) Client robot{settings()};
 }
 
-TEST_P(Destruction, WhileItConnects) {
+TEST_P(Destruction, IsPossibleWhileItConnects) {
     for (int i = 0; i < 20; ++i) {
         Client robot{settings()};
         std::this_thread::sleep_for(i * 150us);
     }
 }
 
-TEST_P(Destruction, WhileItRetries) {
+TEST_P(Destruction, IsPossibleWhileItRetries) {
     Proxy proxy{shared_gateway().port()};
     proxy.refuse(true);
     Client robot{settings(proxy.url())};
     while (proxy.connections() < 3) std::this_thread::sleep_for(1ms);
 }
 
-TEST_P(Destruction, WhileACallHasNoAnswer) {
+TEST_P(Destruction, IsPossibleWhileACallHasNoAnswer) {
     Proxy proxy{shared_gateway().port()};
     History history;
     Client robot{settings(proxy.url()), history.observers()};

@@ -89,7 +89,7 @@ struct Blocked : Asynchronous {
 
 }  // namespace
 
-TEST_F(Blocked, ADriverThatBlocksKeepsNobodyElseWaiting) {
+TEST_F(Blocked, ADriverDelaysOnlyItsOwnComponents) {
     auto desk = world.connect();
     desk.bind("speech");
     auto const asked = query(desk);

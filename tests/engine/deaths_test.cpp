@@ -123,7 +123,7 @@ public:
     }
 
 private:
-    Link link() const { return way_ == Way::websocket ? Link::websocket : Link::stream; }
+    LinkKind link() const { return way_ == Way::websocket ? LinkKind::websocket : LinkKind::stream; }
 
     void die() {
         died_ = true;

@@ -49,11 +49,11 @@ TEST(Decision02, ALostLinkMayBeResumedForAWhileAndThenEndsTheSession) {
     over_websocket.bind("navigation");
     over_websocket.execute(go("go"));
     world.engine->heard_from(over_http.session, world.now);
-    world.engine->link_closed(over_websocket.session, Link::websocket, Closing::lost, world.now);
+    world.engine->link_closed(over_websocket.session, LinkKind::websocket, Closing::lost, world.now);
     world.advance(29'950ms);
     EXPECT_EQ(over_websocket.ask(Resume{over_websocket.session, 0}).return_code, ReturnCode::ok);
-    world.engine->link_opened(over_websocket.session, Link::websocket, world.now);
-    world.engine->link_closed(over_websocket.session, Link::websocket, Closing::lost, world.now);
+    world.engine->link_opened(over_websocket.session, LinkKind::websocket, world.now);
+    world.engine->link_closed(over_websocket.session, LinkKind::websocket, Closing::lost, world.now);
     world.advance(29'950ms);
     EXPECT_TRUE(is_open(world, over_websocket));
     world.advance(50ms);

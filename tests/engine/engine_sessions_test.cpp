@@ -14,7 +14,7 @@ struct AnEngine : testing::Test {
 
 }  // namespace
 
-TEST_F(AnEngine, IsToldTheStateOfEachComponent) {
+TEST_F(AnEngine, ReceivesTheStateOfEachComponent) {
     world.advance(50ms);
     EXPECT_THAT(engine.heard(), ElementsAre("1 component_changed navigation READY", "2 component_changed speech READY"));
     auto application = world.connect();
@@ -39,7 +39,7 @@ TEST_F(AnEngine, GetsTheTraitsOfComponents) {
     EXPECT_FALSE(world.connect().ask(GetProfile{}).components[1].traits) << "an application";
 }
 
-TEST_F(AnEngine, IsToldLocationsAndParameters) {
+TEST_F(AnEngine, ReceivesLocationsAndParameters) {
     world["navigation"].where = Located{};
     world["navigation"].where->of = "robot";
     world["navigation"].where->ref = "robot1";
@@ -57,7 +57,7 @@ TEST_F(AnEngine, IsToldLocationsAndParameters) {
     EXPECT_THAT(changed.results.located.front().position, ElementsAre(3, 4, 0));
 }
 
-TEST_F(AnEngine, IsToldOfChangesAtMostFiveTimesASecond) {
+TEST_F(AnEngine, ReceivesChangesAtMostFiveTimesASecond) {
     world.advance(1s);
     engine.heard();
     for (int i = 0; i < 100; ++i) {
@@ -73,7 +73,7 @@ TEST_F(AnEngine, IsToldOfChangesAtMostFiveTimesASecond) {
     EXPECT_EQ(engine.last_heard<ComponentChanged>().status, ComponentStatus::ready) << "the last state is not lost";
 }
 
-TEST_F(AnEngine, IsToldOfComponentsThatCome) {
+TEST_F(AnEngine, ReceivesTheStateOfNewComponents) {
     world.advance(50ms);
     engine.heard();
     world.change({"speech"}, {detection});
@@ -157,10 +157,10 @@ TEST(Window, IsTheTimeAfterWhichASessionWithoutALinkEnds) {
     World world{navigation};
     auto desk =
         world.connect({.motion_lease = {}, .motion_lease_http = {}, .motion_proof = {}, .is_engine = false, .window = 3000ms});
-    world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
+    world.engine->link_closed(desk.session, LinkKind::websocket, Closing::lost, world.now);
     world.advance(2900ms);
-    world.engine->link_opened(desk.session, Link::websocket, world.now);
-    world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
+    world.engine->link_opened(desk.session, LinkKind::websocket, world.now);
+    world.engine->link_closed(desk.session, LinkKind::websocket, Closing::lost, world.now);
     world.advance(2900ms);
     EXPECT_FALSE(desk.told_of_the_end());
     world.advance(200ms);

@@ -111,20 +111,20 @@ TEST(Session, CommandsThatContinueDoNotKeepTheirComponentFromTheNextSession) {
 TEST(Link, AWebSocketThatClosesLeavesTheSessionTheResumeWindow) {
     World world{navigation};
     auto desk = world.connect_without_link();
-    world.engine->link_opened(desk.session, Link::websocket, world.now);
+    world.engine->link_opened(desk.session, LinkKind::websocket, world.now);
     world.advance(200s);
     EXPECT_TRUE(lives(world, desk)) << "a silent WebSocket is a link";
-    world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
+    world.engine->link_closed(desk.session, LinkKind::websocket, Closing::lost, world.now);
     expect_end_after(30s, world, desk);
 }
 
 TEST(Link, AClientThatBindsAndVanishesIsStoppedWithinTheWindow) {
     World world{navigation};
     auto desk = world.connect_without_link();
-    world.engine->link_opened(desk.session, Link::websocket, world.now);
+    world.engine->link_opened(desk.session, LinkKind::websocket, world.now);
     desk.bind("navigation");
     desk.execute(go("go"));
-    world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
+    world.engine->link_closed(desk.session, LinkKind::websocket, Closing::lost, world.now);
     world.advance(29s);
     EXPECT_THAT(world["navigation"].told, ElementsAre("start"));
     world.advance(1s);
@@ -153,21 +153,21 @@ TEST(Link, ASessionWithoutRequestsAfterConnectEnds) {
 TEST(Link, AStreamThatClosesLeavesTheSessionTimeoutToo) {
     World world{navigation};
     auto desk = world.connect_without_link();
-    world.engine->link_opened(desk.session, Link::stream, world.now);
+    world.engine->link_opened(desk.session, LinkKind::stream, world.now);
     world.advance(300s);
-    world.engine->link_closed(desk.session, Link::stream, Closing::lost, world.now);
+    world.engine->link_closed(desk.session, LinkKind::stream, Closing::lost, world.now);
     expect_end_after(90s, world, desk);
 }
 
 TEST(Link, OneOfSeveralIsEnough) {
     World world{navigation};
     auto desk = world.connect_without_link();
-    world.engine->link_opened(desk.session, Link::websocket, world.now);
-    world.engine->link_opened(desk.session, Link::websocket, world.now);
-    world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
+    world.engine->link_opened(desk.session, LinkKind::websocket, world.now);
+    world.engine->link_opened(desk.session, LinkKind::websocket, world.now);
+    world.engine->link_closed(desk.session, LinkKind::websocket, Closing::lost, world.now);
     world.advance(300s);
     EXPECT_TRUE(lives(world, desk));
-    world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
+    world.engine->link_closed(desk.session, LinkKind::websocket, Closing::lost, world.now);
     world.advance(30s);
     EXPECT_FALSE(lives(world, desk));
 }
@@ -175,9 +175,9 @@ TEST(Link, OneOfSeveralIsEnough) {
 TEST(Link, HttpBesideAWebSocketCounts) {
     World world{navigation};
     auto desk = world.connect_without_link();
-    world.engine->link_opened(desk.session, Link::websocket, world.now);
+    world.engine->link_opened(desk.session, LinkKind::websocket, world.now);
     world.engine->heard_from(desk.session, world.now);
-    world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
+    world.engine->link_closed(desk.session, LinkKind::websocket, Closing::lost, world.now);
     expect_end_after(90s, world, desk);
 }
 
@@ -185,8 +185,8 @@ TEST(Link, ManyShortPollsDoNotShortenIt) {
     World world{navigation};
     auto desk = world.connect_without_link();
     for (int poll = 0; poll < 200; ++poll) {
-        world.engine->link_opened(desk.session, Link::stream, world.now);
-        world.engine->link_closed(desk.session, Link::stream, Closing::lost, world.now);
+        world.engine->link_opened(desk.session, LinkKind::stream, world.now);
+        world.engine->link_closed(desk.session, LinkKind::stream, Closing::lost, world.now);
         world.advance(1s);
     }
     EXPECT_TRUE(lives(world, desk));
@@ -196,8 +196,8 @@ TEST(Link, ManyShortPollsDoNotShortenIt) {
 TEST(Link, OfAnUnknownSessionHasNoEffect) {
     World world{navigation};
     world.engine->heard_from({"made-up"}, world.now);
-    world.engine->link_opened({"made-up"}, Link::stream, world.now);
-    world.engine->link_closed({"made-up"}, Link::stream, Closing::lost, world.now);
+    world.engine->link_opened({"made-up"}, LinkKind::stream, world.now);
+    world.engine->link_closed({"made-up"}, LinkKind::stream, Closing::lost, world.now);
     world.engine->end({"made-up"}, world.now);
     EXPECT_EQ(world.engine->statistics().sessions, 0U);
 }

@@ -133,7 +133,7 @@ void World::change(std::vector<std::string> going, std::vector<Part> const& comi
 
 Application World::connect(Connect const& connection) {
     auto application = connect_without_link(connection);
-    engine->link_opened(application.session, Link::websocket, now);
+    engine->link_opened(application.session, LinkKind::websocket, now);
     return application;
 }
 

@@ -94,10 +94,10 @@ TEST_F(Misbehaving, ACalendarThatJumpsMovesNoComponent) {
         world.set_calendar(day);
         expect_time_to_pass();
         EXPECT_FALSE(desk.told_of_the_end());
-        world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
+        world.engine->link_closed(desk.session, LinkKind::websocket, Closing::lost, world.now);
         world.advance(300ms);
         EXPECT_EQ(robot.told.back(), "suspend") << "its lease has ended";
-        world.engine->link_opened(desk.session, Link::websocket, world.now);
+        world.engine->link_opened(desk.session, LinkKind::websocket, world.now);
     }
 }
 

@@ -82,9 +82,9 @@ struct Hall {
             [this] { guest.value().execute(go("mine", "base")); },
             [this] { world.advance(300ms); },
             [this] { guest.value().ask(Disconnect{}); },
-            [this] { world.engine->link_closed(desk.value().session, Link::websocket, Closing::lost, world.now); },
+            [this] { world.engine->link_closed(desk.value().session, LinkKind::websocket, Closing::lost, world.now); },
             [this] { world.advance(400ms); },
-            [this] { world.engine->link_opened(desk.value().session, Link::websocket, world.now); },
+            [this] { world.engine->link_opened(desk.value().session, LinkKind::websocket, world.now); },
             [this] { desk.value().execute(go("fifth", "arm"), after(200ms, go("sixth", "base"))); },
             [this] { desk.value().unsubscribe(subscription); },
             [this] { use_up_memory(); },
@@ -142,7 +142,7 @@ struct Hall {
     }
     void lose_links(SessionId const& session) {
         constexpr int most_links = 3;
-        for (int i = 0; i < most_links; ++i) world.engine->link_closed(session, Link::websocket, Closing::lost, world.now);
+        for (int i = 0; i < most_links; ++i) world.engine->link_closed(session, LinkKind::websocket, Closing::lost, world.now);
     }
 
     void tick_quietly(std::chrono::milliseconds duration) {
@@ -239,7 +239,7 @@ TEST(MotionAfterAPauseOfTheEngine, IsHeldByTheNextTickIfMemoryIsMissing) {
     for (std::uint64_t n = 1; failed && !testing::Test::HasFailure(); ++n) {
         Hall hall;
         auto desk = hall.world.connect_without_link();
-        hall.world.engine->link_opened(desk.session, Link::stream, hall.world.now);
+        hall.world.engine->link_opened(desk.session, LinkKind::stream, hall.world.now);
         desk.bind("base");
         desk.execute(go("go", "base"));
         hall.tick();

@@ -52,7 +52,7 @@ TEST(WebFile, IsSentInTheFormThatIsTaken) {
     EXPECT_EQ(field(only_plain, "Content-Encoding"), "");
 }
 
-TEST(WebFile, IsNotSentAgainToWhoeverHasThatForm) {
+TEST(WebFile, IsNotSentAgainIfTheClientHasIt) {
     auto const etag = field(get("index.html"), "ETag");
     auto const again = get("index.html", {{"If-None-Match", etag}});
     EXPECT_EQ(again.status, http::status::not_modified);

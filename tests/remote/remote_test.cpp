@@ -15,6 +15,7 @@ struct SubEngines : testing::Test {
 
 TEST_F(SubEngines, HaveTheirComponentsInThisEngine) {
     EXPECT_THAT(desk.search(), ElementsAre("hall.localization", "hall.navigation", "hall.speech"));
+    EXPECT_EQ(desk.ask(Search{}).component_ref_list[1].codebook_ref, navigation.profile.object.identifier);
     auto const profile = desk.ask(GetProfile{}).profile;
     ASSERT_EQ(profile->sub_profiles.size(), 1u);
     EXPECT_EQ(profile->sub_profiles[0].object.name, "hall");

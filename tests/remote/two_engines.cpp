@@ -32,6 +32,8 @@ public:
     void answer_pings() {
         if (!session_.text.empty()) engines_.hall.engine->heard_pong(session_, engines_.hall.now);
     }
+    void inject(std::string const& document) { listener_->document(document); }
+    std::uint64_t next_sequence() { return after_ + 1'000'000 + ++injected_; }
     void broke() {
         close();
         fail("the link broke", client::Failure::passing);
@@ -92,23 +94,23 @@ private:
         if (resume != nullptr && std::get<Resume::Reply>(reply).return_code == ReturnCode::ok)
             join(resume->session, resume->last_sequence);
         if (std::holds_alternative<Disconnect::Reply>(reply)) session_ = {};
-        listener_->document(xml::encode(reply, id));
+        auto told = reply;
+        engines_.falsify(told);
+        listener_->document(xml::encode(told, id));
     }
 
     void join(SessionId const& session, std::uint64_t after) {
         session_ = session;
         after_ = after;
         reads_ = engines_.hall.engine->notifications(session);
-        engines_.hall.engine->link_opened(session, Link_::websocket, engines_.hall.now);
+        engines_.hall.engine->link_opened(session, LinkKind::websocket, engines_.hall.now);
     }
 
     void close() {
         if (session_.text.empty()) return;
-        engines_.hall.engine->link_closed(session_, Link_::websocket, Closing::lost, engines_.hall.now);
+        engines_.hall.engine->link_closed(session_, LinkKind::websocket, Closing::lost, engines_.hall.now);
         session_ = {};
     }
-
-    using Link_ = rois::Link;
 
     TwoEngines& engines_;
     xml::RequestReader reader_{schemas()};
@@ -117,6 +119,7 @@ private:
     std::deque<std::pair<std::string, std::shared_ptr<TestedOperation>>> waiting_;
     SessionId session_;
     std::uint64_t after_ = 0;
+    std::uint64_t injected_ = 0;
     std::shared_ptr<NotificationQueue> reads_;
 };
 
@@ -216,6 +219,16 @@ Reply TwoEngines::ask(Application const& by, Operation const& operation) {
     settle();
     for (int i = 0; i < 40 && !asked->said; ++i) advance(50ms);
     return std::get<Reply>(asked->said.value());
+}
+
+void TwoEngines::inject(std::string const& document) {
+    wire_->inject(document);
+    settle();
+}
+
+void TwoEngines::inject(Notification const& notification) {
+    inject(std::string{xml::notification_head(notification)} + std::to_string(wire_->next_sequence()) +
+           xml::notification_tail(notification));
 }
 
 void TwoEngines::cut() {

@@ -55,6 +55,11 @@ public:
     bool is_cut() const { return is_broken_; }
     // The hall's answers and notifications are kept back.
     void hold_back(bool yes) { is_held_back_ = yes; }
+    // Changes the answers of the hall.
+    std::function<void(Reply&)> falsify = [](Reply&) {};
+    // Sends the main engine a document, as if from the hall.
+    void inject(std::string const& document);
+    void inject(Notification const&);  // with the next sequence
     // The clock of the main engine stands still.
     bool main_is_alive = true;
     // Changes the instances that a profile may not have.

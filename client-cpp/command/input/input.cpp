@@ -1,5 +1,7 @@
 #include "command/input/input.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <iterator>
@@ -13,7 +15,7 @@ std::ifstream open_file(std::string const& file) {
     if (std::filesystem::is_directory(file, unknown))  // an ifstream would open it and fail later
         throw Trouble{Exit::usage, file + " cannot be read: this is a folder; name a file in it"};
     std::ifstream in{file, std::ios::binary};
-    if (!in) throw Trouble{Exit::usage, file + " cannot be read"};
+    if (!in) throw Trouble{Exit::usage, file + " cannot be read: " + std::strerror(errno)};
     return in;
 }
 
@@ -23,7 +25,7 @@ std::string text_of_file(std::string const& file) {
     try {
         return {std::istreambuf_iterator<char>{in}, {}};
     } catch (std::ios_base::failure const&) {
-        throw Trouble{Exit::usage, file + " cannot be read"};
+        throw Trouble{Exit::usage, file + " cannot be read: " + std::strerror(errno)};
     }
 }
 

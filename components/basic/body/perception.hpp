@@ -76,7 +76,7 @@ public:
     // nothing if the robot perceives no person or robot of that name now.
     virtual std::optional<EntityId> find(std::string_view ref, std::string_view codebook) const = 0;
 
-    // Returns whether a reference means a person or robot now, did so before, or may do so later.
+    // Returns whether `ref` is, was or may become the name of a person or robot.
     virtual bool knows(std::string_view ref) const = 0;
 
     // The greatest sequence number so far; 0 at first. Sequence numbers increase, perhaps with gaps.

@@ -11,7 +11,7 @@
 namespace rois {
 
 // How an application is linked to its session (decision 2): by a WebSocket, or by an event stream or a pending long poll.
-enum class Link : std::uint8_t { websocket, stream };
+enum class LinkKind : std::uint8_t { websocket, stream };
 
 // How a link ended. `answered`: a long poll was answered, which counts as a request of the application. `lost`: the application
 // closed the link, or the link broke.
@@ -38,11 +38,11 @@ public:
         last_heard_ = now;
         if (terms_.links_count) last_sign_of_life_ = now;
     }
-    void opened(Link link, Steady now) {
+    void opened(LinkKind link, Steady now) {
         ++count(link);
         request_received(now);
     }
-    void closed(Link link, Closing closing, Steady now) {
+    void closed(LinkKind link, Closing closing, Steady now) {
         if (count(link) > 0) --count(link);
         if (closing == Closing::answered && terms_.links_count) request_received(now);
         if (closing == Closing::lost && links() == 0) end_after_link_ = now + for_a_successor;
@@ -65,7 +65,7 @@ private:
     // How long an application has to open a new link, or send a request, after its last link is lost.
     static constexpr std::chrono::milliseconds for_a_successor{250};
 
-    std::size_t& count(Link link) { return link == Link::websocket ? websockets_ : streams_; }
+    std::size_t& count(LinkKind link) { return link == LinkKind::websocket ? websockets_ : streams_; }
 
     Terms terms_;
     Steady last_heard_;

@@ -5,15 +5,15 @@
 namespace rois {
 
 std::optional<Texts> MessageCandidate::texts(Reference const& reference) const {
-    return speaks_of_results(reference) ? texts_in(results_, reference) : component_.texts(reference);
+    return speaks_of_results(reference) ? texts_in(results_, reference) : component().texts(reference);
 }
 
 std::optional<Positions> MessageCandidate::positions(Reference const& reference) const {
-    return speaks_of_results(reference) ? positions_in(results_, reference) : component_.positions(reference);
+    return speaks_of_results(reference) ? positions_in(results_, reference) : component().positions(reference);
 }
 
 bool MessageCandidate::has(Reference const& reference) const {
-    return speaks_of_results(reference) ? is_in(results_, reference) : component_.has(reference);
+    return speaks_of_results(reference) ? is_in(results_, reference) : component().has(reference);
 }
 
 std::optional<Texts> ResultsCandidate::texts(Reference const& reference) const { return texts_in(results_, reference); }

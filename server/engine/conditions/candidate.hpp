@@ -60,21 +60,33 @@ public:
     virtual Holder holder() const { return Holder::nobody; }
 };
 
-// A component, together with the results of one of its events or of its answer to a query. Keeps references to both.
-class MessageCandidate final : public Candidate {
+// A component together with something else. Keeps a reference to the component.
+class WithComponent : public Candidate {
 public:
-    MessageCandidate(Candidate const& component, Results const& results) : component_{component}, results_{results} {}
+    explicit WithComponent(Candidate const& component) : component_{component} {}
+
+    std::string_view rid() const final { return component_.rid(); }
+    std::vector<Candidate const*> robot() const final { return component_.robot(); }
+    std::optional<GroupVerdict>* verdict(void const* group) const final { return component_.verdict(group); }
+    Holder holder() const final { return component_.holder(); }
+
+protected:
+    Candidate const& component() const { return component_; }
+
+private:
+    Candidate const& component_;
+};
+
+// A component, together with the results of one of its events or of its answer to a query. Keeps a reference to the results.
+class MessageCandidate final : public WithComponent {
+public:
+    MessageCandidate(Candidate const& component, Results const& results) : WithComponent{component}, results_{results} {}
 
     std::optional<Texts> texts(Reference const&) const override;
     std::optional<Positions> positions(Reference const&) const override;
     bool has(Reference const&) const override;
-    std::string_view rid() const override { return component_.rid(); }
-    std::vector<Candidate const*> robot() const override { return component_.robot(); }
-    std::optional<GroupVerdict>* verdict(void const* group) const override { return component_.verdict(group); }
-    Holder holder() const override { return component_.holder(); }
 
 private:
-    Candidate const& component_;
     Results const& results_;
 };
 

@@ -37,25 +37,18 @@ bool is_of(std::string_view type, Candidate const& component, std::string_view m
 
 // A component for a group condition. A component that the asker has bound counts as free: otherwise the asker could not bind a
 // second component of a group whose condition requires free components.
-class ForAsker final : public Candidate {
+class ForAsker final : public WithComponent {
 public:
-    explicit ForAsker(Candidate const& component) : component_{component} {}
+    using WithComponent::WithComponent;
 
     std::optional<Texts> texts(Reference const& reference) const override {
-        auto texts = component_.texts(reference);
-        bool const is_own = reference.to == Reference::To::bound && component_.holder() == Holder::asker;
+        auto texts = component().texts(reference);
+        bool const is_own = reference.to == Reference::To::bound && holder() == Holder::asker;
         if (texts && is_own) std::ranges::fill(*texts, "false");
         return texts;
     }
-    std::optional<Positions> positions(Reference const& reference) const override { return component_.positions(reference); }
-    bool has(Reference const& reference) const override { return component_.has(reference); }
-    std::string_view rid() const override { return component_.rid(); }
-    std::vector<Candidate const*> robot() const override { return component_.robot(); }
-    std::optional<GroupVerdict>* verdict(void const* group) const override { return component_.verdict(group); }
-    Holder holder() const override { return component_.holder(); }
-
-private:
-    Candidate const& component_;
+    std::optional<Positions> positions(Reference const& reference) const override { return component().positions(reference); }
+    bool has(Reference const& reference) const override { return component().has(reference); }
 };
 
 // A robot for the filter of its group. A reference has the values of all components of the group's types; with an alias, only of

@@ -28,7 +28,7 @@ struct InboxEntry {
     std::shared_ptr<HostedComponent> from;
     What report;
 };
-using InboxEntries = std::list<InboxEntry>;  // of which entries are taken without moving them
+using InboxEntries = std::list<InboxEntry>;  // a list, so that taking an entry does not move it
 
 // The entries of one provider, in their order. Guarded by the inbox's mutex. Close it before its end.
 struct ProvidersEntries {

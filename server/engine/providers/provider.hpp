@@ -20,7 +20,7 @@ class Provider;
 // The providers with calls that no thread runs yet. Needs the lock that serializes the calls to the engine.
 class ProvidersToRun {
 public:
-    // From now on there is room for `providers` providers.
+    // Reserves room for this number of providers.
     void expect(std::size_t providers) { providers_.reserve(providers); }
     void add(std::shared_ptr<Provider>) noexcept;
     // Returns the one that was added first, or null.

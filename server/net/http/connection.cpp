@@ -118,7 +118,7 @@ Task<Connection::Then> Connection::serve() {
             if (answer.is_disconnect()) {
                 co_await await_answers();
                 co_await flush();
-                co_await others_heard(shared.gateway, session_, loop_.executor(), loop_.wakes());
+                co_await wait_for_other_readers(shared.gateway, session_, loop_.executor(), loop_.wakes());
             }
             then = take(std::move(answer));
         }

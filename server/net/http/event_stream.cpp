@@ -4,6 +4,7 @@
 
 #include "net/loop.hpp"
 #include "net/signal.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::net {
 
@@ -20,8 +21,8 @@ std::optional<std::uint64_t> to_number(std::string_view text) {
     return number;
 }
 
-Fault bad_number(std::string_view name, std::string_view limit = {}) {
-    return {FaultCode::not_well_formed, std::string{name} + " must be a whole number" + std::string{limit}, {}, {}};
+Fault bad_number(std::string_view name, std::string_view value, std::string const& limit = {}) {
+    return {FaultCode::not_well_formed, std::string{name} + " must be a whole number" + limit + ", not " + quoted(value), {}, {}};
 }
 
 // Appends a server-sent event: its id is the sequence, its data the document line by line.
@@ -44,19 +45,20 @@ std::variant<NotificationsWanted, Fault> read_wanted(RequestHead const& head) {
     if (head.lists("Accept", "text/event-stream")) {
         wanted.as = NotificationsWanted::As::stream;
         if (head.count("Last-Event-ID") == 0) return wanted;
-        auto const last = to_number(head.field("Last-Event-ID").value_or(""));
-        if (!last) return bad_number("Last-Event-ID");
+        auto const text = head.field("Last-Event-ID").value_or("");
+        auto const last = to_number(text);
+        if (!last) return bad_number("Last-Event-ID", text);
         wanted.after = *last;
         return wanted;
     }
     if (auto const after = head.parameter("after")) {
         auto const number = to_number(*after);
-        if (!number) return bad_number("after");
+        if (!number) return bad_number("after", *after);
         wanted.after = *number;
     }
     if (auto const wait = head.parameter("wait")) {
         auto const number = to_number(*wait);
-        if (!number || *number > longest_wait) return bad_number("wait", " of seconds, 30 at most");
+        if (!number || *number > longest_wait) return bad_number("wait", *wait, " of seconds, 30 at most");
         wanted.wait = std::chrono::seconds{*number};
     }
     return wanted;
@@ -65,7 +67,7 @@ std::variant<NotificationsWanted, Fault> read_wanted(RequestHead const& head) {
 Task<HttpAnswer> poll(Wire& wire, Loop& loop, SessionId const& session, NotificationsWanted const& wanted) {
     auto const until = std::chrono::steady_clock::now() + wanted.wait;
     auto const signal = std::make_shared<Signal>(wire.executor(), loop.wakes());
-    auto read = loop.shared().gateway.read(session, Link::stream, wanted.after, *signal, Readers::Until::answered);
+    auto read = loop.shared().gateway.read(session, LinkKind::stream, wanted.after, *signal, Readers::Until::answered);
     if (auto const* fault = std::get_if<Fault>(&read)) co_return answer_of(*fault);
     auto const reading = std::get<std::unique_ptr<Reading>>(std::move(read));
     auto taken = reading->take(most_a_poll);
@@ -87,7 +89,7 @@ Task<HttpAnswer> poll(Wire& wire, Loop& loop, SessionId const& session, Notifica
 Task<std::optional<HttpAnswer>> stream(Wire& wire, Loop& loop, SessionId const& session, NotificationsWanted const& wanted) {
     auto const& shared = loop.shared();
     auto const signal = std::make_shared<Signal>(wire.executor(), loop.wakes());
-    auto read = shared.gateway.read(session, Link::stream, wanted.after, *signal);
+    auto read = shared.gateway.read(session, LinkKind::stream, wanted.after, *signal);
     if (auto const* fault = std::get_if<Fault>(&read)) co_return answer_of(*fault);
     auto const reading = std::get<std::unique_ptr<Reading>>(std::move(read));
     std::string out;
@@ -113,7 +115,7 @@ Task<std::optional<HttpAnswer>> stream(Wire& wire, Loop& loop, SessionId const& 
     co_return std::nullopt;
 }
 
-Task<> others_heard(Gateway& gateway, SessionId const& session, Executor const& executor, Wakes& wakes) {
+Task<> wait_for_other_readers(Gateway& gateway, SessionId const& session, Executor const& executor, Wakes& wakes) {
     auto const until = std::chrono::steady_clock::now() + std::chrono::seconds{1};
     auto const signal = std::make_shared<Signal>(executor, wakes);
     Farewell const farewell{gateway, session, *signal};

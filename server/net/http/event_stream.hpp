@@ -27,6 +27,6 @@ Task<HttpAnswer> poll(Wire&, Loop&, SessionId const&, NotificationsWanted const&
 Task<std::optional<HttpAnswer>> stream(Wire&, Loop&, SessionId const&, NotificationsWanted const&);
 
 // Waits until all readers of a disconnected session have received its last notifications, for at most a second.
-Task<> others_heard(Gateway&, SessionId const&, Executor const&, Wakes&);
+Task<> wait_for_other_readers(Gateway&, SessionId const&, Executor const&, Wakes&);
 
 }  // namespace rois::net

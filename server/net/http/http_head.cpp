@@ -82,8 +82,8 @@ public:
         if (text.find("\r\n ") != text.npos || text.find("\r\n\t") != text.npos)
             return broken("a folded header line: send each header field in one line");
         if (hosts_ > 1 || (hosts_ == 0 && !head_.is_http_1_0)) return broken("expected exactly one Host header");
-        if (!may_be_authority(head_.field("Host").value_or("")))
-            return broken("Host is not a name or an address with an optional port");
+        if (auto const host = head_.field("Host").value_or(""); !may_be_authority(host))
+            return broken("Host " + quoted(host) + " is not a name or an address with an optional port");
         if (!may_be_authority(head_.target_authority))
             return broken("the target's host is not a name or an address with an optional port");
         if (is_encoded_) return no_transfer_encoding();
@@ -209,7 +209,7 @@ std::optional<Fault> read_head(std::string_view text, Settings const& settings, 
 
 Fault overlong_head(std::string_view text, Settings const& settings) {
     if (text.find('\n') == std::string_view::npos) return overlong_target(settings);
-    return {FaultCode::header_too_large, "the header is longer than " + std::to_string(settings.max_header) + " bytes", {}, {}};
+    return {FaultCode::header_too_large, "the header has more than " + std::to_string(settings.max_header) + " bytes", {}, {}};
 }
 
 }  // namespace rois::net

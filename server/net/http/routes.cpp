@@ -65,9 +65,10 @@ std::optional<HttpAnswer> refusal_of_other_sites(RequestHead const& head, Settin
     return {};
 }
 
-HttpAnswer method_not_allowed(Route const& route) {
-    auto const allowed = methods_of(route.endpoint);
-    auto answer = answer_of({FaultCode::method_not_allowed, "the methods taken here are " + std::string{allowed}, {}, {}});
+HttpAnswer method_not_allowed(Route const& route, std::string_view method) {
+    auto const allowed = std::string{methods_of(route.endpoint)};
+    auto const reason = "the method " + quoted(method) + " is not allowed here: expected one of " + allowed;
+    auto answer = answer_of({FaultCode::method_not_allowed, reason, {}, {}});
     answer.fields.set(http::field::allow, allowed);
     return answer;
 }
@@ -89,19 +90,16 @@ std::optional<HttpAnswer> refusal(RequestHead const& head, Route const& route, S
     if (auto refused = refusal_of_other_sites(head, settings)) return refused;
     if (route.endpoint == Endpoint::unknown && is_known_method(head.method))
         return answer_of({FaultCode::not_found, "there is nothing at " + quoted(head.path), {}, {}});
-    if (!takes(route, head.method)) return method_not_allowed(route);
+    if (!takes(route, head.method)) return method_not_allowed(route, head.method);
     if (head.content_length > settings.document.bytes) {
-        return answer_of(
-            {FaultCode::too_large, "the body may have " + std::to_string(settings.document.bytes) + " bytes", {}, {}});
+        auto const size = std::to_string(head.content_length), most = std::to_string(settings.document.bytes);
+        return answer_of({FaultCode::too_large, "the body has " + size + " bytes: expected at most " + most, {}, {}});
     }
-    if (head.verb != http::verb::post || route.endpoint != Endpoint::rois) return {};
-    if (!xml::is_xml_media_type(head.field("Content-Type").value_or(""))) {
-        return answer_of({FaultCode::unsupported_media_type,
-                          "send one request document with the header Content-Type: application/xml (charset utf-8)",
-                          {},
-                          {}});
-    }
-    return {};
+    auto const type = head.field("Content-Type").value_or("");
+    bool const has_document = head.verb == http::verb::post && route.endpoint == Endpoint::rois;
+    if (!has_document || xml::is_xml_media_type(type)) return {};
+    auto const reason = "Content-Type is " + quoted(type) + ": expected application/xml, in UTF-8";
+    return answer_of({FaultCode::unsupported_media_type, reason, {}, {}});
 }
 
 }  // namespace rois::net

@@ -45,7 +45,7 @@ HttpAnswer upgrade(RequestHead const& head) {
     if (auto const version = head.field("Sec-WebSocket-Version").value_or(""); version != "13")
         return wants_upgrade("unsupported Sec-WebSocket-Version " + quoted(version) + ": expected 13");
     auto const key = head.field("Sec-WebSocket-Key");
-    if (!key || !is_websocket_key(*key)) return broken("Sec-WebSocket-Key is not one text of 16 bytes in base64");
+    if (!key || !is_websocket_key(*key)) return broken("expected exactly one Sec-WebSocket-Key, with 16 bytes in base64");
     if (!head.lists("Sec-WebSocket-Protocol", subprotocol, RequestHead::Case::kept))
         return broken("ask for the subprotocol rois.xml.v1");
     HttpAnswer answer{.status = http::status::switching_protocols, .content_type = {}, .cache_control = {}};

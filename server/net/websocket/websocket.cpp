@@ -178,7 +178,7 @@ Task<> WebSocket::leave_session() {
     }
     reading_.reset();
     flush();
-    co_await others_heard(shared_.gateway, session_, wire_->executor(), wakes());
+    co_await wait_for_other_readers(shared_.gateway, session_, wire_->executor(), wakes());
     add(*std::exchange(last_answer_, nullptr));
 }
 
@@ -195,7 +195,7 @@ void WebSocket::join(Answer const& answer) {
     if (same && answer.turn == Answer::Turn::connected) return;
     reading_.reset();
     session_over_ = false;
-    auto read = shared_.gateway.read(session_, Link::websocket, answer.last_sequence, *this);
+    auto read = shared_.gateway.read(session_, LinkKind::websocket, answer.last_sequence, *this);
     if (auto* reading = std::get_if<std::unique_ptr<Reading>>(&read)) reading_ = std::move(*reading);
 }
 

@@ -83,7 +83,7 @@ struct MessageReader::Head {
         head.payload = 0;
         for (std::size_t i = 0; i < length_bytes; ++i) head.payload = head.payload << 8 | at(2 + i);
         bool const shortest = head.payload > (length_bytes == 2 ? longest_control : 0xFFFF);
-        if (!shortest || head.payload >> 63) return error_of("a length that is not written in the shortest form");
+        if (!shortest || head.payload >> 63) return error_of("the length is not in the shortest form");
         return head;
     }
 };
@@ -153,7 +153,7 @@ Received MessageReader::take_control(Head const& head, std::string_view payload)
     if (payload.empty()) return {Received::Kind::close, {}, CloseCode::normal};
     if (payload.size() == 1) return protocol_error("a close code of one byte");
     auto const code = static_cast<unsigned>(static_cast<unsigned char>(payload[0]) << 8 | static_cast<unsigned char>(payload[1]));
-    if (!may_be_sent(code)) return protocol_error("this close code is not allowed in a close frame");
+    if (!may_be_sent(code)) return protocol_error("the close code must not be sent");
     if (!is_utf8(payload.substr(2))) return violation(CloseCode::invalid_payload, "not UTF-8");
     return {Received::Kind::close, {}, static_cast<CloseCode>(code)};
 }

@@ -1,4 +1,5 @@
-// A cache of start tags, so that the acceptor can take a repeated tag as a whole.
+// A cache of start tags, so that the acceptor can take a repeated tag as a whole. Without it, validating 20 kB takes 2.2 times as
+// long (docs/performance.md).
 #pragma once
 
 #include <cstddef>

@@ -64,7 +64,7 @@ Breaking names_no_path() {
 
 // Runs the first unit of a sequence that is refused.
 Breaking runs_what_comes_before_a_bad_unit() {
-    return {.answer = [](std::string const& request, std::string const& answer, Link& link) -> Documents {
+    return {.answer = [](std::string const& request, std::string const& answer, ProxiedConnection& link) -> Documents {
         if (is(request, "execute") && answer.find("BAD_PARAMETER") != std::string::npos)
             link.ask_aside(edited(request, [](pugi::xml_node root) {
                 auto sequence = root.first_child();

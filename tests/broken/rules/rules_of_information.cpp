@@ -87,7 +87,7 @@ Breaking keeps_inlining() {
 }
 
 Breaking tells_a_profile_too_many() {
-    return {.answer = [](std::string const& request, std::string const& answer, Link&) -> Documents {
+    return {.answer = [](std::string const& request, std::string const& answer, ProxiedConnection&) -> Documents {
         if (!is(request, "get_profile") || request.find("<condition") == std::string::npos) return {answer};
         return {edited(answer, [](pugi::xml_node root) {
             if (auto const profile = root.child("rois:HRIComponentProfile"))

@@ -18,7 +18,7 @@ Breaking opens_a_session_for_each_connect() {
 }
 
 Breaking speaks_after_disconnect() {
-    return {.answer = [](std::string const& request, std::string const& answer, Link&) -> Documents {
+    return {.answer = [](std::string const& request, std::string const& answer, ProxiedConnection&) -> Documents {
         if (!is(request, "disconnect")) return {answer};
         return {answer, "<profile_changed xmlns=\"urn:x-rois:psm:xml:message:1\" sequence=\"1000\"/>"};
     }};
@@ -67,7 +67,7 @@ Breaking answers_with_a_strange_attribute() {
 // Sends the notifications that set_parameter causes before its answer.
 Breaking notifies_first() {
     auto held = std::make_shared<std::string>();
-    return {.answer = [held](std::string const& request, std::string const& answer, Link&) -> Documents {
+    return {.answer = [held](std::string const& request, std::string const& answer, ProxiedConnection&) -> Documents {
                 if (!is(request, "set_parameter") || answer.find("\"OK\"") == std::string::npos) return {answer};
                 *held = answer;
                 return {};

@@ -21,7 +21,7 @@ std::function<Breaking()> tells_all_sessions(std::string const& kind) {
         auto const news = std::make_shared<Documents>();
         std::lock_guard const lock{gossip->mutex};
         gossip->sessions.push_back(news);
-        return Breaking{.answer = [=](std::string const&, std::string const& answer, Link&) -> Documents {
+        return Breaking{.answer = [=](std::string const&, std::string const& answer, ProxiedConnection&) -> Documents {
                             std::lock_guard const telling{gossip->mutex};
                             auto said = std::exchange(*news, {});
                             said.insert(said.begin(), answer);
@@ -40,7 +40,7 @@ std::function<Breaking()> tells_all_sessions(std::string const& kind) {
 // Returns earlier details again.
 Breaking forgets_to_expire() {
     auto const told = std::make_shared<std::map<std::string, std::string>>();
-    return {.answer = [=](std::string const& request, std::string const& answer, Link&) -> Documents {
+    return {.answer = [=](std::string const& request, std::string const& answer, ProxiedConnection&) -> Documents {
         if (!is(request, "get_event_detail")) return {answer};
         std::string id;
         edited(request, [&](pugi::xml_node root) { id = root.child("event_id").text().get(); });
@@ -85,7 +85,7 @@ Breaking tells_no_errors() {
 // Restores the parameters of before a release when the component is bound again.
 Breaking keeps_parameters() {
     auto const last = std::make_shared<std::string>();
-    return {.answer = [=](std::string const& request, std::string const& answer, Link& link) -> Documents {
+    return {.answer = [=](std::string const& request, std::string const& answer, ProxiedConnection& link) -> Documents {
         if (is(request, "set_parameter")) *last = request;
         if (is(request, "bind") && !last->empty()) link.ask_aside(*last);
         return {answer};
@@ -99,7 +99,7 @@ std::function<Breaking()> tells_what_was_set() {
         pugi::xml_document parameter;
     };
     return [last = std::make_shared<Last>()]() -> Breaking {
-        return {.answer = [=](std::string const& request, std::string const& answer, Link&) -> Documents {
+        return {.answer = [=](std::string const& request, std::string const& answer, ProxiedConnection&) -> Documents {
             std::lock_guard const lock{last->mutex};
             if (is(request, "set_parameter"))
                 edited(request, [&](pugi::xml_node root) {

@@ -20,8 +20,8 @@ protected:
         desk.bind("speech");
     }
 
-    void open(Link link = Link::websocket) { world.engine->link_opened(desk.session, link, world.now); }
-    void close(Link link = Link::websocket, Closing how = Closing::lost) {
+    void open(LinkKind link = LinkKind::websocket) { world.engine->link_opened(desk.session, link, world.now); }
+    void close(LinkKind link = LinkKind::websocket, Closing how = Closing::lost) {
         world.engine->link_closed(desk.session, link, how, world.now);
     }
     void pong() { world.engine->heard_pong(desk.session, world.now); }
@@ -75,7 +75,7 @@ TEST_F(Lease, OfAnOpenStreamMayBeRenewedByRequestsAlone) {
     EXPECT_EQ(
         desk.ask(Connect{.motion_lease = {}, .motion_lease_http = 3000ms, .motion_proof = MotionProof::request}).return_code,
         ReturnCode::ok);
-    open(Link::stream);
+    open(LinkKind::stream);
     desk.execute(go("go"));
     world.advance(1900ms);
     desk.query("route");
@@ -90,9 +90,9 @@ TEST_F(Lease, IsNotRenewedByTheAnswerToALongPollWhereRequestsAloneCount) {
         desk.ask(Connect{.motion_lease = {}, .motion_lease_http = 3000ms, .motion_proof = MotionProof::request}).return_code,
         ReturnCode::ok);
     desk.execute(go("go"));
-    open(Link::stream);
+    open(LinkKind::stream);
     world.advance(1s);
-    close(Link::stream, Closing::answered);
+    close(LinkKind::stream, Closing::answered);
     world.advance(1950ms);
     EXPECT_THAT(robot.told, ElementsAre("start"));
     world.advance(50ms);
@@ -120,11 +120,11 @@ TEST_F(Lease, GoesOnWithALinkThatTakesThePlaceOfAnotherOne) {
 }
 
 TEST_F(Lease, OfAnOpenStreamLastsAsLongAsTheStream) {
-    open(Link::stream);
+    open(LinkKind::stream);
     desk.execute(go("go"));
     world.advance(60s);
     EXPECT_THAT(robot.told, ElementsAre("start"));
-    close(Link::stream);
+    close(LinkKind::stream);
     world.advance(250ms);
     EXPECT_THAT(robot.told, ElementsAre("start", "suspend"));
 }
@@ -132,9 +132,9 @@ TEST_F(Lease, OfAnOpenStreamLastsAsLongAsTheStream) {
 TEST_F(Lease, GoesOnBetweenTwoLongPolls) {
     desk.execute(go("go"));
     for (int i = 0; i < 5; ++i) {
-        open(Link::stream);
+        open(LinkKind::stream);
         world.advance(30s);
-        close(Link::stream, Closing::answered);
+        close(LinkKind::stream, Closing::answered);
         world.advance(9900ms);
     }
     EXPECT_THAT(robot.told, ElementsAre("start"));
@@ -234,7 +234,7 @@ TEST_F(Lease, AsksForSignsOfLifeWhileSomethingMovesOrWillMove) {
 }
 
 TEST_F(Lease, EndsForAllWhenTheEngineItselfStoodStill) {
-    open(Link::stream);
+    open(LinkKind::stream);
     world.advance(50ms);
     desk.execute(go("go"));
     world.now = world.now + 10s;
@@ -248,7 +248,7 @@ TEST_F(Lease, EndsForAllWhenTheEngineItselfStoodStill) {
 }
 
 TEST_F(Lease, DoesNotDependOnTheCalendar) {
-    open(Link::stream);
+    open(LinkKind::stream);
     desk.execute(go("go"));
     world.set_calendar(std::chrono::hours{24});
     world.advance(1s);

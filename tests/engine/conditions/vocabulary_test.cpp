@@ -250,7 +250,7 @@ struct Meanings : testing::Test {
     std::string detected(Condition condition) { return id("person_detected", std::move(condition)); }
 };
 
-TEST_F(Meanings, OfComparisons) {
+TEST_F(Meanings, HoldForComparisons) {
     auto const more = detected(greater("number", "1"));
     EXPECT_EQ(detected({PropertyComparison{Comparator::less, literal(" 1.0 "), reference("Result/Number")}}), more);
     EXPECT_EQ(detected({PropertyComparison{Comparator::greater, reference("number"), literal("1e0"), false}}), more)
@@ -266,7 +266,7 @@ TEST_F(Meanings, OfComparisons) {
     EXPECT_NE(detected(between("number", "1", "2")), detected(between("number", "1", "3")));
 }
 
-TEST_F(Meanings, OfLogic) {
+TEST_F(Meanings, HoldForLogic) {
     auto const a = greater("number", "1"), b = less("number", "9"), c = equal("bound", "true");
     auto const all = detected(both({a, b, c}));
     EXPECT_EQ(detected(both({c, both({b, a, a})})), all);
@@ -277,7 +277,7 @@ TEST_F(Meanings, OfLogic) {
     EXPECT_EQ(detected({And{{a}}}), detected(a));
 }
 
-TEST_F(Meanings, OfPatternsAndNulls) {
+TEST_F(Meanings, HoldForPatternsAndNulls) {
     auto const pattern = detected(like("name", "d*n"));
     EXPECT_EQ(detected({PropertyIsLike{reference("component_ref"), literal("d%%n"), "%", "_", "\\"}}), pattern);
     EXPECT_EQ(detected({PropertyIsLike{literal("!d*n"), reference("name"), "*", "?", "!"}}), pattern);
@@ -288,7 +288,7 @@ TEST_F(Meanings, OfPatternsAndNulls) {
     EXPECT_EQ(detected({ResourceId{"detection"}}), detected(equal("component_ref", "detection")));
 }
 
-TEST_F(Meanings, OfPlacesAndTimes) {
+TEST_F(Meanings, HoldForPlacesAndTimes) {
     auto const at_desk = localized(within("position_data", literal("desk")));
     EXPECT_EQ(localized(within("Result/position_data", {box(0, 0, 10, 10)})), at_desk);
     EXPECT_EQ(localized(spatial(SpatialRelation::within, {{box(0, 0, 10, 10, "HALL")}, reference("position_data")})), at_desk);
@@ -304,7 +304,7 @@ TEST_F(Meanings, OfPlacesAndTimes) {
               localized(temporal(TemporalRelation::before, {reference("timestamp"), day})));
 }
 
-TEST_F(Meanings, OfWhatEverythingMeets) {
+TEST_F(Meanings, HoldForConditionsThatAlwaysMatch) {
     auto const all = desk.subscribe("person_detected").subscribe_id.text;
     Condition const everything{And{}};
     EXPECT_EQ(detected(everything), all);
@@ -314,7 +314,7 @@ TEST_F(Meanings, OfWhatEverythingMeets) {
     EXPECT_EQ(desk.subscribe("person_detected", contrary(everything)).return_code, ReturnCode::unsupported);
 }
 
-TEST_F(Meanings, OfGroups) {
+TEST_F(Meanings, HoldForGroups) {
     ComponentGroup robot{.types = {"Robot"}, .aliases = {"a"}, .filter = {equal("a/Name", "lamp")}, .members = {}};
     auto const one = detected(Condition{robot});
     EXPECT_EQ(detected(Condition{robot}), one);

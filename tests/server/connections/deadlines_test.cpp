@@ -12,7 +12,7 @@
 namespace rois::test {
 namespace {
 
-TEST(Deadline, OfAHeader) {
+TEST(Deadline, EndsAnUnfinishedHeader) {
     GatewayProcess gateway{{"--request-timeout", "0.2"}};
     HttpClient client{gateway};
     auto const reply = client.say("GET /healthz HTTP/1.1\r\nHost: localhost\r\nX");
@@ -21,7 +21,7 @@ TEST(Deadline, OfAHeader) {
     EXPECT_TRUE(client.line().ends());
 }
 
-TEST(Deadline, OfABody) {
+TEST(Deadline, EndsAnUnfinishedBody) {
     GatewayProcess gateway{{"--request-timeout", "0.2"}};
     HttpClient client{gateway};
     EXPECT_EQ(
@@ -30,7 +30,7 @@ TEST(Deadline, OfABody) {
     EXPECT_TRUE(client.line().ends());
 }
 
-TEST(Deadline, OfASilentConnection) {
+TEST(Deadline, EndsASilentConnection) {
     GatewayProcess gateway{{"--idle-timeout", "0.2"}};
     HttpClient silent{gateway}, once{gateway};
     EXPECT_EQ(once.get("/healthz").status, 200);
@@ -64,7 +64,7 @@ void stuff(Line& line, std::string const& request) {
     }
 }
 
-TEST(Deadline, OfAReaderThatNeverReads) {
+TEST(Deadline, EndsAConnectionThatNeverReads) {
     GatewayProcess gateway{{"--write-timeout", "0.5", "--threads", "1"}};
     HttpClient greedy{gateway}, other{gateway};
     stuff(greedy.line(), "GET /rois/schemas/rois.xsd HTTP/1.1\r\nHost: localhost\r\n\r\n");
@@ -73,7 +73,7 @@ TEST(Deadline, OfAReaderThatNeverReads) {
     }
 }
 
-TEST(Deadline, OfAWebSocketThatNeverReads) {
+TEST(Deadline, EndsAWebSocketThatNeverReads) {
     GatewayProcess gateway{{"--write-timeout", "0.5", "--threads", "1"}};
     WebSocketClient greedy{gateway};
     HttpClient other{gateway};

@@ -72,7 +72,7 @@ TEST_F(Slow, ADelayedAnswerHoldsBackNothingElse) {
     EXPECT_STREQ(heard.child("command_id").text().get(), "say");
 }
 
-TEST_F(Slow, WhatAnAnswerThatWaitsHasCausedWaitsWithIt) {
+TEST_F(Slow, NotificationsWaitForTheAnswerThatCausedThem) {
     desk.ask("query", position_query());
     desk.ask("execute", kit::sequence(kit::unit({.component = "navigation", .type = "stop", .id = "stop"})));
     EXPECT_TRUE(metrics_come_to(gateway, "rois_commands_completed_total{status=\"OK\"} 1"));

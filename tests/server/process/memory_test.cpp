@@ -86,7 +86,7 @@ Xml one_of(int count, std::string const& name) {
            element("condition", element("fes:Filter", {{"xmlns:fes", "http://www.opengis.net/fes/2.0"}}, element("fes:Or", all)));
 }
 
-TEST_F(Memory, OfSessionsWithinTheirPredicates) {
+TEST_F(Memory, IsBoundedForSessionsWithinTheirPredicates) {
     start(512);
     for (int session = 0; session < 30; ++session) {
         auto& client = another();
@@ -103,7 +103,7 @@ TEST_F(Memory, OfSessionsWithinTheirPredicates) {
     EXPECT_LT(gateway->resident_bytes(), 300 * mib);
 }
 
-TEST_F(Memory, OfLongLiterals) {
+TEST_F(Memory, IsBoundedForLongLiterals) {
     start(512);
     auto& client = another();
     client.call("connect");
@@ -111,7 +111,7 @@ TEST_F(Memory, OfLongLiterals) {
     EXPECT_LT(gateway->resident_bytes(), 60 * mib);
 }
 
-TEST_F(Memory, OfUnfinishedBodies) {
+TEST_F(Memory, IsBoundedForUnfinishedBodies) {
     start(96);
     auto& before = another();
     before.call("connect");
@@ -143,7 +143,7 @@ TEST_F(Memory, OfUnfinishedBodies) {
     EXPECT_TRUE(opens_a_session());
 }
 
-TEST_F(Memory, OfUnfinishedMessages) {
+TEST_F(Memory, IsBoundedForUnfinishedMessages) {
     start(96);
     std::vector<std::unique_ptr<WebSocketClient>> all;
     for (int i = 0; i < 200; ++i) {
@@ -160,7 +160,7 @@ TEST_F(Memory, OfUnfinishedMessages) {
 }
 
 // Comments and CDATA sections divide a text.
-TEST_F(Memory, OfTextsInPieces) {
+TEST_F(Memory, IsBoundedForTextsInPieces) {
     start(64);
     auto& client = another();
     client.call("connect");
@@ -173,7 +173,7 @@ TEST_F(Memory, OfTextsInPieces) {
     }
 }
 
-TEST_F(Memory, OfConnectionsThatWaitBehindALongHead) {
+TEST_F(Memory, IsBoundedForConnectionsThatWaitBehindALongHead) {
     start(64);
     std::string head = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n";
     for (int i = 0; i < 4; ++i) head += "X-" + std::to_string(i) + ": " + std::string(3'900, 'y') + "\r\n";
@@ -200,7 +200,7 @@ std::string set_texts(int count, std::size_t length) {
                    element("rois:CommandUnitSequence", {{"xmlns:xsi", "http://www.w3.org/2001/XMLSchema-instance"}}, units));
 }
 
-TEST_F(Memory, OfEndedCommands) {
+TEST_F(Memory, IsBoundedForEndedCommands) {
     start(512);
     for (int session = 0; session < 11; ++session) {
         auto& client = another();
@@ -212,7 +212,7 @@ TEST_F(Memory, OfEndedCommands) {
     EXPECT_LT(gateway->resident_bytes(), 80 * mib) << "it had 170 MiB of arguments";
 }
 
-TEST_F(Memory, OfDelaysThatAreOver) {
+TEST_F(Memory, IsBoundedForDelaysThatAreOver) {
     start(512);
     auto const start_unit = element("rois:command_unit_list",
                                     {{"xsi:type", "rois:CommandMessageType"},
@@ -236,7 +236,7 @@ TEST_F(Memory, OfDelaysThatAreOver) {
 }
 
 // Short requests with long answers, on connections that read nothing.
-TEST_F(Memory, OfUnreadAnswers) {
+TEST_F(Memory, IsBoundedForUnreadAnswers) {
     start(96);
     auto& owner = another();
     owner.call("connect");

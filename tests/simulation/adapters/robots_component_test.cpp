@@ -104,7 +104,7 @@ protected:
         for (auto& component : robot_components(robots(simulation_, std::make_shared<FakeMedia>()), profiles_))
             engine_->add(std::move(component));
         session_ = std::get<Connect::Reply>(ask(Connect{})).session;
-        engine_->link_opened(session_, Link::stream, now_);
+        engine_->link_opened(session_, LinkKind::stream, now_);
     }
 
     Reply ask(Operation const& operation) { return std::get<Reply>(engine_->answer_of(session_, operation, now_)); }

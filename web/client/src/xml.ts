@@ -122,7 +122,7 @@ interface Open {
   scope: Scope;
 }
 
-class Reader {
+class XmlReader {
   private at = 0;
 
   constructor(private readonly text: string) {}
@@ -308,5 +308,5 @@ export function parse_xml(text: string): XmlElement {
   const lines = text.startsWith('\uFEFF') ? text.slice(1) : text;
   const at = forbidden.exec(lines);
   if (at) throw new XmlError('a character that is not allowed in XML', at.index);
-  return new Reader(lines.includes('\r') ? lines.replace(/\r\n?/g, '\n') : lines).document();
+  return new XmlReader(lines.includes('\r') ? lines.replace(/\r\n?/g, '\n') : lines).document();
 }

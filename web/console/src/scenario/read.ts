@@ -27,7 +27,7 @@ export interface Reading {
 export function read_scenario(text: string): Reading {
   try {
     const root = read_source(text);
-    const reader = new Reader(text, root);
+    const reader = new ScenarioReader(text, root);
     const scenario = reader.scenario();
     return reader.problems.length === 0 ? { text, root, scenario, problems: [] } : { text, root, problems: reader.problems };
   } catch (error) {
@@ -38,7 +38,7 @@ export function read_scenario(text: string): Reading {
 
 const relations = ['is', 'is_not', 'in', 'not_in', 'empty', 'near'] as const;
 
-class Reader {
+class ScenarioReader {
   readonly problems: Problem[] = [];
   private readonly components = new Set<string>();
   private readonly variables = new Map<string, string>();

@@ -1,0 +1,120 @@
+// Sub engines that do not do what they should.
+#include "remote/two_engines.hpp"
+
+namespace rois {
+
+namespace {
+
+struct ALyingSubEngine : testing::Test {
+    TwoEngines engines{{navigation, speech}};
+    Application desk = engines.main.connect();
+
+    // The components here, after the hall has told this profile.
+    std::vector<std::string> after(std::function<void(GetProfile::Reply&)> const& change) {
+        engines.falsify = [&](Reply& reply) {
+            if (auto* profile = std::get_if<GetProfile::Reply>(&reply)) change(*profile);
+        };
+        engines.hall.change({}, {detection});
+        engines.advance(1s);
+        return desk.search();
+    }
+    std::string reported() { return engines.reported.empty() ? "" : engines.reported.back(); }
+};
+
+}  // namespace
+
+TEST_F(ALyingSubEngine, IsLeftIfItSendsNoDocument) {
+    engines.inject("no document");
+    EXPECT_EQ(reported(), "it sent a document that is none of an engine's");
+    engines.advance(1s);
+    EXPECT_EQ(desk.status_of("hall.navigation"), "READY") << "the link is back";
+}
+
+TEST_F(ALyingSubEngine, EndsEachCommandOnce) {
+    engines.bind(desk, "hall.navigation");
+    engines.execute(desk, go("go", "hall.navigation"));
+    for (auto const status : {CompletedStatus::error, CompletedStatus::ok}) {
+        Completed completed;
+        completed.command_id.text = "c1";
+        completed.status = status;
+        engines.inject(completed);
+    }
+    Completed unknown;
+    unknown.command_id.text = "never";
+    engines.inject(unknown);
+    EXPECT_THAT(desk.heard(), ElementsAre(HasSubstr("completed go ERROR")));
+}
+
+TEST_F(ALyingSubEngine, ReportsOnlyWhatItsProfileHas) {
+    desk.subscribe("reached_target");
+    ReceiveEvent event;
+    event.event_id.text = "e1";
+    event.component_ref.code = "elevator";
+    event.event_type = "reached_target";
+    event.results = std::make_shared<Results const>();
+    engines.inject(event);
+    EXPECT_THAT(desk.heard(), IsEmpty()) << "of a component that it does not have";
+    event.component_ref.code = "navigation";
+    event.results = std::make_shared<Results const>(Results{{value("wrong", "int", {"1"})}, {}});
+    engines.inject(event);
+    EXPECT_THAT(desk.heard(), testing::Each(testing::Not(HasSubstr("reached_target"))));
+    ComponentChanged changed;
+    changed.component_ref.code = "elevator";
+    engines.inject(changed);
+    EXPECT_EQ(desk.search().size(), 2u);
+}
+
+TEST_F(ALyingSubEngine, IsRefusedWithNamesThatAreNone) {
+    EXPECT_THAT(after([](auto& profile) { profile.components[0].ref = "other.navigation"; }), IsEmpty());
+    EXPECT_EQ(reported(), "its component 'other.navigation' has a dot in its name, and is not of an engine with such a name");
+}
+
+TEST_F(ALyingSubEngine, IsRefusedWithLongNames) {
+    EXPECT_THAT(after([](auto& profile) { profile.components[0].ref = std::string(300, 'x'); }), IsEmpty());
+    EXPECT_THAT(reported(), HasSubstr("has a name of 300 characters: expected at most 251"));
+}
+
+TEST_F(ALyingSubEngine, IsRefusedWithTwoComponentsOfOneName) {
+    EXPECT_THAT(after([](auto& profile) { profile.components.push_back(profile.components[0]); }), IsEmpty());
+    EXPECT_THAT(reported(), HasSubstr("it has two components with the ref 'detection'"));
+}
+
+TEST_F(ALyingSubEngine, IsRefusedWithTooManyComponents) {
+    auto const many = [](auto& profile) {
+        auto const one = profile.components[0];
+        for (int i = 0; i < 1'000; ++i) profile.components.emplace_back(one).ref = "c" + std::to_string(i);
+    };
+    EXPECT_THAT(after(many), IsEmpty());
+    EXPECT_EQ(reported(), "it has more than 1000 components");
+}
+
+TEST_F(ALyingSubEngine, IsRefusedWithMoreThanEightLevels) {
+    auto const deep = [](auto& profile) {
+        auto whole = *profile.profile;
+        for (int i = 0; i < 8; ++i) {
+            EngineProfile outer = whole;
+            outer.sub_profiles = {whole};
+            whole = outer;
+        }
+        profile.profile = std::make_shared<EngineProfile const>(whole);
+    };
+    EXPECT_THAT(after(deep), IsEmpty());
+    EXPECT_EQ(reported(), "its engines have more than 8 levels");
+}
+
+TEST_F(ALyingSubEngine, MayChangeAProfileWhileACommandRuns) {
+    engines.bind(desk, "hall.navigation");
+    engines.execute(desk, go("go", "hall.navigation"));
+    after([](auto& reply) {
+        for (auto& entry : reply.components) {
+            auto changed = *entry.profile;
+            changed.object.description = "another";
+            entry.profile = std::make_shared<ComponentProfile const>(changed);
+        }
+    });
+    EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("completed go ABORT")));
+    EXPECT_THAT(engines.hall["navigation"].told, testing::Contains("halt"));
+    EXPECT_EQ(desk.search().size(), 3u);
+}
+
+}  // namespace rois
