@@ -341,8 +341,10 @@ void RemoteEngine::halt(std::shared_ptr<Part> const& part, Ticket ticket) {
 }
 
 void RemoteEngine::pause(std::shared_ptr<Part> const& part, Ticket ticket, std::string const& command_type) {
-    if (part->begins_asked > 0)
-        return part->after_begins.push_back([=, self = shared_from_this()] { self->pause(part, ticket, command_type); });
+    if (part->begins_asked > 0) {
+        part->after_begins.emplace_back([=, self = shared_from_this()] { self->pause(part, ticket, command_type); });
+        return;
+    }
     command(part, command_type, [part, ticket, command_type](CompletedStatus status) {
         if (status == CompletedStatus::ok)
             part->answer(ticket, Done{});

@@ -30,7 +30,7 @@ std::vector<std::size_t> begins_of_entries(std::string const& text) {
         if (text.compare(at, 2, "//") == 0) {
             at = std::min(text.find('\n', at), text.size());
         } else if (text[at] == '"') {
-            while (++at < text.size() && text[at] != '"')
+            for (++at; at < text.size() && text[at] != '"'; ++at)
                 if (text[at] == '\\') ++at;
         } else if (text[at] == '{') {
             ++depth;
