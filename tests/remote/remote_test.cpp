@@ -142,11 +142,23 @@ TEST_F(SubEngines, ThatDoNotAnswerLeaveOperationsWithTimeout) {
     EXPECT_EQ(guard.bind("navigation"), ReturnCode::ok) << "the late binding was given back";
 }
 
-TEST_F(SubEngines, HoldTheirMotionIfTheClockOfThisEngineStandsStill) {
+// The thread of the links answers pings all the time.
+TEST(AnEngineWhoseClockStandsStill, LeavesItsSubEnginesToHoldTheirRobots) {
+    auto part = navigation;
+    part.moves = true;
+    TwoEngines engines{{part}};
+    auto const desk = engines.main.connect();
+    auto const& told = engines.hall["navigation"].told;
     engines.bind(desk, "hall.navigation");
     engines.execute(desk, go("go", "hall.navigation"));
-    engines.advance(3s);
-    EXPECT_THAT(robot().told, testing::Not(testing::Contains("suspend"))) << "its signs of life arrive";
+    for (int i = 0; i < 30; ++i) {
+        engines.main.engine->heard_pong(desk.session, engines.main.now);
+        engines.advance(100ms);
+    }
+    EXPECT_THAT(told, testing::Not(testing::Contains("suspend"))) << "the signs of life arrive";
+    engines.main_is_alive = false;
+    engines.advance(2s);
+    EXPECT_THAT(told, testing::Contains("suspend"));
 }
 
 TEST(ASubEngineWithAPlacement, HasItsPositionsInOurFrame) {
