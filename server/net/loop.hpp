@@ -79,8 +79,8 @@ private:
     std::size_t swept_ = 0;  // index of the next connection to check
     std::deque<Duty> duties_;
     bool over_ = false;
-    Steady last_moment_ = Steady::max();                          // set by shut_down: the remaining connections are cut then
-    asio::io_context io_{BOOST_ASIO_CONCURRENCY_HINT_UNSAFE_IO};  // an option of Asio: no locks for the sockets
+    Steady last_moment_ = Steady::max();  // set by shut_down: the remaining connections are cut then
+    asio::io_context io_{1};
     Wakes wakes_;
 };
 
