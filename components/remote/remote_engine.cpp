@@ -144,23 +144,7 @@ void RemoteEngine::enter(GetProfile::Reply const& reply) {
         if (part) throw std::runtime_error("it has two components with the ref " + quoted(entry.ref));
         part = stays ? known : std::make_shared<Part>(entry, translation.component_here(entry.ref));
         if (stays) continue;
-        auto shown = *entry.profile;
-        shown.sub_components.clear();  // their messages are in it
-        translation.to_here(shown);
-        ComponentDescription description;
-        description.ref = {
-            .code = part->ref, .authority = shown.object.code_space, .codebook_ref = shown.object.identifier, .version = {}};
-        description.engine = translation.engine_here(entry.engine);
-        description.profile = std::make_shared<ComponentProfile const>(std::move(shown));
-        description.provider = settings_.name;
-        description.returns_at_once = true;
-        description.crs = translation.frame_here();
-        description.positions = entry.traits->positions;
-        description.codebooks = entry.traits->codebooks;
-        description.alternatives = entry.traits->alternatives;
-        description.status_when_stopped = entry.traits->status_when_stopped;
-        description.moves = entry.traits->moves;
-        description.confirms_binding = true;
+        auto description = description_of(entry, *part, translation);
         change.coming.push_back(std::make_unique<RemoteComponent>(std::move(description), part, shared_from_this()));
     }
     for (auto const& [ref, part] : parts_) {
@@ -180,6 +164,28 @@ void RemoteEngine::enter(GetProfile::Reply const& reply) {
     for (auto const& [ref, part] : before)
         if (part_of(ref) != part && part->is_held) ask(Release{{.code = ref}}, [](Reply const*) {});
     if (changes) surroundings_->report(settings_.name, "present with " + std::to_string(parts_.size()) + " components");
+}
+
+ComponentDescription RemoteEngine::description_of(ComponentEntry const& entry, Part const& part,
+                                                  Translation const& translation) const {
+    auto shown = *entry.profile;
+    shown.sub_components.clear();  // their messages are in it
+    translation.to_here(shown);
+    ComponentDescription description;
+    description.ref = {
+        .code = part.ref, .authority = shown.object.code_space, .codebook_ref = shown.object.identifier, .version = {}};
+    description.engine = translation.engine_here(entry.engine);
+    description.profile = std::make_shared<ComponentProfile const>(std::move(shown));
+    description.provider = settings_.name;
+    description.returns_at_once = true;
+    description.crs = translation.frame_here();
+    description.positions = entry.traits->positions;
+    description.codebooks = entry.traits->codebooks;
+    description.alternatives = entry.traits->alternatives;
+    description.status_when_stopped = entry.traits->status_when_stopped;
+    description.moves = entry.traits->moves;
+    description.confirms_binding = true;
+    return description;
 }
 
 // All events, whether an application here wants them or not: so no subscription here has to wait for the sub engine.

@@ -47,20 +47,9 @@ public:
 // Used on the thread of the links, except `run`.
 class RemoteEngine final : public std::enable_shared_from_this<RemoteEngine>, private client::Link::Listener {
 public:
-    // How it stands, for people.
-    enum class Standing : std::uint8_t {
-        away,        // no session: the next attempt follows after a pause
-        connecting,  // no session: an attempt runs
-        present,     // its components can be used
-        lost         // the link is lost; the session goes on if it returns within the window
-    };
-
     RemoteEngine(SubEngine, std::shared_ptr<Surroundings>);
 
     SubEngine const& settings() const { return settings_; }
-    Standing standing() const;
-    std::string const& last_error() const { return last_error_; }
-    std::size_t components() const { return parts_.size(); }
 
     void begin();
     // Ends the session. Its components leave. Nothing happens after this.
@@ -121,6 +110,7 @@ private:
     void restore();
     void bind_there(std::shared_ptr<Part> const&, Then const&);
     void release_unwanted(std::shared_ptr<Part> const&);
+    ComponentDescription description_of(ComponentEntry const&, Part const&, Translation const&) const;
     std::shared_ptr<Part> part_of(std::string_view ref) const;
     void operator()(ReceiveEvent const&);
     void operator()(ReceiveError const&);

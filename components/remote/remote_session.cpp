@@ -48,12 +48,6 @@ void RemoteEngine::note(std::string const& what) {
     surroundings_->report(settings_.name, what);
 }
 
-RemoteEngine::Standing RemoteEngine::standing() const {
-    if (is_open_ && !parts_.empty()) return Standing::present;
-    if (lost_at_ && !is_given_up_) return Standing::lost;
-    return link_ ? Standing::connecting : Standing::away;
-}
-
 void RemoteEngine::attempt() {
     if (is_over_) return;
     auto const era = ++era_;
@@ -97,12 +91,18 @@ void RemoteEngine::take(Fault const& fault) {
     open.then(nullptr);
 }
 
+// Ignores answers that were not asked for.
 void RemoteEngine::take(xml::Answered const& answered) {
     auto const& [reply, id] = answered;
-    if (auto const* opened_now = std::get_if<Connect::Reply>(&reply); opened_now != nullptr && id == opening)
-        return opened(*opened_now);
-    if (auto const* resume = std::get_if<Resume::Reply>(&reply)) return resumed(resume->return_code);
-    if (std::holds_alternative<Disconnect::Reply>(reply)) {
+    if (!is_open_) {
+        auto const* connect = std::get_if<Connect::Reply>(&reply);
+        auto const* resume = std::get_if<Resume::Reply>(&reply);
+        if (connect != nullptr && session_.text.empty()) opened(*connect);
+        if (resume != nullptr && !session_.text.empty()) resumed(resume->return_code);
+        return;
+    }
+    if (is_given_up_) {
+        if (!std::holds_alternative<Disconnect::Reply>(reply)) return;
         session_ = {};
         is_open_ = false;
         return connected();

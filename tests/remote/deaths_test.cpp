@@ -28,7 +28,7 @@ public:
             act();
             pass(std::chrono::milliseconds{50 * (1 + below(one_in(8) ? 120 : 12))});
         }
-        engines_.mend();
+        engines_.repair();
         engines_.hold_back(false);
         pass(60s);  // the longest pause between two attempts is 30 s
         robot().finishes();
@@ -77,7 +77,7 @@ private:
                 engines_.cut();
                 break;
             case 9:
-                engines_.mend();
+                engines_.repair();
                 engines_.hold_back(one_in(4));
                 break;
             case 10:  // the sub engine restarts

@@ -30,6 +30,20 @@ TEST_F(ALyingSubEngine, IsLeftIfItSendsNoDocument) {
     EXPECT_EQ(desk.status_of("hall.navigation"), "READY") << "the link is back";
 }
 
+TEST_F(ALyingSubEngine, IsNotHeardIfItAnswersWhatNobodyAsked) {
+    engines.bind(desk, "hall.navigation");
+    engines.asked();
+    engines.inject(xml::encode(Reply{Disconnect::Reply{}}, "connect"));
+    engines.inject(xml::encode(Reply{Resume::Reply{}}, "resume"));
+    Connect::Reply connected;
+    connected.session.text = "another";
+    engines.inject(xml::encode(Reply{connected}, "connect"));
+    engines.inject(xml::encode(Reply{Bind::Reply{}}, "7000"));
+    EXPECT_THAT(engines.asked(), IsEmpty()) << "nothing is begun again";
+    EXPECT_EQ(engines.execute(desk, go("go", "hall.navigation")).return_code, ReturnCode::ok);
+    EXPECT_THAT(engines.hall["navigation"].told, testing::Contains("start"));
+}
+
 TEST_F(ALyingSubEngine, EndsEachCommandOnce) {
     engines.bind(desk, "hall.navigation");
     engines.execute(desk, go("go", "hall.navigation"));

@@ -91,7 +91,7 @@ TEST_F(SubEngines, LoseNothingIfTheLinkReturnsWithinTheWindow) {
     engines.cut();
     engines.advance(1s);
     robot().finishes();
-    engines.mend();
+    engines.repair();
     engines.advance(1s);
     EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("completed go OK")));
     EXPECT_EQ(desk.status_of("hall.navigation"), "READY");
@@ -108,7 +108,7 @@ TEST_F(SubEngines, AreGivenUpAfterTheWindow) {
     EXPECT_EQ(desk.status_of("hall.navigation"), "ERROR");
     EXPECT_THAT(robot().told, testing::Contains("halt"));
     EXPECT_EQ(engines.execute(desk, go("again", "hall.navigation")).return_code, ReturnCode::error);
-    engines.mend();
+    engines.repair();
     engines.advance(5s);
     EXPECT_EQ(desk.status_of("hall.navigation"), "READY");
     EXPECT_EQ(engines.execute(desk, go("later", "hall.navigation")).return_code, ReturnCode::ok) << "it is still bound";
@@ -121,7 +121,7 @@ TEST_F(SubEngines, LeaveAfterTheResumeWindow) {
     engines.advance(31s);
     EXPECT_THAT(desk.search(), IsEmpty());
     EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::bad_parameter);
-    engines.mend();
+    engines.repair();
     engines.advance(31s);
     EXPECT_EQ(desk.search().size(), 3u);
 }

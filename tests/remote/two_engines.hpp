@@ -49,9 +49,9 @@ public:
         return ask(by, Execute{{std::vector<CommandUnit>{std::move(units)...}}});
     }
 
-    // Breaks the link. It cannot be opened before `mend`.
+    // Breaks the link. It cannot be opened before `repair`.
     void cut();
-    void mend() { is_broken_ = false; }
+    void repair() { is_broken_ = false; }
     bool is_cut() const { return is_broken_; }
     // The hall's answers and notifications are kept back.
     void hold_back(bool yes) { is_held_back_ = yes; }

@@ -48,7 +48,7 @@ public:
         if (closing == Closing::lost && links() == 0) end_after_link_ = now + for_a_successor;
     }
 
-    // The last request or pong, also if pongs are no signs of life.
+    // The last request or pong, even if pongs do not count as signs of life.
     Steady last_heard() const { return last_heard_; }
 
     std::size_t links() const { return websockets_ + streams_; }
