@@ -31,7 +31,7 @@ TEST(Conformance, FindsNoBrokenRuleInOurGateway) {
     EmptyHall gateway;
     auto const file = testing::TempDir() + "rois-conformance-" + std::to_string(getpid()) + ".xml";
     auto const judged = judge(url(gateway.port()) + " --report " + file);
-    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+    EXPECT_EQ(judged.exit_code, 0) << judged;
     EXPECT_THAT(judged.text, testing::HasSubstr(", 0 found a broken rule, "));
     pugi::xml_document report;
     ASSERT_TRUE(report.load_file(file.c_str())) << file;
@@ -49,14 +49,14 @@ TEST(Conformance, FindsNoBrokenRuleInOurGateway) {
 TEST(Conformance, FindsNoBrokenRuleWithFullValidation) {
     EmptyHall gateway{{"--validation", "full"}};
     auto const judged = judge(url(gateway.port()));
-    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+    EXPECT_EQ(judged.exit_code, 0) << judged;
 }
 
 // Each robot must be asked for its own position: a drive to the position of the other robot exceeds this patience.
 TEST(Conformance, FindsNoBrokenRuleWithTwoRobots) {
     EmptyHall gateway{{"--floor-plan", ROIS_SOURCE_DIR "/components/simulation/data/two-robots.xml", "--sim-speed", "2"}};
     auto const judged = judge(url(gateway.port()) + " --patience 3 --room 0");
-    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+    EXPECT_EQ(judged.exit_code, 0) << judged;
     EXPECT_THAT(judged.text, testing::HasSubstr("  holds          events_of_an_action_come_before_its_end over HTTP "));
 }
 
@@ -82,7 +82,7 @@ TEST(Conformance, FindsNoBrokenRuleThroughASubEngine) {
     EmptyHall hall;
     Above const above{hall.port()};
     auto const judged = judge(url(above.port()));
-    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+    EXPECT_EQ(judged.exit_code, 0) << judged;
 }
 
 TEST(Conformance, FindsNoBrokenRuleThroughThreeLevels) {
@@ -91,7 +91,7 @@ TEST(Conformance, FindsNoBrokenRuleThroughThreeLevels) {
     Above const second{first.port()};
     Above const third{second.port()};
     auto const judged = judge(url(third.port()));
-    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+    EXPECT_EQ(judged.exit_code, 0) << judged;
 }
 
 TEST(Conformance, FindsNoBrokenRuleWithComponentsOfAUser) {
@@ -107,7 +107,7 @@ TEST(Conformance, FindsNoBrokenRuleWithComponentsOfAUser) {
     put("plain", "speech_synthesis", common);
     EmptyHall gateway{{"--profiles", folder.name()}};
     auto const judged = judge(url(gateway.port()) + " --over http");
-    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+    EXPECT_EQ(judged.exit_code, 0) << judged;
 }
 
 std::string typed(std::string const& element, std::string const& name, std::string const& type, std::string const& more = "") {
@@ -153,7 +153,7 @@ TEST(Conformance, FindsNoBrokenRuleWithAnyComponentNames) {
                     {"urn:x:queries", "", message("Query", "a&lt;b", typed("Results", "n", "int", with_default("1")))},
                     {"urn:x:lines", "", typed("ParameterProfile", "text", "string", with_default("one&#13;&#10;two"))},
                     {"urn:x:names", "", typed("ParameterProfile", "te&#10;xt", "string", with_default(" one "))}});
-    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+    EXPECT_EQ(judged.exit_code, 0) << judged;
 }
 
 TEST(Conformance, FindsNoBrokenRuleWithAnyEvents) {
@@ -178,14 +178,14 @@ TEST(Conformance, FindsNoBrokenRuleWithAnyEvents) {
           "speech_synthesis"},
          {"urn:x:wrong", "", message("Query", "get_parameter", typed("Results", "synthesizable_languages", "int")),
           "speech_synthesis"}});
-    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+    EXPECT_EQ(judged.exit_code, 0) << judged;
 }
 
 TEST(Conformance, FindsNoBrokenRuleInAGatewayWithOtherIds) {
     EmptyHall gateway;
     Proxy const proxy{gateway.port(), has_other_ids};
     auto const judged = judge(url(proxy.port()) + " --over websocket");
-    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+    EXPECT_EQ(judged.exit_code, 0) << judged;
 }
 
 TEST(Conformance, FindsNoBrokenRuleWhileAnotherApplicationUsesTheGateway) {
@@ -224,7 +224,7 @@ TEST(Conformance, FindsNoBrokenRuleBehindAProxyThatBreaksNone) {
     EmptyHall gateway;
     Proxy const proxy{gateway.port(), [] { return Breaking{}; }};
     auto const judged = judge(url(proxy.port()));
-    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+    EXPECT_EQ(judged.exit_code, 0) << judged;
 }
 
 // The same document with other prefixes: names within namespaces are what counts.
@@ -280,14 +280,14 @@ TEST(Conformance, FindsNoBrokenRuleInAGatewayWithOtherPrefixes) {
     EmptyHall gateway;
     Proxy const proxy{gateway.port(), writes_other_prefixes};
     auto const judged = judge(url(proxy.port()));
-    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+    EXPECT_EQ(judged.exit_code, 0) << judged;
 }
 
 TEST(Conformance, FindsNoBrokenRuleInAGatewayWithOtherHttp) {
     EmptyHall gateway;
     Proxy const proxy{gateway.port(), writes_other_http};
     auto const judged = judge(url(proxy.port()) + " --over http");
-    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+    EXPECT_EQ(judged.exit_code, 0) << judged;
 }
 
 TEST(Conformance, ReportsInvalidAnswersInXml) {
@@ -300,7 +300,7 @@ TEST(Conformance, ReportsInvalidAnswersInXml) {
                       }};
     auto const file = testing::TempDir() + "rois-rubbish-" + std::to_string(getpid()) + ".xml";
     auto const judged = judge(url(proxy.port()) + " --over http --only bind_of_an_unknown --report " + file);
-    EXPECT_EQ(judged.exit_code, 1) << judged.text;
+    EXPECT_EQ(judged.exit_code, 1) << judged;
     for (auto const* const bad : {"\x01", "\xFF", "\x1B", "\f", "\n  holds   \uFFFD", "\xC2\x9B"})
         EXPECT_THAT(judged.text, testing::Not(testing::HasSubstr(bad)));
     std::ostringstream text;
@@ -319,7 +319,7 @@ TEST(Conformance, ReportsAGatewayThatOpensNoSessionInXml) {
                       }};
     auto const file = testing::TempDir() + "rois-no-session-" + std::to_string(getpid()) + ".xml";
     auto const judged = judge(url(proxy.port()) + " --report " + file);
-    EXPECT_EQ(judged.exit_code, 2) << judged.text;
+    EXPECT_EQ(judged.exit_code, 2) << judged;
     EXPECT_THAT(judged.text, testing::Not(testing::AnyOf(testing::HasSubstr("\x1B"), testing::HasSubstr("\f"))));
     pugi::xml_document report;
     ASSERT_TRUE(report.load_file(file.c_str())) << file;
@@ -345,7 +345,7 @@ TEST(Conformance, BlamesNoGatewayForComponentsThatAreInUse) {
                                     "after_release_nothing_is_allowed", "release_stops_what_runs", "follow_"}) {
         *is_taken = false;
         auto const judged = judge(url(proxy.port()) + " --only " + check);
-        EXPECT_EQ(judged.exit_code, 0) << judged.text;
+        EXPECT_EQ(judged.exit_code, 0) << judged;
         EXPECT_THAT(judged.text, testing::HasSubstr("another application uses")) << check;
     }
 }

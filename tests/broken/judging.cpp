@@ -1,6 +1,8 @@
 #include "broken/judging.hpp"
 
 #include <algorithm>
+#include <ostream>
+#include <sstream>
 
 namespace rois::broken {
 
@@ -25,6 +27,13 @@ std::set<std::string> marked_in(std::string const& report, std::string const& wo
 }
 
 }  // namespace
+
+std::ostream& operator<<(std::ostream& out, Judged const& judged) {
+    std::istringstream lines{judged.text};
+    for (std::string line; std::getline(lines, line);)
+        if (!line.starts_with("  holds ")) out << line << '\n';
+    return out;
+}
 
 Judged judge(std::string const& arguments) {
     auto const ended = kit::run_shell(ROIS_BINARY_DIR "/bin/rois-conformance " + arguments + " 2>&1");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,6 +15,9 @@ struct Judged {
     int exit_code = -1;
     std::string text{};
 };
+
+// Prints the text without the checks that held.
+std::ostream& operator<<(std::ostream&, Judged const&);
 
 // Runs rois-conformance with these arguments.
 Judged judge(std::string const& arguments);

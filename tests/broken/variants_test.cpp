@@ -13,7 +13,7 @@ namespace {
 std::string const data = ROIS_SOURCE_DIR "/tests/broken/data/";
 
 void expect_whole(Judged const& judged, std::vector<std::string> const& held) {
-    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+    EXPECT_EQ(judged.exit_code, 0) << judged;
     for (auto const& check : held) EXPECT_THAT(held_in(judged.text), testing::Contains(check)) << judged.text;
 }
 

@@ -22,8 +22,6 @@ constexpr auto longest_wait_without_memory = std::chrono::milliseconds{100};  //
 
 Steady now() { return std::chrono::steady_clock::now(); }
 
-Fault too_slow() { return {FaultCode::too_slow, "the request did not arrive in time", {}, {}}; }
-
 }  // namespace
 
 // Lets a connection take the answers that have come. It may outlive the connection.
@@ -95,7 +93,6 @@ Task<Connection::Then> Connection::serve() {
     while (then == Then::next) {
         then = take_request();
         if (then == Then::receive) {
-            in_a_row = 0;
             then = co_await receive();
             continue;
         }
@@ -193,7 +190,7 @@ Task<Connection::Then> Connection::receive() {
     if (has_head_) loop_.shared().gateway.memory().took(wire_.received().size() - before);
     bool const silent = std::exchange(idle_, false);
     if (outcome == Wire::Outcome::closed || (outcome == Wire::Outcome::late && silent)) co_return Then::end;
-    if (outcome == Wire::Outcome::late) co_return refuse(too_slow());
+    if (outcome == Wire::Outcome::late) co_return refuse({FaultCode::too_slow, "the request did not arrive in time", {}, {}});
     co_return Then::next;
 }
 
@@ -342,9 +339,8 @@ std::string Connection::request_line() const { return std::string{head_.method}.
 
 bool Connection::flush_at_once() {
     out_.erase(0, wire_.send_now(out_));
-    if (!out_.empty()) return false;
-    forget_out();
-    return true;
+    if (out_.empty()) forget_out();
+    return out_.empty();
 }
 
 // Waits until the peer has taken all answers. Cuts the connection instead while memory_budget is used up.

@@ -119,11 +119,12 @@ TEST(TheReceptionScript, ReceivesAVisitor) {
     wait_for_tanaka(gateway);
     auto const text =
         printed_by("ROIS_URL=" + gateway.url() + " " ROIS_SOURCE_DIR "/docs/examples/reception.sh 1 2>&1 >/dev/null");
-    EXPECT_THAT(steps(text),
-                ElementsAre("Connected to http://N.N.N.N:N; the robot stands at N, N, N.", "Waiting for somebody to come.",
-                            "There is somebody: N person(s).", HasSubstr("(mm, mm, degree); going there."),
-                            "Arrived at person-N.", "This is tanaka.", "Robot: \"Mr. Tanaka, your meeting is in room N.\"",
-                            "The robot bows.", "Robot: \"Goodbye.\"", "Going back to the start."))
+    auto seen = steps(text);
+    std::erase_if(seen, [](auto const& step) { return step.ends_with("now; going on."); });  // the robot may see nobody once
+    EXPECT_THAT(seen, ElementsAre("Connected to http://N.N.N.N:N; the robot stands at N, N, N.", "Waiting for somebody to come.",
+                                  "There is somebody: N person(s).", HasSubstr("(mm, mm, degree); going there."),
+                                  "Arrived at person-N.", "This is tanaka.", "Robot: \"Mr. Tanaka, your meeting is in room N.\"",
+                                  "The robot bows.", "Robot: \"Goodbye.\"", "Going back to the start."))
         << text;
 }
 
