@@ -96,7 +96,7 @@ TEST(Joining, IsNotOfferedWithoutAnEnginesFile) {
     EXPECT_EQ(kit::shake_hands(http, {}, "/rois/engines").status, 404);
 }
 
-TEST(Joining, HappensAgainAfterTheMainEngineOrTheRobotHasRestarted) {
+TEST(Joining, HappensAgainAfterTheRobotHasRestarted) {
     Main main;
     auto robot = robot_that_joins(main);
     main.gateway().log_with("present with");
