@@ -8,8 +8,7 @@ class Lamp(rois.Component):
     profile = """
 <rois:HRIComponentProfile xmlns:rois="http://www.omg.org/spec/RoIS/20240801" xmlns:gml="http://www.opengis.net/gml/3.2"
     xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" gml:id="profile.lamp">
-  <gml:identifier codeSpace="urn:ietf:rfc:2141">urn:x-example:def:component:Lamp</gml:identifier>
-  <gml:name>lamp</gml:name>
+  <gml:identifier codeSpace="urn:ietf:rfc:2141">urn:x-example:def:component:Lamp</gml:identifier><gml:name>lamp</gml:name>
   <rois:SubComponentProfile>urn:x-rois:def:component:OMG::RoISCommon</rois:SubComponentProfile>
   <rois:MessageProfile xsi:type="rois:CommandMessageProfileType" rois:name="blink">
     <rois:Arguments rois:name="times"><rois:data_type_ref rois:code="int"/></rois:Arguments>
