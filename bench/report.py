@@ -159,6 +159,8 @@ def goals(rounds):
         at_most("9 p99 of every way to stop, under every flood", max(stops) if stops else None, 50, "ms"),
         at_most("10 query of a sub engine: CPU of the main engine", ratio(rounds, engines.MAIN, engines.LOCAL), 2.3, "times"),
         at_most("10 query of a sub engine: CPU of both engines", ratio(rounds, engines.BOTH, engines.LOCAL), 3.4, "times"),
+        at_most("10 event of a sub engine: CPU of the main engine", ratio(rounds, engines.EVENT_MAIN, engines.EVENT_LOCAL), 1.5, "times"),
+        at_most("10 event of a sub engine: CPU of both engines", ratio(rounds, engines.EVENT_BOTH, engines.EVENT_LOCAL), 2.6, "times"),
         at_most("10 query of a sub engine, alone: p50 longer by", longer(middle), 200, "µs"),
     ]
 

@@ -1,11 +1,11 @@
-"""The cost of a sub engine: the same query to a component of the gateway, and to one of its sub engine."""
+"""The cost of a sub engine: the same query to a component of the gateway, and to one of its sub engine; the same for events."""
 
 import json
 import time
 import urllib.error
 import urllib.request
 
-from processes import WORK, BenchError, document, gateway, load, running
+from processes import WORK, BenchError, document, gateway, load, running, stage
 
 LOCAL = "query 0.6 kB, own component"
 MAIN = "query 0.6 kB, sub engine: CPU of the main engine"
@@ -13,17 +13,19 @@ BOTH = "query 0.6 kB, sub engine: CPU of both engines"
 ONE_LOCAL = "query 0.6 kB, own component, 1 connection"
 ONE_REMOTE = "query 0.6 kB, sub engine, 1 connection"
 
-AGAINST = {MAIN: LOCAL, BOTH: LOCAL, ONE_REMOTE: ONE_LOCAL}
+EVENT_LOCAL = "event to 1 subscriber, own component"
+EVENT_MAIN = "event to 1 subscriber, sub engine: CPU of the main engine"
+EVENT_BOTH = "event to 1 subscriber, sub engine: CPU of both engines"
 
-COMPONENT = "hall.system_information"
+AGAINST = {MAIN: LOCAL, BOTH: LOCAL, ONE_REMOTE: ONE_LOCAL, EVENT_MAIN: EVENT_LOCAL, EVENT_BOTH: EVENT_LOCAL}
+
+BURST = 100  # events that one command fires, so that the command is a small part of the cost
 
 
 def round(keep, settings):
-    file = WORK / "engines.json"
     with running(gateway(1, name="sub-engine")) as (hall,):
-        file.write_text(json.dumps({"engines": [{"name": "hall", "url": f"ws://127.0.0.1:{hall.port}"}]}))
-        with running(gateway(1, "--robots", "none", "--engines", file, name="main-engine"), gateway(1)) as (main, own):
-            await_component(main)
+        with running(above(hall), gateway(1)) as (main, own):
+            await_component(main, "hall.system_information")
             for _ in range(settings.turns):
                 ask(keep, LOCAL, own, "query-0.6kB", settings)
                 before = hall.cpu_seconds()
@@ -34,6 +36,32 @@ def round(keep, settings):
             ask(keep, ONE_REMOTE, main, "query-0.6kB-hall", settings, connections=1)
 
 
+    with running(stage()) as (hall,), running(above(hall), stage()) as (main, own):
+        await_component(main, "hall.probe0")
+        for _ in range(settings.turns):
+            hear(keep, EVENT_LOCAL, own, "", settings)
+            before = hall.cpu_seconds()
+            through = hear(keep, EVENT_MAIN, main, "-hall", settings)
+            used = 1e6 * (hall.cpu_seconds() - before) / through["messages"]
+            keep(EVENT_BOTH, through | {"cpu_us": through["cpu_us"] + used})
+
+
+def above(hall):
+    """A gateway whose only components are those of this sub engine."""
+    file = WORK / "engines.json"
+    file.write_text(json.dumps({"engines": [{"name": "hall", "url": f"ws://127.0.0.1:{hall.port}"}]}))
+    return gateway(1, "--robots", "none", "--engines", file, name="main-engine")
+
+
+def hear(keep, row, server, suffix, settings):
+    options = {"via": "websocket", "connect": "yes", "connections": 1, "setup": document("subscribe"), "burst": BURST}
+    folder = WORK / "documents" / "micro"
+    firing = {"fire_setup": folder / f"bind-probe0{suffix}.xml", "fire": folder / f"fire-{BURST}{suffix}.xml"}
+    measured = load("fanout", server, seconds=settings.seconds, **options, **firing)
+    keep(row, measured)
+    return measured
+
+
 def ask(keep, row, server, body, settings, connections=64):
     options = {"via": "http", "connections": connections, "seconds": settings.seconds, "connect": "yes", "expect": '"OK"'}
     measured = load("requests", server, body=document(body), **options)
@@ -41,11 +69,11 @@ def ask(keep, row, server, body, settings, connections=64):
     return measured
 
 
-def await_component(main):
+def await_component(main, component):
     """The sub engine is there soon after the start."""
     for _ in range(1_000):
         try:
-            with urllib.request.urlopen(f"http://127.0.0.1:{main.port}/rois/profile/{COMPONENT}"):
+            with urllib.request.urlopen(f"http://127.0.0.1:{main.port}/rois/profile/{component}"):
                 return
         except urllib.error.HTTPError:
             time.sleep(0.01)

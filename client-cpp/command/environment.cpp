@@ -15,7 +15,7 @@ namespace rois::command {
 namespace {
 
 // The configuration keys of rois-gateway (server/main/keys.cpp) as variables.
-constexpr std::array<std::string_view, 56> keys{"ROIS_ALLOWED_ORIGINS",
+constexpr std::array<std::string_view, 58> keys{"ROIS_ALLOWED_ORIGINS",
                                                 "ROIS_COMMAND_RESULTS",
                                                 "ROIS_CONNECT_TIMEOUT",
                                                 "ROIS_ENGINES",
@@ -25,6 +25,8 @@ constexpr std::array<std::string_view, 56> keys{"ROIS_ALLOWED_ORIGINS",
                                                 "ROIS_FLOOR_PLAN",
                                                 "ROIS_HOSTS",
                                                 "ROIS_IDLE_TIMEOUT",
+                                                "ROIS_JOIN",
+                                                "ROIS_JOIN_AS",
                                                 "ROIS_LISTEN",
                                                 "ROIS_LOG_FORMAT",
                                                 "ROIS_LOG_LEVEL",

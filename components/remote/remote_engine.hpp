@@ -32,6 +32,7 @@ public:
     virtual void at(Steady, std::function<void()> ring) = 0;
     // Thread-safe: calls the function on the thread of the links.
     virtual void post(std::function<void()>) = 0;
+    // Returns null for a sub engine that joins: it will call `joined`.
     virtual std::shared_ptr<client::Link> link(SubEngine const&, client::Link::Listener&) = 0;
     // Changes this engine's components. Throws std::exception with the reason if it refuses.
     virtual void change(ComponentChange) = 0;
@@ -54,6 +55,10 @@ public:
     void begin();
     // Ends the session. Its components leave. Nothing happens after this.
     void end();
+
+    // A sub engine that joins is there, on an open link, which replaces an older one.
+    void joined(std::shared_ptr<client::Link>);
+    bool has_link() const { return link_ != nullptr; }
 
     // From any thread: calls the function on the thread of the links.
     void run(std::function<void(RemoteEngine&)>);
@@ -79,6 +84,7 @@ private:
 
     // --- remote_session.cpp: the link and the session ---
     void attempt();
+    void limit_attempt();
     void connected() override;
     void attached() override {}
     void document(std::string_view) override;

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "core/loop.hpp"
+#include "remote/door.hpp"
+#include "remote/joiner.hpp"
 #include "remote/remote_engine.hpp"
 #include "types/text/texts.hpp"
 
@@ -38,6 +40,8 @@ public:
     void stop() {
         post([this] {
             set({});
+            door_->close();
+            if (joiner_) joiner_->end();
             loop_.finish();
         });
         loop_.join();
@@ -62,6 +66,15 @@ public:
         }
     }
 
+    void accept(int socket, std::string head) { door_->open(socket, std::move(head)); }
+
+    void join(Joining joining) {
+        auto const name = joining.url;
+        joiner_ = std::make_shared<Joiner>(loop_, std::move(joining), host_.instance,
+                                           [this, name](std::string const& what) { host_.report(name, what); });
+        joiner_->begin();
+    }
+
     void post(std::function<void()> what) override { loop_.post(std::move(what)); }
 
 private:
@@ -69,6 +82,7 @@ private:
     void at(Steady when, std::function<void()> ring) override { loop_.at(when, std::move(ring)); }
 
     std::shared_ptr<client::Link> link(SubEngine const& to, client::Link::Listener& listener) override {
+        if (to.url.empty()) return nullptr;
         auto& settings = settings_[to.name];
         settings.url = to.url;
         settings.ping_interval = ping_interval;
@@ -91,12 +105,27 @@ private:
         return {};
     }
 
+    // A name belongs to one engine as long as its link stands; the same start of that engine may replace its link.
+    std::variant<std::shared_ptr<RemoteEngine>, std::string> joining(xml::Join const& join) {
+        auto const found =
+            std::ranges::find_if(engines_, [&](auto const& each) { return each.second->settings().joins == join.name; });
+        if (join.name.empty() || found == engines_.end()) return "no engine may join as " + quoted(join.name);
+        auto& joined = joined_[join.name];
+        if (found->second->has_link() && joined != join.instance) return "another engine has joined as " + quoted(join.name);
+        joined = join.instance;
+        return found->second;
+    }
+
     Host const host_;
     client::Loop loop_;
     std::shared_ptr<Pulse> const pulse_ = std::make_shared<Pulse>();
     std::map<std::string, std::shared_ptr<RemoteEngine>> engines_;
     std::map<std::string, Settings> settings_;  // of the links, which refer to them
     std::map<std::string, std::vector<std::string>> instances_;
+    std::map<std::string, std::string> joined_;  // the instance that has joined last, by name
+    std::shared_ptr<Door> const door_ =
+        std::make_shared<Door>(loop_, host_.schemas, [this](xml::Join const& join) { return joining(join); });
+    std::shared_ptr<Joiner> joiner_;  // null: this engine joins none
 };
 
 RemoteEngines::RemoteEngines(Host host) : links_{std::make_shared<Links>(std::move(host))} { links_->start(); }
@@ -105,6 +134,14 @@ RemoteEngines::~RemoteEngines() { links_->stop(); }
 
 void RemoteEngines::set(std::vector<SubEngine> wanted) {
     links_->post([links = links_, wanted = std::move(wanted)] { links->set(wanted); });
+}
+
+void RemoteEngines::accept(int socket, std::string head) {
+    links_->post([links = links_, socket, head = std::move(head)] { links->accept(socket, head); });
+}
+
+void RemoteEngines::join(Joining joining) {
+    links_->post([links = links_, joining = std::move(joining)] { links->join(joining); });
 }
 
 std::shared_ptr<Device> RemoteEngines::pulse() const { return links_->pulse(); }

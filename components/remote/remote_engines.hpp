@@ -9,6 +9,7 @@
 #include "engine/component.hpp"
 #include "engine/engine.hpp"
 #include "remote/sub_engine.hpp"
+#include "xml/validation/schemas.hpp"
 
 namespace rois::remote {
 
@@ -19,6 +20,7 @@ public:
     // receives lines for the log.
     struct Host {
         std::string instance;  // of this engine
+        std::shared_ptr<xml::Schemas const> schemas;
         std::function<void(ComponentChange)> change;
         std::function<void(std::string const& sub_engine, std::string const& what)> report;
     };
@@ -31,6 +33,12 @@ public:
 
     // Sets the sub engines. A sub engine with the same settings as before stays connected.
     void set(std::vector<SubEngine>);
+
+    // Takes a WebSocket of an engine that joins. `socket` and `head` as in client::accepted_link.
+    void accept(int socket, std::string head);
+
+    // Makes this engine a sub engine of another one.
+    void join(Joining);
 
     // A device by which the engine's clock shows that it runs. Add it to the engine.
     std::shared_ptr<Device> pulse() const;

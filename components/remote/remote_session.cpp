@@ -50,16 +50,30 @@ void RemoteEngine::note(std::string const& what) {
 
 void RemoteEngine::attempt() {
     if (is_over_) return;
-    auto const era = ++era_;
+    ++era_;
     try {
         link_ = surroundings_->link(settings_, *this);
     } catch (std::exception const& problem) {
         return give_up_link(problem.what());
     }
-    surroundings_->at(surroundings_->now() + time_for_attempt, [self = shared_from_this(), era] {
+    if (!link_) return;
+    limit_attempt();
+    link_->open();
+}
+
+void RemoteEngine::joined(std::shared_ptr<client::Link> link) {
+    if (link_) give_up_link("it has joined again");
+    ++era_;
+    link->listen(*this);
+    link_ = std::move(link);
+    limit_attempt();
+    connected();
+}
+
+void RemoteEngine::limit_attempt() {
+    surroundings_->at(surroundings_->now() + time_for_attempt, [self = shared_from_this(), era = era_] {
         if (self->era_ == era && !self->is_open_) self->give_up_link("no session within 5 s");
     });
-    link_->open();
 }
 
 void RemoteEngine::connected() {

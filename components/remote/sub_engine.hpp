@@ -21,7 +21,8 @@ struct Placement {
 
 struct SubEngine {
     std::string name;                     // in front of the names of its components, engines and frames
-    std::string url;                      // its gateway
+    std::string url;                      // its gateway; empty: it joins
+    std::string joins;                    // the name by which it joins
     std::vector<std::string> components;  // the refs there of the components that are taken; empty: all
     // Without a placement, its positions are passed on unchanged: its frame has the same name here.
     std::optional<Placement> placement{};
@@ -36,6 +37,13 @@ struct SubEngine {
     std::size_t longest_document = 4'000'000;  // bytes
 
     bool operator==(SubEngine const&) const = default;
+};
+
+// Another engine, which this engine joins as a sub engine.
+struct Joining {
+    std::string url;
+    std::string name;  // of this engine there
+    std::string own_url;
 };
 
 }  // namespace rois::remote

@@ -59,11 +59,7 @@ std::string name_of(json const& value) {
 }
 
 std::string url_of(json const& value) {
-    if (value.is_string()) {
-        auto url = value.get<std::string>();
-        for (auto const* scheme : {"ws://", "wss://", "http://", "https://"})
-            if (url.starts_with(scheme) && url.size() > std::string_view{scheme}.size()) return url;
-    }
+    if (value.is_string() && is_gateway_url(value.get<std::string>())) return value.get<std::string>();
     throw Expected{"the URL of a gateway, such as ws://127.0.0.1:8081"};
 }
 
@@ -108,6 +104,7 @@ std::vector<Property> const& properties() {
     static std::vector<Property> const all{
         {"name", [](SubEngine& engine, json const& value) { engine.name = name_of(value); }},
         {"url", [](SubEngine& engine, json const& value) { engine.url = url_of(value); }},
+        {"joins", [](SubEngine& engine, json const& value) { engine.joins = name_of(value); }},
         {"components", [](SubEngine& engine, json const& value) { engine.components = refs_of(value); }},
         {"position",
          [](SubEngine& engine, json const& value) { placement(engine).position = triple_of(value, "[x, y, z] in mm"); }},
@@ -135,8 +132,7 @@ std::vector<Property> const& properties() {
 SubEngine read(json const& entry, std::function<std::string(std::string const&)> const& where) {
     SubEngine engine;
     auto const named = [&] { return engine.name.empty() ? std::string{} : "sub engine " + rois::quoted(engine.name) + ": "; };
-    for (auto const* mandatory : {"name", "url"})
-        if (!entry.contains(mandatory)) throw BadSettings{where("") + "a sub engine has no " + rois::quoted(mandatory)};
+    if (!entry.contains("name")) throw BadSettings{where("") + "a sub engine has no 'name'"};
     auto const set = [&](std::string const& name, json const& value) {
         auto const property = std::ranges::find(properties(), name, &Property::name);
         if (property == properties().end()) {
@@ -154,6 +150,8 @@ SubEngine read(json const& entry, std::function<std::string(std::string const&)>
     };
     set("name", entry["name"]);
     for (auto const& [name, value] : entry.items()) set(name, value);
+    if (engine.url.empty() == engine.joins.empty())
+        throw BadSettings{where("name") + named() + "expected either 'url', to connect to it, or 'joins', if it connects"};
     if (engine.resume_window < engine.window)
         throw BadSettings{where("resume_window") + named() + "resume_window must not be shorter than window"};
     if (engine.placement) {
@@ -173,6 +171,11 @@ SubEngine read(json const& entry, std::function<std::string(std::string const&)>
 
 }  // namespace
 
+bool is_gateway_url(std::string_view text) {
+    return std::ranges::any_of(std::array<std::string_view, 4>{"ws://", "wss://", "http://", "https://"},
+                               [&](auto scheme) { return text.starts_with(scheme) && text.size() > scheme.size(); });
+}
+
 std::vector<SubEngine> read_engines_file(std::string const& file) {
     auto const text = text_of_file(file);
     auto const object = parse_json(file, text);
@@ -182,7 +185,7 @@ std::vector<SubEngine> read_engines_file(std::string const& file) {
                               ": expected only \"engines\": [ ... ], a list of sub engines"};
     if (!object.contains("engines")) throw BadSettings{file + ":1:1: expected \"engines\": [ ... ], a list of sub engines"};
     std::vector<SubEngine> engines;
-    std::set<std::string> names;
+    std::set<std::string> names, joining;
     auto const begins = begins_of_entries(text);
     for (auto const& entry : object["engines"]) {
         if (!entry.is_object())
@@ -194,6 +197,8 @@ std::vector<SubEngine> read_engines_file(std::string const& file) {
         auto& engine = engines.emplace_back(read(entry, where));
         if (!names.insert(engine.name).second)
             throw BadSettings{where("name") + "there are two sub engines with the name " + rois::quoted(engine.name)};
+        if (!engine.joins.empty() && !joining.insert(engine.joins).second)
+            throw BadSettings{where("joins") + "two sub engines join as " + rois::quoted(engine.joins)};
     }
     return engines;
 }

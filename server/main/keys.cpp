@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "gateway/access/host_names.hpp"
+#include "main/engines_file.hpp"
 #include "types/text/address.hpp"
 #include "types/text/texts.hpp"
 
@@ -126,6 +127,12 @@ bool set_media_url(GatewaySettings& settings, std::string const& text) {
     bool const is_url = (text.starts_with("http://") && text.size() > 7) || (text.starts_with("https://") && text.size() > 8);
     if (!text.empty() && (!is_url || text.find_first_of(" \t\r\n?#\"<>") != std::string::npos)) return false;
     settings.media.url = text;
+    return true;
+}
+
+bool set_join(GatewaySettings& settings, std::string const& text) {
+    if (!text.empty() && !is_gateway_url(text)) return false;
+    settings.join = text;
     return true;
 }
 
@@ -275,6 +282,12 @@ std::vector<Key> general_keys() {
         file(
             "engines", "sub engines, read again after SIGHUP; empty: none",
             [](GatewaySettings & s) -> auto& { return s.engines; }),
+        {"join", "gateway whose sub engine this engine becomes by connecting to it; empty: none", "URL",
+         "a URL such as ws://main.example:8080, or empty", Key::Kind::text, set_join,
+         [](GatewaySettings const& s) { return s.join; }},
+        {"join_as", "name by which it joins; empty: that of engine_name", "NAME", "a text", Key::Kind::text,
+         [](GatewaySettings& s, std::string const& text) { return s.join_as = text, true; },
+         [](GatewaySettings const& s) { return s.join_as; }},
         {"hosts", "further host names of the gateway, besides localhost, IP addresses and the name of its machine", "NAMES",
          "host names such as gateway or robots.example, without a port, separated by spaces", Key::Kind::text, set_hosts,
          [](GatewaySettings const& s) { return joined(s.net.hosts); }},

@@ -249,20 +249,27 @@ int serve(CommandLine const& command) {
                                     .console = WebFiles{files::console()},
                                     .floor_map = xml::encode(simulation::floor_map(simulation->hall().plan()))}};
     std::optional<remote::RemoteEngines> remote_engines;
-    if (!settings.engines.empty()) {
+    if (!settings.engines.empty() || !settings.join.empty()) {
         remote_engines.emplace(remote::RemoteEngines::Host{
             .instance = instance,
+            .schemas = schemas,
             .change = [&](ComponentChange change) { gateway.change(std::move(change)); },
             .report = [](std::string const& name, std::string const& what) { spdlog::info("sub engine {}: {}", name, what); }});
         engine.add(remote_engines->pulse(), "pulse");
         remote_engines->set(sub_engines);
     }
     net::Server server{net_settings, gateway, telemetry, documents, schemas};
-    if (!settings.profiles.empty() || remote_engines)
+    if (!settings.profiles.empty() || !settings.engines.empty())
         server.on_hang_up([&] {
             if (!settings.profiles.empty()) read_again(user_components, gateway);
-            if (remote_engines) read_again(settings.engines, *remote_engines);
+            if (!settings.engines.empty()) read_again(settings.engines, *remote_engines);
         });
+    if (!settings.engines.empty())
+        server.on_join([&](int socket, std::string head) { remote_engines->accept(socket, std::move(head)); });
+    if (!settings.join.empty()) {
+        auto const& name = settings.join_as.empty() ? settings.engine_name : settings.join_as;
+        remote_engines->join({.url = settings.join, .name = name, .own_url = server.url()});
+    }
     if (media) spdlog::info("media are served under {}", media->url());
     spdlog::info("listening on {}", server.url());
     bool const halted = server.run();

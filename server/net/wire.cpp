@@ -151,6 +151,11 @@ void Wire::sweep(Steady now) {
     }
 }
 
+int Wire::release() {
+    boost::system::error_code ignored;
+    return socket_.release(ignored);
+}
+
 void Wire::cut() {
     boost::system::error_code ignored;
     socket_.close(ignored);

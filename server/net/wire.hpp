@@ -75,6 +75,8 @@ public:
     void sweep(Steady now);
     // Closes the socket.
     void cut();
+    // Gives the socket to the caller, who closes it.
+    int release();
 
 private:
     struct Watching {

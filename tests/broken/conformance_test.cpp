@@ -78,6 +78,31 @@ private:
     kit::GatewayProcess gateway_;
 };
 
+// The same, but the engine below joins.
+class Joined {
+public:
+    std::uint16_t port() const { return gateway_.port(); }
+    std::vector<std::string> joining() const { return {"--join", gateway_.url(), "--join-as", "below"}; }
+    void await() { EXPECT_THAT(gateway_.log_with("present with"), testing::HasSubstr("present with")); }
+
+private:
+    std::string engines() const {
+        folder_.put("engines.json", R"({"engines": [{"name": "below", "joins": "below"}]})");
+        return folder_.name() + "/engines.json";
+    }
+
+    kit::ProfileFolder folder_;
+    kit::GatewayProcess gateway_{{"--robots", "none", "--engines", engines(), "--sim-speed", "20"}};
+};
+
+TEST(Conformance, FindsNoBrokenRuleThroughAJoinedEngine) {
+    Joined above;
+    EmptyHall const hall{above.joining()};
+    above.await();
+    auto const judged = judge(url(above.port()));
+    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+}
+
 TEST(Conformance, FindsNoBrokenRuleThroughASubEngine) {
     EmptyHall hall;
     Above const above{hall.port()};

@@ -4,7 +4,7 @@
 
 namespace rois::kit {
 
-HttpReply shake_hands(HttpClient& http, Headers const& other) {
+HttpReply shake_hands(HttpClient& http, Headers const& other, std::string const& path) {
     Headers fields{{"Upgrade", "websocket"},
                    {"Connection", "Upgrade"},
                    {"Sec-WebSocket-Version", "13"},
@@ -14,7 +14,7 @@ HttpReply shake_hands(HttpClient& http, Headers const& other) {
         fields[name] = value;
         if (value.empty()) fields.erase(name);
     }
-    return http.get("/rois", fields);
+    return http.get(path, fields);
 }
 
 int Frame::close_code() const {
@@ -22,8 +22,8 @@ int Frame::close_code() const {
     return static_cast<unsigned char>(payload[0]) << 8 | static_cast<unsigned char>(payload[1]);
 }
 
-WebSocketClient::WebSocketClient(Address const& address) : http_{address} {
-    auto const status = shake_hands(http_).status;
+WebSocketClient::WebSocketClient(Address const& address, std::string const& path) : http_{address} {
+    auto const status = shake_hands(http_, {}, path).status;
     if (status != 101) throw LineEnded{"no WebSocket: HTTP status " + std::to_string(status) + " instead of 101"};
 }
 

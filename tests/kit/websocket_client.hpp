@@ -15,7 +15,7 @@ inline constexpr auto good_key = "dGhlIHNhbXBsZSBub25jZQ==";
 inline constexpr auto its_accept = "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=";  // RFC 6455, 1.3
 
 // Sends the handshake; `other` adds or replaces header fields, an empty value removes one.
-HttpReply shake_hands(HttpClient&, Headers const& other = {});
+HttpReply shake_hands(HttpClient&, Headers const& other = {}, std::string const& path = "/rois");
 
 struct Frame {
     Kind kind;
@@ -27,7 +27,7 @@ struct Frame {
 class WebSocketClient {
 public:
     // Shakes hands.
-    explicit WebSocketClient(Address const&);
+    explicit WebSocketClient(Address const&, std::string const& path = "/rois");
 
     Line& line() { return http_.line(); }
 

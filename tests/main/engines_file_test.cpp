@@ -62,13 +62,19 @@ TEST(EnginesFile, NamesThePlaceOfEachMistake) {
     EXPECT_EQ(complaint("{\n\"robots\": []}"), R"(2:1: expected only "engines": [ ... ], a list of sub engines)");
     EXPECT_EQ(complaint(R"({"engines": ["hall"]})"), "1:2: each sub engine must be an object, { ... }");
     EXPECT_EQ(complaint(R"({"engines": [{"url": "ws://a"}]})"), "1:14: a sub engine has no 'name'");
-    EXPECT_EQ(complaint(R"({"engines": [{"name": "a"}]})"), "1:14: a sub engine has no 'url'");
+    EXPECT_EQ(complaint(R"({"engines": [{"name": "a"}]})"),
+              "1:14: sub engine 'a': expected either 'url', to connect to it, or 'joins', if it connects");
+    EXPECT_EQ(complaint(R"({"engines": [{"name": "a", "url": "ws://a", "joins": "a"}]})"),
+              "1:14: sub engine 'a': expected either 'url', to connect to it, or 'joins', if it connects");
+    EXPECT_EQ(complaint(R"({"engines": [{"name": "a", "joins": "x"}, {"name": "b", "joins": "x"}]})"),
+              "1:56: two sub engines join as 'x'");
     std::string const good =
         "{\"engines\": [\n{\"name\": \"a\", \"url\": \"ws://a\"},\n{\"name\": \"b\", \"url\": \"ws://b\",\n ";
     auto const with = [&](std::string const& property) { return complaint(good + property + "}]}"); };
-    EXPECT_EQ(with(R"("colour": 1)"),
-              "4:2: sub engine 'b': 'colour' is not a key of a sub engine: expected one of name, url, components, position, "
-              "orientation, covariance, window, resume_window, motion_lease, most_components");
+    EXPECT_EQ(
+        with(R"("colour": 1)"),
+        "4:2: sub engine 'b': 'colour' is not a key of a sub engine: expected one of name, url, joins, components, position, "
+        "orientation, covariance, window, resume_window, motion_lease, most_components");
     EXPECT_EQ(with(R"("window": 0)"), "4:2: sub engine 'b': window must be a number of seconds from 1.0 to 60.0, not '0'");
     EXPECT_EQ(
         with(R"("components": [])"),

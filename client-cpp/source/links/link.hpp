@@ -56,6 +56,9 @@ public:
     // no_session, is reported as a document. WebSocket: sends `resume` (not needed for a session that this link has opened).
     virtual void attach(SessionId const&, std::uint64_t last_sequence) = 0;
 
+    // Calls this listener from now on.
+    void listen(Listener& listener) { listener_ = &listener; }
+
     // Closes the link at once. The listener is not called any more.
     virtual void cut() = 0;
 
@@ -74,6 +77,9 @@ protected:
 inline Link::Document document_of(Request const& request) { return std::make_shared<std::string const>(xml::encode(request)); }
 
 std::shared_ptr<Link> websocket_link(Loop&, Target const&, Settings const&, Link::Listener&);
+// A WebSocket that a client opens here. `socket`: a connected socket, which the link closes. `head`: what was received on it: the
+// request for the upgrade, and perhaps more.
+std::shared_ptr<Link> accepted_link(Loop&, int socket, std::string head, Settings const&, Link::Listener&);
 std::shared_ptr<Link> http_link(Loop&, Target const&, Settings const&, Link::Listener&);
 
 }  // namespace rois::client

@@ -38,8 +38,16 @@ public:
 
     void open() override {
         asio::co_spawn(
-            beast::get_lowest_layer(stream_).get_executor(), [self = this->shared_from_this()] { return self->run(); },
+            beast::get_lowest_layer(stream_).get_executor(),
+            [self = this->shared_from_this()] { return self->head_.empty() ? self->run() : self->run_accepted(); },
             asio::detached);
+    }
+
+    // Makes the link one that is accepted, instead of opened. For Socket only.
+    void accept(int socket, std::string head) {
+        error_code error;
+        beast::get_lowest_layer(stream_).assign(asio::ip::tcp::v4(), socket, error);
+        head_ = std::move(head);
     }
 
     void send(Document document) override {
@@ -67,7 +75,7 @@ private:
                                                            .idle_timeout = 2 * settings_.ping_interval,
                                                            .keep_alive_pings = true});
         stream_.set_option(websocket::stream_base::decorator([this](websocket::request_type& request) {
-            request.set(http::field::sec_websocket_protocol, "rois.xml.v1");
+            request.set(http::field::sec_websocket_protocol, subprotocol);
             if (!settings_.token.empty()) request.set(http::field::authorization, "Bearer " + settings_.token);
         }));
         stream_.control_callback([this](websocket::frame_type kind, beast::string_view) {
@@ -90,6 +98,21 @@ private:
         co_await stream_.async_handshake(answer, target_.authority, target_.path, into(error));
         if (error) {
             refuse(error, answer);
+            co_return;
+        }
+        if (listener_ == nullptr) co_return;
+        listener_->connected();
+        read();
+    }
+
+    Opening run_accepted() {
+        set_options();
+        stream_.set_option(websocket::stream_base::decorator(
+            [](websocket::response_type& response) { response.set(http::field::sec_websocket_protocol, subprotocol); }));
+        error_code error;
+        co_await stream_.async_accept(asio::buffer(head_), into(error));
+        if (error) {
+            fail("no WebSocket: " + error.message(), Failure::passing);
             co_return;
         }
         if (listener_ == nullptr) co_return;
@@ -150,12 +173,14 @@ private:
     }
 
     static constexpr std::size_t most_at_once = 64 * 1024;
+    static constexpr auto subprotocol = "rois.xml.v1";
 
     Target target_;
     Settings const& settings_;
     std::unique_ptr<asio::ssl::context> context_;
     Resolver resolver_;
     Full stream_;
+    std::string head_;  // of a link that is accepted
     beast::flat_buffer incoming_;
     std::deque<Document> outgoing_;  // the first one is being sent
 };

@@ -53,6 +53,10 @@ Task<> Connection::run() {
     auto then = Then::end;
     if (!loop_.draining()) then = co_await serve();
     if (then == Then::websocket) co_await serve_websocket();
+    if (then == Then::engine) {
+        co_await flush();
+        loop_.shared().join(wire_.release(), std::string{head_.text.begin(), head_.text.end()}.append(wire_.text()));
+    }
     if (then == Then::linger) {
         co_await await_answers();
         co_await flush();
@@ -248,7 +252,7 @@ HttpAnswer Connection::made_of(Answer&& answer) {
 Task<Connection::Then> Connection::serve_other() {
     auto& shared = loop_.shared();
     wire_.use(head_.content_length);
-    if (route_.endpoint == Endpoint::rois) {
+    if (route_.endpoint == Endpoint::rois || route_.endpoint == Endpoint::engines) {
         co_await await_answers();
         co_return serve_upgrade();
     }
@@ -266,8 +270,13 @@ Task<Connection::Then> Connection::serve_other() {
 Connection::Then Connection::serve_upgrade() {
     auto const& shared = loop_.shared();
     if (shared.gateway.shutting_down()) return reply(answer_of(shutting_down()));
+    bool const joins = route_.endpoint == Endpoint::engines;
+    if (joins && !shared.join) return reply(answer_of({FaultCode::not_found, "no engine may join this one", {}, {}}));
+    if (joins && !is_loopback(place_.address()))
+        return reply(answer_of({FaultCode::not_allowed, "engines may join only from this machine", {}, {}}));
     auto const answer = upgrade(head_);
     if (answer.status != http::status::switching_protocols) return reply(answer);
+    if (joins) return Then::engine;  // whose link sends this answer
     append(out_, answer, {});
     return Then::websocket;
 }

@@ -37,7 +37,7 @@ private:
     friend class Loop;
 
     // The next step of the connection. `receive`: the request is incomplete. `linger`: close after the last answer.
-    enum class Then : std::uint8_t { next, receive, websocket, linger, end };
+    enum class Then : std::uint8_t { next, receive, websocket, engine, linger, end };
 
     Task<Then> serve();
     Then take_request();

@@ -15,9 +15,10 @@ struct Named {
     std::string_view path;
     Endpoint endpoint;
 };
-constexpr std::array<Named, 12> fixed{{{"/", Endpoint::page},
+constexpr std::array<Named, 13> fixed{{{"/", Endpoint::page},
                                        {"/plain", Endpoint::plain_page},
                                        {"/rois", Endpoint::rois},
+                                       {"/rois/engines", Endpoint::engines},
                                        {"/rois/notifications", Endpoint::notifications},
                                        {"/rois/profile", Endpoint::engine_profile},
                                        {"/rois/schemas", Endpoint::schema_list},

@@ -15,6 +15,7 @@ enum class Endpoint : std::uint8_t {
     plain_page,
     asset,
     rois,
+    engines,
     notifications,
     engine_profile,
     component_profile,

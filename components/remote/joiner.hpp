@@ -1,0 +1,48 @@
+// Makes this engine a sub engine of another one that cannot connect to it: opens a WebSocket there, joins, and passes the
+// documents on to this engine's own gateway, and its answers back.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "core/loop.hpp"
+#include "links/link.hpp"
+#include "remote/sub_engine.hpp"
+
+namespace rois::remote {
+
+// Used on the thread of the links.
+class Joiner : public std::enable_shared_from_this<Joiner> {
+public:
+    // `instance`: of this engine. `report` receives lines for the log.
+    Joiner(client::Loop&, Joining, std::string instance, std::function<void(std::string const&)> report);
+
+    void begin() { attempt(); }
+    void end();
+
+private:
+    class Own;    // the link to this engine's own gateway
+    class There;  // the link to the other engine
+
+    void attempt();
+    void give_up(std::string const& reason);
+    void note(std::string const& what);
+
+    client::Loop& loop_;
+    Joining joining_;
+    std::string instance_;
+    std::function<void(std::string const&)> report_;
+    Settings settings_;
+    std::shared_ptr<Own> own_;      // null between attempts
+    std::shared_ptr<There> there_;  // null until the own gateway is there
+    std::string last_note_;
+    std::uint64_t era_ = 0;  // counts attempts and lost links
+    unsigned failures_ = 0;  // in a row
+    bool has_joined_ = false;
+    bool is_over_ = false;
+};
+
+}  // namespace rois::remote

@@ -1,0 +1,113 @@
+// An engine that joins another one by a WebSocket to /rois/engines (docs/engines.md).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <memory>
+
+#include "kit/profile_folder.hpp"
+#include "server/application.hpp"
+#include "server/websocket_client.hpp"
+
+namespace rois::test {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+// An engine without components of its own, which others may join as `robot1`.
+class Main {
+public:
+    GatewayProcess& gateway() { return gateway_; }
+    operator GatewayProcess&() { return gateway_; }
+
+private:
+    std::string engines() const {
+        folder_.put("engines.json", R"({"engines": [{"name": "robot1", "joins": "robot1", "window": 1}]})");
+        return folder_.name() + "/engines.json";
+    }
+
+    kit::ProfileFolder folder_;
+    GatewayProcess gateway_{{"--robots", "none", "--engines", engines()}};
+};
+
+std::unique_ptr<GatewayProcess> robot_that_joins(GatewayProcess const& main, std::string const& name = "robot1") {
+    return std::make_unique<GatewayProcess>(
+        std::vector<std::string>{"--join", main.url(), "--join-as", name, "--sim-speed", "20"});
+}
+
+// A client that sends what an engine sends.
+struct JoiningClient : kit::WebSocketClient {
+    explicit JoiningClient(GatewayProcess const& main) : kit::WebSocketClient{main.address(), "/rois/engines"} {}
+
+    pugi::xml_node join(std::string const& name, std::string const& instance) {
+        return call("join", "", {{"name", name}, {"instance", instance}});
+    }
+};
+
+TEST(Joining, GivesTheMainEngineItsComponents) {
+    Main main;
+    auto const robot = robot_that_joins(main);
+    main.gateway().log_with("present with");
+    Application desk{Way::websocket, main};
+    desk.connect();
+    EXPECT_THAT(desk.search(), Contains("robot1.speech_synthesis"));
+    desk.bind("robot1.speech_synthesis");
+    desk.execute(Command{.component = "robot1.speech_synthesis", .id = "hello", .arguments = {speech_text("Hello.")}});
+    EXPECT_EQ(desk.status_of("hello"), "OK");
+}
+
+TEST(Joining, IsRefusedForAnUnknownName) {
+    Main main;
+    auto const robot = robot_that_joins(main, "robot2");
+    EXPECT_THAT(robot->log_with("refuses"), HasSubstr("no engine may join as 'robot2'"));
+}
+
+TEST(Joining, IsRefusedForANameThatIsInUse) {
+    Main main;
+    JoiningClient first{main}, second{main};
+    EXPECT_STREQ(first.join("robot1", "a").attribute("return_code").value(), "OK");
+    EXPECT_STREQ(first.next_document().name(), "connect");
+    auto const answer = second.join("robot1", "b");
+    EXPECT_STREQ(answer.attribute("return_code").value(), "BAD_PARAMETER");
+    EXPECT_STREQ(answer.child("reason").text().get(), "another engine has joined as 'robot1'");
+}
+
+TEST(Joining, AgainReplacesTheOlderLink) {
+    Main main;
+    JoiningClient first{main}, second{main};
+    EXPECT_STREQ(first.join("robot1", "a").attribute("window").value(), "1000");
+    EXPECT_STREQ(second.join("robot1", "a").attribute("return_code").value(), "OK");
+    EXPECT_STREQ(second.next_document().name(), "connect");
+    first.next_document();
+    EXPECT_THROW(first.next_document(), kit::LineEnded);
+}
+
+TEST(Joining, AnswersWhatIsNotAJoinWithAFault) {
+    Main main;
+    JoiningClient client{main};
+    EXPECT_STREQ(client.call("connect").name(), "fault");
+    EXPECT_THROW(client.next_document(), kit::LineEnded);
+}
+
+TEST(Joining, IsNotOfferedWithoutAnEnginesFile) {
+    HttpClient http;
+    EXPECT_EQ(kit::shake_hands(http, {}, "/rois/engines").status, 404);
+}
+
+TEST(Joining, HappensAgainAfterTheRobotHasRestarted) {
+    Main main;
+    auto robot = robot_that_joins(main);
+    main.gateway().log_with("present with");
+    robot->signal(SIGKILL);
+    robot->wait();
+    robot = robot_that_joins(main);
+    Application desk{Way::websocket, main};
+    desk.connect();
+    while (desk.bind("robot1.speech_synthesis").return_code() != "OK") {
+    }
+}
+
+}  // namespace
+}  // namespace rois::test
