@@ -387,7 +387,8 @@ class Service:
         self.reply("get_command_result", request, "OK" if known else "BAD_PARAMETER", "<results/>", "there is no such command")
 
     async def on_execute(self, request):
-        unit = request.find(f"{R}CommandUnitSequence/{R}command_unit_list")
+        sequence = request.find(R + "CommandUnitSequence")
+        unit = sequence.find(R + "command_unit_list")
         component = self.component(unit.find(R + "component_ref"))
         command, id = unit.get(R + "command_type"), unit.get(R + "command_id")
         if component is None:
@@ -397,12 +398,13 @@ class Service:
             component.check(command, arguments)
         except Refused as refused:
             return self.reply("execute", request, "BAD_PARAMETER", reason=str(refused))
+        accepted = ElementTree.tostring(sequence, encoding="unicode")
         if request.get("check_only") in ("true", "1"):
-            return self.reply("execute", request)
+            return self.reply("execute", request, content=accepted)
         self.performed[id] = True
         if len(self.performed) > 1_000:
             self.performed.popitem(last=False)
-        self.reply("execute", request)
+        self.reply("execute", request, content=accepted)
         if command == "stop":
             await self.halt(component)
             return self.completed(component, id, "OK")

@@ -90,6 +90,7 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const 
         case Endpoint::metrics:
             return {.body = telemetry_.text(gateway_.statistics()), .content_type = "text/plain; version=0.0.4; charset=utf-8"};
         case Endpoint::rois:
+        case Endpoint::engines:
         case Endpoint::stop:
         case Endpoint::clear:
         case Endpoint::notifications:
