@@ -13,13 +13,12 @@ BOTH = "query 0.6 kB, sub engine: CPU of both engines"
 ONE_LOCAL = "query 0.6 kB, own component, 1 connection"
 ONE_REMOTE = "query 0.6 kB, sub engine, 1 connection"
 
-EVENT_LOCAL = "event to 1 subscriber, own component"
-EVENT_MAIN = "event to 1 subscriber, sub engine: CPU of the main engine"
-EVENT_BOTH = "event to 1 subscriber, sub engine: CPU of both engines"
+SUBSCRIBERS = 64  # as many as requests in flight
+EVENT_LOCAL = f"event to {SUBSCRIBERS} subscribers, own component"
+EVENT_MAIN = f"event to {SUBSCRIBERS} subscribers, sub engine: CPU of the main engine"
+EVENT_BOTH = f"event to {SUBSCRIBERS} subscribers, sub engine: CPU of both engines"
 
 AGAINST = {MAIN: LOCAL, BOTH: LOCAL, ONE_REMOTE: ONE_LOCAL, EVENT_MAIN: EVENT_LOCAL, EVENT_BOTH: EVENT_LOCAL}
-
-BURST = 100  # events that one command fires, so that the command is a small part of the cost
 
 
 def round(keep, settings):
@@ -54,9 +53,9 @@ def above(hall):
 
 
 def hear(keep, row, server, suffix, settings):
-    options = {"via": "websocket", "connect": "yes", "connections": 1, "setup": document("subscribe"), "burst": BURST}
+    options = {"via": "websocket", "connect": "yes", "connections": SUBSCRIBERS, "setup": document("subscribe"), "burst": 1}
     folder = WORK / "documents" / "micro"
-    firing = {"fire_setup": folder / f"bind-probe0{suffix}.xml", "fire": folder / f"fire-{BURST}{suffix}.xml"}
+    firing = {"fire_setup": folder / f"bind-probe0{suffix}.xml", "fire": folder / f"fire-1{suffix}.xml"}
     measured = load("fanout", server, seconds=settings.seconds, **options, **firing)
     keep(row, measured)
     return measured

@@ -51,26 +51,29 @@ def bare_on_two_threads(name):
 
 
 def compare(ask, settings):
-    """Alternates between the servers, so that all meet the same load of the machine."""
+    """Alternates between the servers that are compared, so that all meet the same load of the machine. No other server runs beside
+    them: even at rest, each has threads that wake up."""
     query = "query-0.6kB"
-    servers = (
-        gateway(1, *settings.gateway),
-        gateway(1, *settings.gateway, free=True),
+    bare_servers = (
         Server("bare-http", [BIN / "rois-bare-http", "{port}", ANSWER_BYTES]),
-        Server("gsoap", [BIN / "rois-gsoap", "{port}"], threads=CONNECTIONS),
-        Server("xmlrpc", [PYTHON, ROOT / "bench" / "xmlrpc_server.py", "{port}"], threads=CONNECTIONS),
         Server("bare-websocket", [BIN / "rois-bare-websocket", "{port}"]),
     )
-    with running(*servers) as (rois, free, bare, gsoap, xmlrpc, echo):
+    with running(gateway(1, *settings.gateway), *bare_servers) as (rois, bare, echo):
         for _ in range(settings.turns):
             ask(BARE_HTTP, bare, query, connect=False)
             ask(HTTP, rois, query)
             ask(OTHER_HEADS, rois, query, other_heads="yes")
+            ask(BARE_WEBSOCKET, echo, query, connect=False, via="websocket")
+            ask(WEBSOCKET, rois, query, via="websocket")
+    others = (
+        Server("gsoap", [BIN / "rois-gsoap", "{port}"], threads=CONNECTIONS),
+        Server("xmlrpc", [PYTHON, ROOT / "bench" / "xmlrpc_server.py", "{port}"], threads=CONNECTIONS),
+    )
+    with running(gateway(1, *settings.gateway, free=True), *others) as (free, gsoap, xmlrpc):
+        for _ in range(settings.turns):
             ask(FREE, free, query)
             ask(GSOAP, gsoap, "call-of-gsoap", connect=False, path="/", expect=">OK<")
             ask(XMLRPC, xmlrpc, "call-of-xmlrpc", connect=False, path="/RPC2", expect="9498.984")
-            ask(BARE_WEBSOCKET, echo, query, connect=False, via="websocket")
-            ask(WEBSOCKET, rois, query, via="websocket")
 
 
 def vary_size_and_connections(ask, settings):

@@ -69,7 +69,7 @@ public:
     void accept(int socket, std::string head) { door_->open(socket, std::move(head)); }
 
     void join(Joining joining) {
-        auto const name = joining.url;
+        auto const name = "engine " + joining.url;
         joiner_ = std::make_shared<Joiner>(loop_, std::move(joining), host_.instance,
                                            [this, name](std::string const& what) { host_.report(name, what); });
         joiner_->begin();
@@ -91,7 +91,9 @@ private:
     }
 
     void change(ComponentChange change) override { host_.change(std::move(change)); }
-    void report(std::string const& sub_engine, std::string const& what) override { host_.report(sub_engine, what); }
+    void report(std::string const& sub_engine, std::string const& what) override {
+        host_.report("sub engine " + sub_engine, what);
+    }
     bool is_alive() const override { return pulse_->beats(now()); }
 
     std::optional<std::string> why_loop(std::string const& sub_engine, std::vector<std::string> const& instances) override {

@@ -17,12 +17,12 @@ namespace rois::remote {
 class RemoteEngines {
 public:
     // Both functions are called on the thread of the links. `change` changes this engine's components, and may throw. `report`
-    // receives lines for the log.
+    // receives lines for the log about another engine.
     struct Host {
         std::string instance;  // of this engine
         std::shared_ptr<xml::Schemas const> schemas;
         std::function<void(ComponentChange)> change;
-        std::function<void(std::string const& sub_engine, std::string const& what)> report;
+        std::function<void(std::string const& engine, std::string const& what)> report;
     };
 
     explicit RemoteEngines(Host);

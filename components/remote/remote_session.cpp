@@ -1,10 +1,10 @@
 // The link to a sub engine, and the session there: connects, resumes the session within its window, and gives it up after that.
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 #include "remote/remote_engine.hpp"
 #include "types/text/texts.hpp"
+#include "types/text/to_number.hpp"
 
 namespace rois::remote {
 
@@ -22,13 +22,6 @@ constexpr std::string_view opening = "connect";
 constexpr std::string_view sign_of_life = "alive";
 // Asks, in front of a request's number, whether an execute was performed whose answer was lost.
 constexpr std::string_view was_performed = "performed ";
-
-std::optional<std::uint64_t> number_of(std::string_view text) {
-    std::uint64_t number = 0;
-    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || end != text.data() + text.size()) return {};
-    return number;
-}
 
 bool is_ok(Reply const& reply) {
     return std::visit([](Outcome const& outcome) { return outcome.return_code == ReturnCode::ok; }, reply);
@@ -96,7 +89,7 @@ void RemoteEngine::document(std::string_view text) {
 void RemoteEngine::take(Fault const& fault) {
     if (fault.code == FaultCode::no_session && !session_.text.empty()) return session_ended();
     if (!is_open_) return give_up_link("no session: " + fault.reason);
-    auto const number = number_of(fault.request_id);
+    auto const number = to_number<std::uint64_t>(fault.request_id);
     auto const found = number ? open_.find(*number) : open_.end();
     if (found == open_.end()) return;
     auto const open = std::move(found->second);
@@ -122,7 +115,7 @@ void RemoteEngine::take(xml::Answered const& answered) {
         return connected();
     }
     bool const asks = id.starts_with(was_performed);
-    auto const number = number_of(asks ? std::string_view{id}.substr(was_performed.size()) : id);
+    auto const number = to_number<std::uint64_t>(asks ? std::string_view{id}.substr(was_performed.size()) : id);
     auto const found = number ? open_.find(*number) : open_.end();
     if (found == open_.end()) return;  // late, twice, or never asked
     if (asks && !is_ok(reply)) return link_->send(found->second.document);

@@ -11,6 +11,7 @@
 #include "main/engines_file.hpp"
 #include "types/text/address.hpp"
 #include "types/text/texts.hpp"
+#include "types/text/to_number.hpp"
 
 namespace rois {
 
@@ -47,11 +48,9 @@ template <class T>
 Key whole_number(std::string name, std::string help, Member<T> const& member, double least, double most) {
     Key key{std::move(name), std::move(help), "N", range("a whole number", least, most), Key::Kind::number, {}, {}};
     key.set = [member, least, most](GatewaySettings& settings, std::string const& text) {
-        T number{};
-        auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        bool const whole = error == std::errc{} && end == text.data() + text.size();
-        if (!whole || static_cast<double>(number) < least || static_cast<double>(number) > most) return false;
-        member(settings) = number;
+        auto const number = to_number<T>(text);
+        if (!number || static_cast<double>(*number) < least || static_cast<double>(*number) > most) return false;
+        member(settings) = *number;
         return true;
     };
     key.show = [member](GatewaySettings const& settings) { return std::to_string(read(member, settings)); };

@@ -254,18 +254,18 @@ int serve(CommandLine const& command) {
             .instance = instance,
             .schemas = schemas,
             .change = [&](ComponentChange change) { gateway.change(std::move(change)); },
-            .report = [](std::string const& name, std::string const& what) { spdlog::info("sub engine {}: {}", name, what); }});
+            .report = [](std::string const& name, std::string const& what) { spdlog::info("{}: {}", name, what); }});
         engine.add(remote_engines->pulse(), "pulse");
         remote_engines->set(sub_engines);
     }
+    if (!settings.engines.empty())
+        net_settings.join = [&](int socket, std::string head) { remote_engines->accept(socket, std::move(head)); };
     net::Server server{net_settings, gateway, telemetry, documents, schemas};
     if (!settings.profiles.empty() || !settings.engines.empty())
         server.on_hang_up([&] {
             if (!settings.profiles.empty()) read_again(user_components, gateway);
             if (!settings.engines.empty()) read_again(settings.engines, *remote_engines);
         });
-    if (!settings.engines.empty())
-        server.on_join([&](int socket, std::string head) { remote_engines->accept(socket, std::move(head)); });
     if (!settings.join.empty()) {
         auto const& name = settings.join_as.empty() ? settings.engine_name : settings.join_as;
         remote_engines->join({.url = settings.join, .name = name, .own_url = server.url()});

@@ -60,13 +60,9 @@ Task<> Loop::perform(Duty& duty) {
 
 void Loop::look_after() {
     for (auto& duty : duties_) {
-        if (std::exchange(duty.goes_on, true)) continue;
-        try {
-            asio::co_spawn(io_, perform(duty), asio::detached);
-        } catch (...) {
-            duty.goes_on = false;
-            throw;
-        }
+        if (duty.goes_on) continue;
+        asio::co_spawn(io_, perform(duty), asio::detached);
+        duty.goes_on = true;
     }
     wakes_.look_after();
 }

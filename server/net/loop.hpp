@@ -28,7 +28,6 @@ struct Shared {
     Documents const& documents;
     std::shared_ptr<xml::Schemas const> schemas;
     Troubles& troubles;
-    std::function<void(int socket, std::string head)> join{};  // empty: no engine may join
     LongDocuments long_documents{schemas, settings.document, settings.validation};
 };
 

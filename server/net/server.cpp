@@ -55,8 +55,6 @@ public:
         hang_ups_.add(SIGHUP);
     }
 
-    void on_join(std::function<void(int socket, std::string head)> what) { shared_.join = std::move(what); }
-
     void on_too_many_troubles(std::function<void()> what) { give_up_ = std::move(what); }
 
     bool run() {
@@ -141,8 +139,6 @@ Server::~Server() = default;
 std::string Server::url() const { return running_->url(); }
 
 void Server::on_hang_up(std::function<void()> what) { running_->on_hang_up(std::move(what)); }
-
-void Server::on_join(std::function<void(int socket, std::string head)> what) { running_->on_join(std::move(what)); }
 
 void Server::on_too_many_troubles(std::function<void()> what) { running_->on_too_many_troubles(std::move(what)); }
 

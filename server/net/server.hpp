@@ -32,10 +32,6 @@ public:
     // the process ends with 70. Call this before `run`.
     void on_too_many_troubles(std::function<void()>);
 
-    // Sets the function that takes over the socket of an engine that opens the WebSocket /rois/engines, on an I/O thread. `head`:
-    // what was received on the socket. If none is set, no engine may join. Call this before `run`.
-    void on_join(std::function<void(int socket, std::string head)>);
-
     // Serves until SIGTERM or SIGINT. Then notifies the clients, and cuts the connections that are still open after the shutdown
     // timeout, or at a second signal. Returns whether all components have confirmed that they stand still.
     bool run();

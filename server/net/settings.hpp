@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ struct Settings {
     std::size_t max_requests_in_flight = 16;   // of one connection; with more unsent answers, nothing is read
     std::vector<std::string> hosts;            // names of the gateway, in the form of host_name (gateway/access/host_names.hpp)
     std::vector<std::string> allowed_origins;  // of web pages, besides those of the gateway: "https://console.example"
+
+    // Takes the socket of an engine that joins, and what was received on it. Called on an I/O thread. Empty: none may join.
+    std::function<void(int socket, std::string head)> join;
 
     std::chrono::milliseconds request_timeout = std::chrono::seconds{30};  // for a request to arrive completely
     std::chrono::milliseconds connect_timeout = std::chrono::seconds{10};  // for a WebSocket to open a session

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <utility>
 
 #include "types/identifier_length.hpp"
 #include "types/instant.hpp"
 #include "types/text/texts.hpp"
+#include "types/text/to_number.hpp"
 
 namespace rois {
 
@@ -182,9 +182,8 @@ bool is_stream_status(std::string_view text) {
 bool is_whole_number(DataType const& type, std::string_view text) {
     text = trimmed(text);
     if (text.starts_with('+') && text.size() > 1 && is_digit(text[1])) text.remove_prefix(1);
-    std::int64_t number = 0;
-    auto const [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return problem == std::errc{} && end == text.data() + text.size() && type.lowest <= number && number <= type.highest;
+    auto const number = to_number<std::int64_t>(text);
+    return number && type.lowest <= *number && *number <= type.highest;
 }
 
 bool is_of(DataType const& type, std::string_view text) {

@@ -416,6 +416,8 @@ class Service:
         types = profile.messages["command"].get(command)
         if types is None:
             raise Refused(f"the component has no command {command!r}")
+        if command not in ("stop", "set_parameter") and not hasattr(component, command):
+            raise Refused(f"the component does not implement {command!r}")
         codes = {**profile.parameters, **{name: code for name, (is_argument, code, _) in types.items() if is_argument}}
         values = {}
         for each in unit.findall(f"{R}arguments/{R}parameter"):
@@ -432,8 +434,6 @@ class Service:
     async def perform(self, component, id, command, arguments):
         function = getattr(component, command, None)
         try:
-            if function is None and command != "set_parameter":
-                raise Refused(f"the component does not implement {command!r}")
             values = await function(arguments) if function else {}
             if command == "start":
                 component._active = component.continuous

@@ -1,7 +1,6 @@
 // The details of events and errors, kept until they expire, for the sessions that were notified (decisions 21, 24).
 #pragma once
 
-#include <charconv>
 #include <chrono>
 #include <cstdint>
 #include <deque>
@@ -12,6 +11,7 @@
 
 #include "types/instant.hpp"
 #include "types/profiles.hpp"
+#include "types/text/to_number.hpp"
 #include "types/values.hpp"
 
 namespace rois {
@@ -56,14 +56,12 @@ public:
 
     Answer find(std::string_view id, Asker asker, Instant now) {
         forget_expired(now);
-        std::uint64_t number = 0;
         if (!id.starts_with(prefix_)) return {Found::unknown, {}, {}};
         id.remove_prefix(prefix_.size());
-        auto const [end, problem] = std::from_chars(id.data(), id.data() + id.size(), number);
-        bool const whole = problem == std::errc{} && end == id.data() + id.size() && !id.starts_with('0');
-        if (!whole || number >= next() || number < asker.first) return {Found::unknown, {}, {}};
-        if (number < first_) return {Found::expired, {}, {}};
-        auto const& entry = kept_[number - first_];
+        auto const number = id.starts_with('0') ? std::nullopt : to_number<std::uint64_t>(id);
+        if (!number || *number >= next() || *number < asker.first) return {Found::unknown, {}, {}};
+        if (*number < first_) return {Found::expired, {}, {}};
+        auto const& entry = kept_[*number - first_];
         if (asker.slot >= entry.receivers.size() || !entry.receivers[asker.slot]) return {Found::unknown, {}, {}};
         if (!entry.results) return {Found::expired, {}, {}};
         return {Found::kept, entry.results, entry.message};

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <boost/asio/ip/address.hpp>
-#include <charconv>
+
+#include "types/text/to_number.hpp"
 namespace rois {
 
 namespace {
@@ -40,10 +41,9 @@ std::optional<Network> read_network(std::string_view text) {
     if (slash == text.size()) return network;
     auto const digits = text.substr(slash + 1);
     bool const ipv4 = text.substr(0, slash).find(':') == std::string_view::npos;
-    std::size_t bits = 0;
-    auto const [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), bits);
-    if (error != std::errc{} || end != digits.data() + digits.size() || bits > (ipv4 ? 32U : 128U)) return {};
-    network.bits = ipv4 ? ipv4_prefix + bits : bits;
+    auto const bits = to_number<std::size_t>(digits);
+    if (!bits || *bits > (ipv4 ? 32U : 128U)) return {};
+    network.bits = ipv4 ? ipv4_prefix + *bits : *bits;
     return network;
 }
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <boost/asio/ip/address.hpp>
-#include <charconv>
 #include <cstdint>
 
 #include "types/text/texts.hpp"
+#include "types/text/to_number.hpp"
 
 namespace rois {
 
@@ -22,12 +22,7 @@ std::string_view without_last_dot(std::string_view name) {
 }
 
 // A port may be empty, as in "localhost:" (RFC 3986, 3.2.3).
-bool is_port(std::string_view text) {
-    if (text.empty()) return true;
-    std::uint16_t port = 0;
-    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-    return error == std::errc{} && end == text.data() + text.size();
-}
+bool is_port(std::string_view text) { return text.empty() || to_number<std::uint16_t>(text); }
 
 // Removes the port from "name:80", "192.0.2.1:80" or "[::1]:80"; an IPv6 address keeps its brackets. Returns an empty text if the
 // authority has another form.

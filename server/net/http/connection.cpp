@@ -20,8 +20,6 @@ constexpr std::size_t most_to_keep_of_head = 1024;  // bytes, likewise of a head
 constexpr auto longest_linger = std::chrono::seconds{2};
 constexpr auto longest_wait_without_memory = std::chrono::milliseconds{100};  // for a request while the system has no memory
 
-Steady now() { return std::chrono::steady_clock::now(); }
-
 }  // namespace
 
 // Lets a connection take the answers that have come. It may outlive the connection.
@@ -55,12 +53,12 @@ Task<> Connection::run() {
     if (then == Then::websocket) co_await serve_websocket();
     if (then == Then::engine) {
         co_await flush();
-        loop_.shared().join(wire_.release(), std::string{head_.text.begin(), head_.text.end()}.append(wire_.text()));
+        loop_.shared().settings.join(wire_.release(), std::string{head_.text.begin(), head_.text.end()}.append(wire_.text()));
     }
     if (then == Then::linger) {
         co_await await_answers();
         co_await flush();
-        co_await wire_.linger(now() + longest_linger);
+        co_await wire_.linger(std::chrono::steady_clock::now() + longest_linger);
     }
     wire_.cut();
 }
@@ -185,9 +183,9 @@ Task<Connection::Then> Connection::receive() {
     if (idle_ && loop_.draining() && waiting_.empty()) co_return Then::end;
     if (idle_) request_due_ = Steady::max();
     if (idle_ && head_.text.capacity() > most_to_keep_of_head) head_ = {};
-    if (!idle_ && request_due_ == Steady::max()) request_due_ = now() + settings.request_timeout;
+    if (!idle_ && request_due_ == Steady::max()) request_due_ = std::chrono::steady_clock::now() + settings.request_timeout;
     auto const expected = has_head_ ? head_.content_length - wire_.received().size() : 0;
-    if (idle_ && idle_due_ == Steady::max()) idle_due_ = now() + settings.idle_timeout;
+    if (idle_ && idle_due_ == Steady::max()) idle_due_ = std::chrono::steady_clock::now() + settings.idle_timeout;
     auto const until = idle_ ? idle_due_ : request_due_;
     auto const before = wire_.received().size();
     auto const outcome = co_await wire_.receive(until, expected);
@@ -271,9 +269,9 @@ Connection::Then Connection::serve_upgrade() {
     auto const& shared = loop_.shared();
     if (shared.gateway.shutting_down()) return reply(answer_of(shutting_down()));
     bool const joins = route_.endpoint == Endpoint::engines;
-    if (joins && !shared.join) return reply(answer_of({FaultCode::not_found, "no engine may join this one", {}, {}}));
-    if (joins && !is_loopback(place_.address()))
-        return reply(answer_of({FaultCode::not_allowed, "engines may join only from this machine", {}, {}}));
+    if (joins && (!shared.settings.join || !is_loopback(place_.address())))
+        return reply(
+            answer_of({FaultCode::not_allowed, "engines may join only with the key engines, and from this machine", {}, {}}));
     auto const answer = upgrade(head_);
     if (answer.status != http::status::switching_protocols) return reply(answer);
     if (joins) return Then::engine;  // whose link sends this answer

@@ -89,15 +89,9 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const 
             return readiness();
         case Endpoint::metrics:
             return {.body = telemetry_.text(gateway_.statistics()), .content_type = "text/plain; version=0.0.4; charset=utf-8"};
-        case Endpoint::rois:
-        case Endpoint::engines:
-        case Endpoint::stop:
-        case Endpoint::clear:
-        case Endpoint::notifications:
-        case Endpoint::unknown:
-            break;
+        default:
+            return not_found("there is nothing here");
     }
-    return not_found("there is nothing here");
 }
 
 HttpAnswer Documents::page(RequestHead const& head) const {

@@ -1,10 +1,9 @@
 #include "net/http/event_stream.hpp"
 
-#include <charconv>
-
 #include "net/loop.hpp"
 #include "net/signal.hpp"
 #include "types/text/texts.hpp"
+#include "types/text/to_number.hpp"
 
 namespace rois::net {
 
@@ -13,13 +12,6 @@ namespace {
 constexpr std::size_t most_at_once = 64;    // notifications of one write
 constexpr std::size_t most_a_poll = 1'024;  // and of one answer
 constexpr std::uint64_t longest_wait = 30;  // seconds
-
-std::optional<std::uint64_t> to_number(std::string_view text) {
-    std::uint64_t number = 0;
-    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || end != text.data() + text.size() || text.empty()) return {};
-    return number;
-}
 
 Fault bad_number(std::string_view name, std::string_view value, std::string const& limit = {}) {
     return {FaultCode::not_well_formed, std::string{name} + " must be a whole number" + limit + ", not " + quoted(value), {}, {}};
@@ -46,18 +38,18 @@ std::variant<NotificationsWanted, Fault> read_wanted(RequestHead const& head) {
         wanted.as = NotificationsWanted::As::stream;
         if (head.count("Last-Event-ID") == 0) return wanted;
         auto const text = head.field("Last-Event-ID").value_or("");
-        auto const last = to_number(text);
+        auto const last = to_number<std::uint64_t>(text);
         if (!last) return bad_number("Last-Event-ID", text);
         wanted.after = *last;
         return wanted;
     }
     if (auto const after = head.parameter("after")) {
-        auto const number = to_number(*after);
+        auto const number = to_number<std::uint64_t>(*after);
         if (!number) return bad_number("after", *after);
         wanted.after = *number;
     }
     if (auto const wait = head.parameter("wait")) {
-        auto const number = to_number(*wait);
+        auto const number = to_number<std::uint64_t>(*wait);
         if (!number || *number > longest_wait) return bad_number("wait", *wait, " of seconds, 30 at most");
         wanted.wait = std::chrono::seconds{*number};
     }

@@ -65,6 +65,7 @@ void WebSocket::break_off() noexcept {
     broken_ = true;
     wire_->cut();
     reading_.reset();
+    if (room_) room_->raise();
 }
 
 // Handles the complete frames that have arrived. Returns false if the rest must wait for `pause`.
@@ -299,10 +300,7 @@ void WebSocket::keep_unsent(std::string_view rest) {
         spdlog::warn("the WebSocket of {} was cut: {}", wire_->peer(),
                      memory.refuse("no memory for the data that the client does not read"));
         shared_.telemetry.cut();
-        broken_ = true;
-        wire_->cut();
-        if (room_) room_->raise();
-        return;
+        return break_off();
     }
     out_.assign(rest);
     writing_ = true;
@@ -311,7 +309,6 @@ void WebSocket::keep_unsent(std::string_view rest) {
         if (!broken) return;
         self->writing_ = false;
         self->break_off();
-        if (self->room_) self->room_->raise();
     };
     asio::co_spawn(
         wire_->executor(), [self] { return self->drain(); }, drained);
@@ -378,7 +375,6 @@ Task<> WebSocket::drain() {
     } else {
         break_off();
     }
-    if (room_) room_->raise();
 }
 
 }  // namespace rois::net

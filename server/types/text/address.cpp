@@ -1,6 +1,6 @@
 #include "types/text/address.hpp"
 
-#include <charconv>
+#include "types/text/to_number.hpp"
 
 namespace rois {
 
@@ -12,10 +12,9 @@ std::optional<HostAndPort> read_host_and_port(std::string_view text) {
     bool const bracketed = host.size() > 2 && host.front() == '[' && host.back() == ']';
     if (bracketed) host = host.substr(1, host.size() - 2);
     if (!bracketed && host.find(':') != host.npos) return {};
-    HostAndPort read{.host = std::string{host}};
-    auto const [end, error] = std::from_chars(text.data() + colon + 1, text.data() + text.size(), read.port);
-    if (error != std::errc{} || end != text.data() + text.size()) return {};
-    return read;
+    auto const port = to_number<std::uint16_t>(text.substr(colon + 1));
+    if (!port) return {};
+    return HostAndPort{std::string{host}, *port};
 }
 
 }  // namespace rois

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "types/text/text_encoding.hpp"
+#include "types/text/to_number.hpp"
 
 namespace rois {
 
@@ -123,19 +124,10 @@ std::optional<double> to_double(std::string_view text) {
     if (text == "NaN") return std::nan("");
     text = without_plus(text);
     if (text.empty() || text.find_first_not_of("+-.0123456789eE") != std::string_view::npos) return {};
-    double number = 0;
-    auto const [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (problem != std::errc{} || end != text.data() + text.size()) return {};
-    return number;
+    return to_number<double>(text);
 }
 
-std::optional<std::int32_t> to_int(std::string_view text) {
-    text = without_plus(trimmed(text));
-    std::int32_t number = 0;
-    auto const [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (problem != std::errc{} || end != text.data() + text.size()) return {};
-    return number;
-}
+std::optional<std::int32_t> to_int(std::string_view text) { return to_number<std::int32_t>(without_plus(trimmed(text))); }
 
 std::vector<double> to_doubles(std::string_view list) {
     std::vector<double> numbers;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <string>
 #include <utility>
 #include <xercesc/framework/psvi/XSFacet.hpp>
 
 #include "types/text/texts.hpp"
+#include "types/text/to_number.hpp"
 #include "xml/validation/xerces_text.hpp"
 
 namespace rois::xml {
@@ -39,11 +39,10 @@ Understood apply_bound(ValueType& type, Definition::FACET facet, std::string_vie
 }
 
 Understood apply_length(ValueType& type, Definition::FACET facet, std::string_view text) {
-    std::size_t length = 0;
-    bool const whole = std::from_chars(text.data(), text.data() + text.size(), length).ptr == text.data() + text.size();
-    if (!whole || (type.kind != ValueType::Kind::text && type.kind != ValueType::Kind::list)) return Understood::no;
-    if (facet != Definition::FACET_MAXLENGTH) type.least = std::max(type.least, length);
-    if (facet != Definition::FACET_MINLENGTH) type.most = std::min(type.most, length);
+    auto const length = to_number<std::size_t>(text);
+    if (!length || (type.kind != ValueType::Kind::text && type.kind != ValueType::Kind::list)) return Understood::no;
+    if (facet != Definition::FACET_MAXLENGTH) type.least = std::max(type.least, *length);
+    if (facet != Definition::FACET_MINLENGTH) type.most = std::min(type.most, *length);
     return Understood::yes;
 }
 

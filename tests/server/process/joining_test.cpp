@@ -91,9 +91,9 @@ TEST(Joining, AnswersWhatIsNotAJoinWithAFault) {
     EXPECT_THROW(client.next_document(), kit::LineEnded);
 }
 
-TEST(Joining, IsNotOfferedWithoutAnEnginesFile) {
+TEST(Joining, IsNotAllowedWithoutAnEnginesFile) {
     HttpClient http;
-    EXPECT_EQ(kit::shake_hands(http, {}, "/rois/engines").status, 404);
+    EXPECT_EQ(kit::shake_hands(http, {}, "/rois/engines").status, 403);
 }
 
 TEST(Joining, HappensAgainAfterTheRobotHasRestarted) {

@@ -1,0 +1,97 @@
+#include "sdk/cpp/component_program.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <utility>
+
+#include "engine/engine.hpp"
+#include "files/files.hpp"
+#include "gateway/access/secrets.hpp"
+#include "gateway/gateway.hpp"
+#include "net/http/documents.hpp"
+#include "net/server.hpp"
+#include "remote/remote_engines.hpp"
+#include "xml/profiles/profile_document.hpp"
+#include "xml/validation/schemas.hpp"
+
+namespace rois::sdk {
+
+namespace {
+
+constexpr int could_not_start = 70, not_halted = 71;
+
+std::shared_ptr<xml::Schemas const> const& schemas() {
+    static xml::Platform const platform;  // outlives the schemas
+    static auto const all = std::make_shared<xml::Schemas const>(files::schemas());
+    return all;
+}
+
+std::vector<ComponentProfile> known_profiles() {
+    std::vector<ComponentProfile> profiles;
+    for (auto const& [name, text] : files::profiles())
+        profiles.push_back(xml::read_component_profile(schemas(), name, std::string{text}));
+    return profiles;
+}
+
+EngineProfile profile_of_program(std::string const& name, std::string const& instance) {
+    EngineProfile profile;
+    profile.object.identifier = "urn:x-rois:def:HRIEngine:program::" + name;
+    profile.object.code_space = "urn:ietf:rfc:2141";
+    profile.object.name = name;
+    profile.parameters = {{.name = "instance",
+                           .data_type_ref = {.code = "string", .authority = {}, .codebook_ref = {}, .version = {}},
+                           .default_value = instance,
+                           .description = {}}};
+    return profile;
+}
+
+// The program is a small engine with a gateway on the loopback, which joins as a robot's gateway does.
+bool serve(std::string const& url, std::string const& name, Components components) {
+    Readers readers;
+    auto const instance = fresh_secret();
+    Engine engine{profile_of_program(name, instance), known_profiles(), {}, readers, fresh_secret};
+    for (auto& component : components) engine.add(std::move(component));
+    Telemetry telemetry;
+    Gateway gateway{engine, readers, telemetry};
+    net::Documents const documents{gateway, telemetry, *schemas(), {}};
+    remote::RemoteEngines engines{
+        {.instance = instance,
+         .schemas = schemas(),
+         .change = [](ComponentChange const&) {},
+         .report = [](std::string const& whose, std::string const& what) { spdlog::info("{}: {}", whose, what); }}};
+    net::Settings settings;
+    settings.port = 0;
+    net::Server server{settings, gateway, telemetry, documents, schemas()};
+    engines.join({.url = url, .name = name, .own_url = server.url()});
+    return server.run();
+}
+
+}  // namespace
+
+ComponentDescription describe(std::string ref, std::string const& profile) {
+    ComponentDescription description;
+    auto read = xml::read_component_profile(schemas(), ref, profile);
+    description.ref = {
+        .code = std::move(ref), .authority = read.object.code_space, .codebook_ref = read.object.identifier, .version = {}};
+    description.profile = std::make_shared<ComponentProfile const>(std::move(read));
+    return description;
+}
+
+int serve(int argc, char const* const* argv, std::string name, std::function<Components()> const& make) {
+    CLI::App program{"Components of a RoIS engine"};
+    std::string url = "ws://127.0.0.1:8080";
+    program.add_option("--url", url, "the gateway to join")->capture_default_str();
+    program.add_option("--name", name, "the name by which the program joins")->capture_default_str();
+    CLI11_PARSE(program, argc, argv);
+    try {
+        return serve(url, name, make()) ? 0 : not_halted;
+    } catch (std::exception const& error) {
+        std::fprintf(stderr, "%s: %s\n", argv[0], error.what());
+        return could_not_start;
+    }
+}
+
+}  // namespace rois::sdk

@@ -1,0 +1,35 @@
+// Runs components in a program of its own, which joins an engine (docs/component-programs.md). lamp.cpp is an example.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/local_component.hpp"
+
+namespace rois::sdk {
+
+using Components = std::vector<std::unique_ptr<Component>>;
+
+// Makes the description of a component from its profile document. Call this within `make`. Throws std::runtime_error with the
+// place of a mistake.
+ComponentDescription describe(std::string ref, std::string const& profile);
+
+// Makes the components, joins the engine, and serves until SIGTERM or SIGINT. Joins again whenever the link is lost. Returns the
+// exit code for the program: 0, or 71 if a component has not confirmed that it stands still. `name`: by which the program joins;
+// its arguments --name and --url replace it and the URL of the engine.
+int serve(int argc, char const* const* argv, std::string name, std::function<Components()> const& make);
+
+// The same for components that are constructed without arguments.
+template <class... Each>
+int serve(int argc, char const* const* argv, std::string name) {
+    return serve(argc, argv, std::move(name), [] {
+        Components components;
+        (components.push_back(std::make_unique<Each>()), ...);
+        return components;
+    });
+}
+
+}  // namespace rois::sdk
