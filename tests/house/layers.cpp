@@ -72,7 +72,7 @@ std::vector<Layer> const layers{
     {"components/remote/",
      {"remote/", "engine/engine.hpp", "engine/component.hpp", "types/", "xml/codec/codec.hpp", "xml/validation/joining.hpp",
       "xml/validation/schemas.hpp", "links/", "core/loop.hpp"},
-     {boost},
+     {boost, posix},
      Time::read},
     {"components/sdk/cpp/",
      {"sdk/cpp/", "engine/", "gateway/", "net/", "xml/", "types/", "files/", "remote/remote_engines.hpp"},

@@ -63,11 +63,11 @@ TEST(EnginesFile, NamesThePlaceOfEachMistake) {
     EXPECT_EQ(complaint(R"({"engines": ["hall"]})"), "1:2: each sub engine must be an object, { ... }");
     EXPECT_EQ(complaint(R"({"engines": [{"url": "ws://a"}]})"), "1:14: a sub engine has no 'name'");
     EXPECT_EQ(complaint(R"({"engines": [{"name": "a"}]})"),
-              "1:14: sub engine 'a': expected either 'url', to connect to it, or 'joins', if it connects");
+              "1:15: sub engine 'a': expected either 'url', to connect to it, or 'joins', if it connects");
     EXPECT_EQ(complaint(R"({"engines": [{"name": "a", "url": "ws://a", "joins": "a"}]})"),
-              "1:14: sub engine 'a': expected either 'url', to connect to it, or 'joins', if it connects");
+              "1:15: sub engine 'a': expected either 'url', to connect to it, or 'joins', if it connects");
     EXPECT_EQ(complaint(R"({"engines": [{"name": "a", "joins": "x"}, {"name": "b", "joins": "x"}]})"),
-              "1:56: two sub engines join as 'x'");
+              "1:57: two sub engines join as 'x'");
     std::string const good =
         "{\"engines\": [\n{\"name\": \"a\", \"url\": \"ws://a\"},\n{\"name\": \"b\", \"url\": \"ws://b\",\n ";
     auto const with = [&](std::string const& property) { return complaint(good + property + "}]}"); };

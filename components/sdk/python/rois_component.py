@@ -1,20 +1,9 @@
-"""Components of a RoIS engine in a program of your own: this file and Python 3.9 suffice (docs/component-programs.md).
-
-    class Lamp(Component):
-        profile = "lamp.xml"
-
-        async def start(self, arguments): ...
-        async def blink(self, arguments): ...
-
-    run("ws://127.0.0.1:8080", "lamps", [Lamp("lamp")])
-
+"""Components of a RoIS engine in a program of your own: this file and Python 3.9 suffice (docs/component-programs.md; lamp.py).
 The program joins the engine as a sub engine, and joins again whenever the link is lost."""
 import argparse
 import asyncio
 import base64
 import collections
-import contextlib
-import datetime
 import hashlib
 import logging
 import os
@@ -31,7 +20,6 @@ GML = "{http://www.opengis.net/gml/3.2}"
 XSI = "{http://www.w3.org/2001/XMLSchema-instance}"
 NAMES = f'xmlns="{M[1:-1]}" xmlns:rois="{R[1:-1]}" xmlns:xsi="{XSI[1:-1]}"'
 COMMON = "urn:x-rois:def:component:OMG::RoISCommon"
-LIFE = ("start", "stop", "suspend", "resume")  # the commands of RoISCommon
 
 log = logging.getLogger("rois")
 
@@ -51,7 +39,7 @@ class Component:
     def __init__(self, ref):
         self.ref = ref
         self.status = "READY"  # or UNINITIALIZED, WARNING, ERROR
-        self._service = None
+        self._service = None  # set by Service
         self._running = {}  # the tasks of the commands that run, by id
         self._active = False
         text = self.profile
@@ -71,24 +59,20 @@ class Component:
 
     async def halt(self):
         """Called when the component must stand still: after `start` was cancelled. It must not take longer than 0.5 s."""
-        self._active = False
 
     # --- What it reports ---
 
     def event(self, event_type, results=None):
         """Reports an event of the profile."""
-        if self._service:
-            self._service.event(self, event_type, results or {})
+        self._service.event(self, event_type, results or {})
 
     def error(self, text):
         """Reports COMPONENT_INTERNAL_ERROR."""
-        if self._service:
-            self._service.error(self, text)
+        self._service.error(self, text)
 
     def changed(self):
         """Reports a new `status`."""
-        if self._service:
-            self._service.state(self)
+        self._service.state(self)
 
 
 class Profile:
@@ -100,17 +84,14 @@ class Profile:
             raise ValueError(f"expected an HRIComponentProfile, not {root.tag}")
         self.urn = root.findtext(GML + "identifier")
         self.messages = {"command": {}, "query": {}, "event": {}}
-        commons = [each for each in root.findall(R + "SubComponentProfile") if each.text.strip() == COMMON]
-        for common in commons:  # the engine expects all messages in the document
+        for common in [each for each in root.findall(R + "SubComponentProfile") if each.text.strip() == COMMON]:
             at = list(root).index(common)
             root.remove(common)
-            for name in LIFE:
+            for name in ("start", "stop", "suspend", "resume"):  # the engine expects all messages in the document
                 root.insert(at, ElementTree.Element(R + "MessageProfile", {XSI + "type": "rois:CommandMessageProfileType", R + "name": name}))
         for prefix, name in (("rois", R), ("gml", GML), ("xsi", XSI)):
             ElementTree.register_namespace(prefix, name[1:-1])
         self.text = ElementTree.tostring(root, encoding="unicode")
-        if "xmlns:rois" not in self.text:
-            raise ValueError("the profile must use the namespace of RoIS")
         for message in root.findall(R + "MessageProfile"):
             kind = message.get(XSI + "type").split(":")[-1].replace("MessageProfileType", "").lower()
             parameters = {}
@@ -154,8 +135,7 @@ class WebSocket:
     """The client's side of a WebSocket (RFC 6455)."""
 
     def __init__(self, reader, writer):
-        self.reader, self.writer = reader, writer
-        self.last_heard = time.monotonic()
+        self.reader, self.writer, self.last_heard = reader, writer, time.monotonic()
 
     @classmethod
     async def open(cls, url):
@@ -170,13 +150,10 @@ class WebSocket:
         )
         head = (await reader.readuntil(b"\r\n\r\n")).decode("latin-1")
         status, _, fields = head.partition("\r\n")
-        if " 101 " not in status + " ":
+        expected = base64.b64encode(hashlib.sha1((key + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11").encode()).digest()).decode()
+        if " 101 " not in status + " " or f"sec-websocket-accept: {expected}".lower() not in fields.lower():
             writer.close()
             raise ConnectionError(f"no WebSocket: {status}")
-        expected = base64.b64encode(hashlib.sha1((key + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11").encode()).digest()).decode()
-        if f"sec-websocket-accept: {expected}".lower() not in fields.lower():
-            writer.close()
-            raise ConnectionError("no WebSocket: wrong Sec-WebSocket-Accept")
         return cls(reader, writer)
 
     def send(self, payload, opcode=1):
@@ -208,25 +185,18 @@ class WebSocket:
                 if first & 0x80:
                     return message.decode()
 
-    def close(self):
-        self.writer.close()
-
 
 class Service:
     """Answers what the engine asks, in one session, which outlives its link by the window."""
-
-    most_unsent = 10_000  # notifications kept while the link is lost
 
     def __init__(self, name, components):
         self.name, self.instance = name, uuid.uuid4().hex
         self.components = {each.ref: each for each in components}
         self.socket = None
-        self.session, self.bound, self.subscribed = "", set(), {}
-        self.window = 3.0
-        self.lease = None
+        self.session, self.subscribed = "", {}
+        self.window, self.lease = 3.0, None
         self.sequence = 0
-        self.sent = collections.deque(maxlen=self.most_unsent)  # (sequence, document): kept for a link that returns
-        self.ids = 0
+        self.sent = collections.deque(maxlen=10_000)  # (sequence, document): kept for a link that returns
         self.performed = collections.OrderedDict()  # ids of accepted commands
         self.last_request = time.monotonic()
         for each in components:
@@ -241,10 +211,6 @@ class Service:
         if self.socket:
             self.socket.send(document.encode())
 
-    def next_id(self, letter):
-        self.ids += 1
-        return f"{letter}-{self.ids}"
-
     def event(self, component, event_type, values):
         types = component._profile.messages["event"].get(event_type)
         if types is None:
@@ -252,10 +218,10 @@ class Service:
         content = results({name: code for name, (_, code, _) in types.items()}, values)
         if event_type not in self.subscribed:
             return
-        expire = (datetime.datetime.now(datetime.timezone.utc) + datetime.timedelta(minutes=1)).strftime("%Y-%m-%dT%H:%M:%S.000Z")
+        expire = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(time.time() + 60))
         self.notify(
             "receive_event",
-            f"<event_id>{self.next_id('e')}</event_id><event_type>{escape(event_type)}</event_type>"
+            f"<event_id>{uuid.uuid4().hex}</event_id><event_type>{escape(event_type)}</event_type>"
             f"<subscribe_id>{self.subscribed[event_type]}</subscribe_id><expire>{expire}</expire>{self.ref(component)}{content}",
         )
 
@@ -263,7 +229,7 @@ class Service:
         if self.session:
             self.notify(
                 "receive_error",
-                f"<error_id>{self.next_id('x')}</error_id><error_type>COMPONENT_INTERNAL_ERROR</error_type>{self.ref(component)}<text>{escape(text)}</text>",
+                f"<error_id>{uuid.uuid4().hex}</error_id><error_type>COMPONENT_INTERNAL_ERROR</error_type>{self.ref(component)}<text>{escape(text)}</text>",
             )
 
     def state(self, component):
@@ -299,28 +265,24 @@ class Service:
         content = content if code == "OK" else f"<reason>{escape(reason)}</reason>"
         self.socket.send(f'<{name}_response {NAMES} return_code="{code}"{attributes}>{content}</{name}_response>'.encode())
 
-    def no_session(self, request):
-        request_id = request.get("request_id")
-        attribute = "" if request_id is None else f" request_id={quoteattr(request_id)}"
-        self.socket.send(f'<fault {NAMES} code="no_session"{attribute}><reason>unknown session</reason></fault>'.encode())
-
     async def on_connect(self, request):
-        if not self.session:
+        is_new = not self.session
+        if is_new:
             self.session = uuid.uuid4().hex
             self.sequence = 0
             self.sent.clear()
             self.window = int(request.get("window", 3_000)) / 1_000
             lease = request.get("motion_lease")
             self.lease = int(lease) / 1_000 if lease else None
-            self.reply("connect", request, content=f"<session>{self.session}</session>", attributes=f' window="{round(self.window * 1_000)}"')
-            for component in self.components.values():
-                self.state(component)
-            return
-        self.reply("connect", request, content=f"<session>{self.session}</session>")
+        attributes = f' window="{round(self.window * 1_000)}"'
+        self.reply("connect", request, content=f"<session>{self.session}</session>", attributes=attributes)
+        for component in self.components.values() if is_new else ():
+            self.state(component)
 
     async def on_resume(self, request):
         if request.get("session") != self.session or not self.session:
-            return self.no_session(request)
+            id = quoteattr(request.get("request_id", ""))
+            return self.socket.send(f'<fault {NAMES} code="no_session" request_id={id}><reason>unknown session</reason></fault>'.encode())
         self.reply("resume", request)
         for sequence, document in self.sent:
             if sequence > int(request.get("last_sequence")):
@@ -354,19 +316,17 @@ class Service:
         component = self.component(request.find(M + "component_ref"))
         if component is None:
             return self.reply("bind", request, "BAD_PARAMETER", reason="there is no such component")
-        self.bound.add(component.ref)
         self.reply("bind", request)
 
     async def on_release(self, request):
         component = self.component(request.find(M + "component_ref"))
         if component is not None:
-            self.bound.discard(component.ref)
             await self.halt(component)
         self.reply("release", request)
 
     async def on_subscribe(self, request):
         event_type = request.findtext(M + "event_type")
-        self.subscribed[event_type] = self.next_id("s")
+        self.subscribed[event_type] = uuid.uuid4().hex
         self.reply("subscribe", request, content=f"<subscribe_id>{self.subscribed[event_type]}</subscribe_id>")
 
     async def on_query(self, request):
@@ -440,8 +400,6 @@ class Service:
             self.completed(component, id, "OK", values or {}, command)
         except asyncio.CancelledError:
             self.completed(component, id, "ABORT", reason="it was stopped")
-        except Refused as refused:
-            self.completed(component, id, "ERROR", reason=str(refused))
         except Exception as problem:
             log.exception("%s: %s failed", component.ref, command)
             self.completed(component, id, "ERROR", reason=f"{type(problem).__name__}: {problem}")
@@ -470,7 +428,6 @@ class Service:
 
     async def end_session(self):
         self.session = ""
-        self.bound.clear()
         self.subscribed.clear()
         for component in self.components.values():
             if component._running or component._active:
@@ -503,7 +460,7 @@ async def join(service, url):
         log.info("joined %s as %s", url, service.name)
         await service.serve(socket)
     finally:
-        socket.close()
+        socket.writer.close()
 
 
 async def keep_joined(service, url):
@@ -538,7 +495,6 @@ def run(url, name, components):
         task = asyncio.ensure_future(keep_joined(service, arguments.url))
         for number in (signal.SIGTERM, signal.SIGINT):
             asyncio.get_running_loop().add_signal_handler(number, task.cancel)
-        with contextlib.suppress(asyncio.CancelledError):
-            await task
+        await asyncio.wait([task])
 
     asyncio.run(until_signal())
