@@ -4,6 +4,7 @@
 #include <pugixml.hpp>
 
 #include "types/codes.hpp"
+#include "types/text/texts.hpp"
 #include "xml/codec/decoding.hpp"
 #include "xml/codec/names.hpp"
 #include "xml/codec/tree.hpp"
@@ -63,6 +64,10 @@ JoinReader::~JoinReader() = default;
 std::variant<Join, Fault> JoinReader::read(std::string_view document) {
     if (auto fault = reader_->read(document)) return *fault;
     auto const root = reader_->message().root();
+    if (root.name() != "join") {
+        auto const name = quoted(root.name());
+        return reader_->complain(reader_->root(), "unexpected element " + name + ": the first document of an engine is 'join'");
+    }
     return Join{std::string{root.attribute("name").value_or("")}, std::string{root.attribute("instance").value_or("")}};
 }
 

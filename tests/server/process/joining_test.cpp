@@ -87,7 +87,9 @@ TEST(Joining, AgainReplacesTheOlderLink) {
 TEST(Joining, AnswersWhatIsNotAJoinWithAFault) {
     Main main;
     JoiningClient client{main};
-    EXPECT_STREQ(client.call("connect").name(), "fault");
+    auto const fault = client.call("connect");
+    EXPECT_STREQ(fault.name(), "fault");
+    EXPECT_STREQ(fault.child("reason").text().get(), "unexpected element 'connect': the first document of an engine is 'join'");
     EXPECT_THROW(client.next_document(), kit::LineEnded);
 }
 

@@ -107,8 +107,10 @@ describe('sequences', () => {
         await page.keyboard.press('ArrowLeft');
         await page.keyboard.press('Alt+ArrowDown');
         await panel(page).locator('.sequence-branch').first().locator('.sequence-box', { hasText: 'speech_synthesis' }).waitFor();
+        await page.waitForFunction(() => document.activeElement?.closest('.sequence-branch'));
         await page.keyboard.press('Alt+ArrowDown');
         await panel(page).locator('.sequence-branch').nth(1).locator('.sequence-box', { hasText: 'speech_synthesis' }).waitFor();
+        await page.waitForFunction(() => document.activeElement?.closest('.sequence-branch'));
         await page.keyboard.press('Alt+ArrowRight');
         await panel(page).locator('.sequence-branch .sequence-box').waitFor({ state: 'detached' });
         await page.waitForFunction(() => document.activeElement?.textContent?.includes('speech_synthesis'));
