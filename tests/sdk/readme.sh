@@ -20,7 +20,7 @@ play() {
     (
         cd "$work"
         export PATH=$ROIS_BINARY_DIR/bin:$PATH ROIS_URL=http://127.0.0.1:$first
-        { cat session.sh; echo 'kill $(jobs -p)'; } >ending.sh
+        echo "trap 'kill \$(jobs -p)' EXIT" | cat - session.sh >ending.sh
         timeout 60 bash ending.sh >printed 2>&1 || true
     )
     for expected in "$@"; do

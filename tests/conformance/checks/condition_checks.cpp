@@ -209,8 +209,7 @@ public:
         owner_.take(detector);
         auto const type = detector.detection();
         ok(owner_.subscribe(type, only(detector)));
-        owner_.require_success(owner_.order(command(detector, "start")), detector);
-        id_ = owner_.hear_event(type).text("event_id");
+        id_ = owner_.start_until(detector, type).text("event_id");
         auto const results = ok(owner_.get_event_detail(id_)).values();
         auto const text = value_of(results, "number");
         auto const read = std::from_chars(text.data(), text.data() + text.size(), number);

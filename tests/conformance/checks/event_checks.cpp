@@ -20,6 +20,7 @@ public:
         return ok(guest.subscribe(type(), condition.empty() ? only(detector) : condition, inline_results));
     }
     void detect() { owner.require_success(owner.order(command(detector, "start")), detector); }
+    Document first_detection() { return owner.start_until(detector, type()); }
     // Stops detection; the owner has received all detections.
     void end() {
         owner.order(command(detector, "stop"));
@@ -44,8 +45,7 @@ void every_event_can_be_subscribed(Stage& stage) {
 void an_event_is_heard_with_its_ids(Stage& stage) {
     Watch watch{stage};
     auto const id = watch.subscribe(watch.owner).text("subscribe_id");
-    watch.detect();
-    auto const event = watch.owner.hear_event(watch.type());
+    auto const event = watch.first_detection();
     same("subscribe_id", id, event.text("subscribe_id"));
     same("component_ref", watch.detector.ref, event.ref());
     require(!event.text("event_id").empty(), "an event has an id: " + event.whole());
@@ -55,12 +55,10 @@ void an_event_is_heard_with_its_ids(Stage& stage) {
 void each_event_has_an_id_of_its_own(Stage& stage) {
     Watch watch{stage};
     watch.subscribe(watch.owner);
-    watch.detect();
-    auto const first = watch.owner.hear_event(watch.type()).text("event_id");
+    auto const first = watch.first_detection().text("event_id");
     auto const details = ok(watch.owner.get_event_detail(first)).values();
     watch.end();
-    watch.detect();
-    auto const second = watch.owner.hear_event(watch.type()).text("event_id");
+    auto const second = watch.first_detection().text("event_id");
     require(first != second, "two events have the id " + first);
     require(ok(watch.owner.get_event_detail(first)).values() == details, "the details of an event changed with the next one");
 }
@@ -68,8 +66,7 @@ void each_event_has_an_id_of_its_own(Stage& stage) {
 void details_of_an_event(Stage& stage) {
     Watch watch{stage};
     watch.subscribe(watch.owner);
-    watch.detect();
-    auto const answer = ok(watch.owner.get_event_detail(watch.owner.hear_event(watch.type()).text("event_id")));
+    auto const answer = ok(watch.owner.get_event_detail(watch.first_detection().text("event_id")));
     auto const results = answer.values();
     for (auto const& due : basic_message(watch.detector.basic(), watch.type())->results)
         require(results.contains(due.name), "the details lack " + due.name + ": " + answer.whole());
@@ -82,8 +79,7 @@ void details_of_an_event(Stage& stage) {
 void details_are_chosen_by_condition(Stage& stage) {
     Watch watch{stage};
     watch.subscribe(watch.owner);
-    watch.detect();
-    auto const id = watch.owner.hear_event(watch.type()).text("event_id");
+    auto const id = watch.first_detection().text("event_id");
     auto const results = ok(watch.owner.get_event_detail(id)).values();
     auto const number = value_of(results, "number");
     require(ok(watch.owner.get_event_detail(id, where(kit::equal("number", number)))).values() == results,
@@ -96,8 +92,7 @@ void details_are_chosen_by_condition(Stage& stage) {
 void results_come_inline_when_asked_for(Stage& stage) {
     Watch watch{stage};
     watch.subscribe(watch.owner, "", true);
-    watch.detect();
-    auto const event = watch.owner.hear_event(watch.type());
+    auto const event = watch.first_detection();
     auto const inline_results = event.values();
     require(!inline_results.empty(), "the results should come with the event: " + event.whole());
     require(inline_results == ok(watch.owner.get_event_detail(event.text("event_id"))).values(),
@@ -116,8 +111,7 @@ void the_same_subscription_again_changes_nothing(Stage& stage) {
     auto const turned_around = where(kit::literal_first(watch.detector.ref, "component_ref"));
     same("the subscribe_id of the same, operands in the other order", id,
          watch.subscribe(watch.owner, turned_around, true).text("subscribe_id"));
-    watch.detect();
-    auto const event = watch.owner.hear_event(watch.type());
+    auto const event = watch.first_detection();
     require(!event.values().empty(), "the last inline_results should win: " + event.whole());
     auto const event_id = event.text("event_id");
     watch.end();
@@ -131,8 +125,7 @@ void inline_results_are_taken_back(Stage& stage) {
     watch.subscribe(watch.owner, "", true);
     ok(watch.owner.ask("subscribe", kit::text_element("event_type", watch.type()) + only(watch.detector),
                        {{"inline_results", "false"}}));
-    watch.detect();
-    auto const event = watch.owner.hear_event(watch.type());
+    auto const event = watch.first_detection();
     require(!event.root().child("results"), "the last time, results were not asked for: " + event.whole());
 }
 
@@ -143,8 +136,7 @@ void what_was_not_subscribed_is_not_heard(Stage& stage) {
     auto const [one, another] = stage.two_common();
     auto const& mine = one->ref == watch.detector.ref ? *another : *one;
     other.take(mine);
-    watch.detect();
-    watch.owner.hear_event(watch.type());
+    watch.first_detection();
     other.settle(mine);
     require(other.heard_events(watch.type()) == 0, "an event came to an application that has not subscribed");
 }
@@ -158,8 +150,7 @@ void what_does_not_run_is_silent(Stage& stage) {
     auto const& other = one->ref == watch.detector.ref ? *another : *one;
     owner.take(other);
     watch.subscribe(owner);
-    watch.detect();
-    owner.hear_event(watch.type());
+    watch.first_detection();
     auto const silent = [&](std::string const& when) {
         auto const before = owner.heard_events(watch.type());
         owner.ending(command(other, "stop", "", a_while));
@@ -169,8 +160,7 @@ void what_does_not_run_is_silent(Stage& stage) {
     silent("suspend");
     same("the status of stop", "OK", owner.ending(command(watch.detector, "stop")));
     silent("stop");
-    watch.detect();
-    owner.hear_event(watch.type());
+    watch.first_detection();
     ok(owner.release(watch.detector.ref));
     owner.settle(other);
     silent("release");
@@ -181,8 +171,7 @@ void two_applications_hear_the_same_event(Stage& stage) {
     Guest other{stage};
     watch.subscribe(watch.owner);
     watch.subscribe(other);
-    watch.detect();
-    same("the component", watch.detector.ref, watch.owner.hear_event(watch.type()).ref());
+    same("the component", watch.detector.ref, watch.first_detection().ref());
     same("the component", watch.detector.ref, other.hear_event(watch.type()).ref());
 }
 

@@ -68,8 +68,10 @@ public:
     std::vector<Person> people(Point const& from) {
         end("stop");
         catch_up();
+        auto const before = guest_.history().size();
         start();
-        auto const event = next(stage_.patience());
+        auto event = guest_.heard_since(before, localized);
+        if (!event) event = next(stage_.patience());
         end("stop");
         if (!event) throw NotObservable{"no person is localized"};
         auto found = people_in(*event);
@@ -128,8 +130,7 @@ private:
             if (detection.basic() != "persondetection" || detection.engine != localization.engine) continue;
             if (!detection.event(detection.detection()) || guest_.bind(detection.ref).return_code() != "OK") continue;
             auto const id = ok(guest_.subscribe(detection.detection(), only(detection), true)).text("subscribe_id");
-            guest_.require_success(guest_.order(command(detection, "start")), detection);
-            auto const number = value_of(guest_.hear_event(detection.detection()).values(), "number");
+            auto const number = value_of(guest_.start_until(detection, detection.detection()).values(), "number");
             guest_.ending(command(detection, "stop"));
             ok(guest_.unsubscribe(id));
             ok(guest_.release(detection.ref));

@@ -130,8 +130,7 @@ void details_expire(Stage& stage) {
     Guest guest{stage};
     guest.take(detector);
     ok(guest.subscribe(detector.detection(), only(detector), true));
-    guest.require_success(guest.order(command(detector, "start")), detector);
-    auto const event = guest.hear_event(detector.detection());
+    auto const event = guest.start_until(detector, detector.detection());
     auto const id = event.text("event_id");
     ok(guest.get_event_detail(id));
     auto const kept = seconds_in(event.text("expire")) - seconds_in(value_of(event.values(), "timestamp"));
@@ -151,8 +150,7 @@ void timestamps_go_on(Stage& stage) {
     ok(guest.subscribe(detector.detection(), only(detector), true));
     std::string last;
     for (int i = 0; i < 2; ++i) {
-        guest.require_success(guest.order(command(detector, "start")), detector);
-        auto const time = value_of(guest.hear_event(detector.detection()).values(), "timestamp");
+        auto const time = value_of(guest.start_until(detector, detector.detection()).values(), "timestamp");
         require(i == 0 || seconds_in(time) > seconds_in(last),
                 "an event has the timestamp " + time + ", and one that was measured before it has " + last);
         last = time;
