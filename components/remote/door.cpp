@@ -20,6 +20,7 @@ constexpr auto ping_interval = 1s;  // two seconds of silence end a link
 class Door::Guest final : public client::Link::Listener, public std::enable_shared_from_this<Guest> {
 public:
     explicit Guest(std::weak_ptr<Door> at) : at_{std::move(at)} {}
+    virtual ~Guest() = default;
 
     void enter(std::shared_ptr<client::Link> link) {
         link_ = std::move(link);

@@ -27,6 +27,8 @@ public:
     explicit Own(Joiner& of)
         : of_{of}, link_{client::websocket_link(of.loop_, client::read_url(of.joining_.own_url), of.settings_, *this)} {}
 
+    virtual ~Own() = default;
+
     void open() { link_->open(); }
     void send(std::string_view text) { link_->send(rois::remote::document(text)); }
     void cut() { link_->cut(); }
@@ -49,6 +51,8 @@ public:
         target.path += "/engines";
         link_ = client::websocket_link(of.loop_, target, of.settings_, *this);
     }
+
+    virtual ~There() = default;
 
     void open() { link_->open(); }
     void send(std::string_view text) { link_->send(rois::remote::document(text)); }
