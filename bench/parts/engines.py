@@ -27,10 +27,7 @@ def round(keep, settings):
             await_component(main, "hall.system_information")
             for _ in range(settings.turns):
                 ask(keep, LOCAL, own, "query-0.6kB", settings)
-                before = hall.cpu_seconds()
-                through = ask(keep, MAIN, main, "query-0.6kB-hall", settings)
-                used = 1e6 * (hall.cpu_seconds() - before) / through["requests"]
-                keep(BOTH, through | {"cpu_us": through["cpu_us"] + used})
+                with_hall(keep, BOTH, hall, "requests", lambda: ask(keep, MAIN, main, "query-0.6kB-hall", settings))
             ask(keep, ONE_LOCAL, own, "query-0.6kB", settings, connections=1)
             ask(keep, ONE_REMOTE, main, "query-0.6kB-hall", settings, connections=1)
 
@@ -39,10 +36,15 @@ def round(keep, settings):
         await_component(main, "hall.probe0")
         for _ in range(settings.turns):
             hear(keep, EVENT_LOCAL, own, "", settings)
-            before = hall.cpu_seconds()
-            through = hear(keep, EVENT_MAIN, main, "-hall", settings)
-            used = 1e6 * (hall.cpu_seconds() - before) / through["messages"]
-            keep(EVENT_BOTH, through | {"cpu_us": through["cpu_us"] + used})
+            with_hall(keep, EVENT_BOTH, hall, "messages", lambda: hear(keep, EVENT_MAIN, main, "-hall", settings))
+
+
+def with_hall(keep, row, hall, counted, measure):
+    """A row with the CPU time of the sub engine added to that of the measured main engine."""
+    before = hall.cpu_seconds()
+    measured = measure()
+    used = 1e6 * (hall.cpu_seconds() - before) / measured[counted]
+    keep(row, measured | {"cpu_us": measured["cpu_us"] + used})
 
 
 def above(hall):

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "remote/times.hpp"
+
 namespace rois::remote {
 
 namespace {
@@ -11,9 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t most_guests = 100;
-constexpr auto time_to_join = 5s;
 constexpr auto time_to_read_refusal = 1s;
-constexpr auto ping_interval = 1s;  // two seconds of silence end a link
 
 }  // namespace
 
@@ -25,7 +25,7 @@ public:
     void enter(std::shared_ptr<client::Link> link) {
         link_ = std::move(link);
         link_->open();
-        leave_after(time_to_join);
+        leave_after(time_for_attempt);
     }
 
     void leave() {

@@ -24,8 +24,9 @@ public:
     void end();
 
 private:
-    class Own;    // the link to this engine's own gateway
+    class Side;
     class There;  // the link to the other engine
+    class Own;    // the link to this engine's own gateway
 
     void attempt();
     void give_up(std::string const& reason);
@@ -36,8 +37,8 @@ private:
     std::string instance_;
     std::function<void(std::string const&)> report_;
     Settings settings_;
-    std::shared_ptr<Own> own_;      // null between attempts
-    std::shared_ptr<There> there_;  // null until the own gateway is there
+    std::shared_ptr<Side> own_;    // null between attempts
+    std::shared_ptr<Side> there_;  // null until the own gateway is there
     std::string last_note_;
     std::uint64_t era_ = 0;  // counts attempts and lost links
     unsigned failures_ = 0;  // in a row

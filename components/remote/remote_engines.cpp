@@ -9,6 +9,7 @@
 #include "remote/door.hpp"
 #include "remote/joiner.hpp"
 #include "remote/remote_engine.hpp"
+#include "remote/times.hpp"
 #include "types/text/texts.hpp"
 
 namespace rois::remote {
@@ -17,7 +18,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto ping_interval = 1s;  // two seconds of silence end a link
 constexpr auto longest_pause_of_clock = 500ms;
 
 class Pulse final : public Device {
@@ -143,6 +143,7 @@ void RemoteEngines::accept(int socket, std::string head) {
 }
 
 void RemoteEngines::join(Joining joining) {
+    client::read_url(joining.url);
     links_->post([links = links_, joining = std::move(joining)] { links->join(joining); });
 }
 

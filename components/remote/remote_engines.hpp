@@ -37,7 +37,7 @@ public:
     // Takes a WebSocket of an engine that joins. `socket` and `head` as in client::accepted_link.
     void accept(int socket, std::string head);
 
-    // Makes this engine a sub engine of another one.
+    // Makes this engine a sub engine of another one. Throws std::invalid_argument for a URL that is none.
     void join(Joining);
 
     // A device by which the engine's clock shows that it runs. Add it to the engine.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "remote/remote_engine.hpp"
+#include "remote/times.hpp"
 #include "types/text/texts.hpp"
 #include "types/text/to_number.hpp"
 
@@ -12,9 +13,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto time_for_attempt = 5s;
-constexpr auto first_pause = 100ms;
-constexpr auto longest_pause = 30s;
 constexpr auto between_signs_of_life = 250ms;
 
 // The request_id of requests that have no number.
@@ -254,9 +252,7 @@ void RemoteEngine::end() {
 }
 
 void RemoteEngine::await_next_attempt() {
-    auto const pause = std::min<std::chrono::milliseconds>(longest_pause, first_pause * (1 << std::min(failures_, 10U)));
-    ++failures_;
-    surroundings_->at(surroundings_->now() + pause, [self = shared_from_this(), era = era_] {
+    surroundings_->at(surroundings_->now() + pause_after(failures_++), [self = shared_from_this(), era = era_] {
         if (self->era_ == era) self->attempt();
     });
 }

@@ -36,7 +36,7 @@ struct Settings {
     std::vector<std::string> hosts;            // names of the gateway, in the form of host_name (gateway/access/host_names.hpp)
     std::vector<std::string> allowed_origins;  // of web pages, besides those of the gateway: "https://console.example"
 
-    // Takes the socket of an engine that joins, and what was received on it. Called on an I/O thread. Empty: none may join.
+    // Takes the socket of an engine that joins, and the bytes received on it. Called on an I/O thread. Empty: none may join.
     std::function<void(int socket, std::string head)> join;
 
     std::chrono::milliseconds request_timeout = std::chrono::seconds{30};  // for a request to arrive completely

@@ -105,7 +105,7 @@ public:
     // Returns the statuses with which this command completed.
     std::vector<std::string> endings(std::string const& command_id) const;
     std::size_t heard_events(std::string const& type) const;
-    // The first event of this type behind the first `before` notifications of the history, if one was heard.
+    // The first event of this type behind the first `before` notifications of the history, if there is one.
     std::optional<Document> heard_since(std::size_t before, std::string const& event_type) const;
     // Starts a component, and returns its first event of this type. It may come before the end of `start`, which has to wait
     // until `execute` is answered.

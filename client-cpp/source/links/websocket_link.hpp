@@ -3,6 +3,7 @@
 
 #include "links/byte_stream.hpp"
 // Asio first.
+#include <unistd.h>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
@@ -47,6 +48,7 @@ public:
     void accept(int socket, std::string head) {
         error_code error;
         beast::get_lowest_layer(stream_).assign(asio::ip::tcp::v4(), socket, error);
+        if (error) ::close(socket);
         head_ = std::move(head);
     }
 

@@ -25,7 +25,7 @@ log = logging.getLogger("rois")
 
 
 class Refused(Exception):
-    """A command cannot be performed with these arguments, or now. The application is told why."""
+    """A command cannot be performed with these arguments, or now. The application receives the reason."""
 
 
 class Component:
@@ -114,8 +114,7 @@ def read_value(code, texts):
 
 
 def texts_of(value):
-    values = value if isinstance(value, (list, tuple)) else [value]
-    return [("true" if each else "false") if isinstance(each, bool) else str(each) for each in values]
+    return [str(each).lower() if isinstance(each, bool) else str(each) for each in (value if isinstance(value, (list, tuple)) else [value])]
 
 
 def parameter(element, name, code, value):
@@ -194,7 +193,7 @@ class Service:
         self.components = {each.ref: each for each in components}
         self.socket = None
         self.session, self.subscribed = "", {}
-        self.window, self.lease = 3.0, None
+        self.window, self.lease = 3.0, 0
         self.sequence = 0
         self.sent = collections.deque(maxlen=10_000)  # (sequence, document): kept for a link that returns
         self.performed = collections.OrderedDict()  # ids of accepted commands
@@ -243,7 +242,7 @@ class Service:
 
     async def serve(self, socket):
         """Answers until the link ends."""
-        self.socket = socket
+        self.socket, self.is_attached = socket, False  # whether the session uses this link
         try:
             while True:
                 request = ElementTree.fromstring(await socket.next())
@@ -266,14 +265,14 @@ class Service:
         self.socket.send(f'<{name}_response {NAMES} return_code="{code}"{attributes}>{content}</{name}_response>'.encode())
 
     async def on_connect(self, request):
-        is_new = not self.session
+        is_new, self.is_attached = not self.is_attached, True
         if is_new:
+            await self.end_session()  # of an engine that has restarted
             self.session = uuid.uuid4().hex
             self.sequence = 0
             self.sent.clear()
             self.window = int(request.get("window", 3_000)) / 1_000
-            lease = request.get("motion_lease")
-            self.lease = int(lease) / 1_000 if lease else None
+            self.lease = int(request.get("motion_lease", 0)) / 1_000
         attributes = f' window="{round(self.window * 1_000)}"'
         self.reply("connect", request, content=f"<session>{self.session}</session>", attributes=attributes)
         for component in self.components.values() if is_new else ():
@@ -283,6 +282,7 @@ class Service:
         if request.get("session") != self.session or not self.session:
             id = quoteattr(request.get("request_id", ""))
             return self.socket.send(f'<fault {NAMES} code="no_session" request_id={id}><reason>unknown session</reason></fault>'.encode())
+        self.is_attached = True
         self.reply("resume", request)
         for sequence, document in self.sent:
             if sequence > int(request.get("last_sequence")):

@@ -1,0 +1,17 @@
+// The times of links to other engines (docs/engines.md).
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+
+namespace rois::remote {
+
+inline constexpr std::chrono::seconds ping_interval{1};     // two seconds of silence end a link
+inline constexpr std::chrono::seconds time_for_attempt{5};  // until there is a session, or the other engine has joined
+
+// The pause before the next attempt: 0.1 s, then twice as long each time, 30 s at most.
+inline std::chrono::milliseconds pause_after(unsigned failures) {
+    return std::min(std::chrono::milliseconds{30'000}, std::chrono::milliseconds{100} * (1 << std::min(failures, 10U)));
+}
+
+}  // namespace rois::remote
