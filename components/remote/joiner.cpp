@@ -46,7 +46,7 @@ private:
     void document(std::string_view text) override {
         if (of_.has_joined_) return of_.own_->send(text);
         auto const response = xml::read_join_response(text);
-        if (!response) return of_.give_up("it does not take engines: " + quoted(text, 200));
+        if (!response) return of_.give_up("unexpected answer to join: expected join_response, not " + quoted(text, 200));
         if (response->return_code != ReturnCode::ok) return of_.give_up("it refuses: " + response->reason);
         of_.has_joined_ = true;
         of_.failures_ = 0;

@@ -23,7 +23,7 @@ void collect(EngineProfile const& profile, int level, std::vector<std::string>& 
     for (auto const& sub : profile.sub_profiles) collect(sub, level + 1, instances);
 }
 
-// The instances of the sub engine and of its own ones, for the engines that this one is a sub engine of.
+// Adds the `instance` of the sub engine and of its own sub engines, so that engines above this one can find loops.
 void add_engines(EngineProfile const& profile, Translation const& translation,
                  std::map<std::string, std::vector<ParameterProfile>>& engines) {
     auto& parameters = engines[translation.engine_here(profile.object.name)];
@@ -32,8 +32,8 @@ void add_engines(EngineProfile const& profile, Translation const& translation,
     for (auto const& sub : profile.sub_profiles) add_engines(sub, translation, engines);
 }
 
-// Throws std::runtime_error if this engine cannot have such a component. A ref with a dot begins with the name of its engine, or
-// of one that this is a sub engine of: "robot.navigation" may be of the engine "robot.arm".
+// Throws std::runtime_error if this engine cannot have such a component. A ref with a dot must begin with the name of the
+// component's engine, or of an engine that contains it: "robot.navigation" may belong to the engine "robot.arm".
 void check(ComponentEntry const& entry, std::string const& name) {
     auto const& ref = entry.ref;
     auto const dot = ref.rfind('.');
@@ -50,6 +50,12 @@ void check(ComponentEntry const& entry, std::string const& name) {
         refuse("has a name of " + std::to_string(ref.size()) + " characters: expected at most " +
                std::to_string(longest_identifier - name.size() - 1));
     if (!entry.profile || !entry.traits) refuse("lacks its profile or its traits (decision 41)");
+}
+
+// This engine names the place of the command in its own sequence.
+std::string without_place(std::string reason) {
+    constexpr std::string_view place = "command_unit_list[1]: ";
+    return reason.starts_with(place) ? reason.substr(place.size()) : reason;
 }
 
 CompletedStatus status_of_refusal(ReturnCode code) {
@@ -75,7 +81,10 @@ Outcome outcome_of(Reply const& reply) {
 }  // namespace
 
 RemoteEngine::RemoteEngine(SubEngine settings, std::shared_ptr<Surroundings> surroundings)
-    : settings_{std::move(settings)}, surroundings_{std::move(surroundings)} {}
+    : settings_{std::move(settings)}, surroundings_{std::move(surroundings)} {
+    state_.name = settings_.name;
+    state_.link = settings_.url.empty() ? "joins as " + settings_.joins : settings_.url;
+}
 
 // --- Its profile ---
 
@@ -94,7 +103,7 @@ void RemoteEngine::ask_profile() {
 void RemoteEngine::take_profile(GetProfile::Reply const& reply) {
     try {
         if (reply.return_code != ReturnCode::ok || !reply.profile)
-            throw std::runtime_error("it does not tell its profile: " + reply.reason);
+            throw std::runtime_error("get_profile failed: " + reply.reason);
         std::vector<std::string> instances;
         collect(*reply.profile, 2, instances);
         if (auto const why = surroundings_->why_loop(settings_.name, instances)) throw std::runtime_error(*why);
@@ -108,6 +117,8 @@ void RemoteEngine::take_profile(GetProfile::Reply const& reply) {
     lost_at_.reset();
     failures_ = 0;
     last_error_.clear();
+    is_present_ = true;
+    show();
     subscribe();
     restore();
 }
@@ -163,7 +174,9 @@ void RemoteEngine::enter(GetProfile::Reply const& reply) {
     }
     for (auto const& [ref, part] : before)
         if (part_of(ref) != part && part->is_held) ask(Release{{.code = ref}}, [](Reply const*) {});
-    if (changes) surroundings_->report(settings_.name, "present with " + std::to_string(parts_.size()) + " components");
+    if (changes)
+        surroundings_->report(settings_.name, "present with " + std::to_string(parts_.size()) +
+                                                  (parts_.size() == 1 ? " component" : " components"));
 }
 
 ComponentDescription RemoteEngine::description_of(ComponentEntry const& entry, Part const& part,
@@ -298,7 +311,7 @@ void RemoteEngine::prepare(std::shared_ptr<Part> const& part, Ticket ticket, std
     ask(std::move(check), [self = shared_from_this(), part, ticket, command_type, parameters](Reply const* reply) {
         if (reply == nullptr) return part->answer(ticket, Failed{"its engine is lost"});
         auto const outcome = outcome_of(*reply);
-        if (outcome.return_code == ReturnCode::bad_parameter) return part->answer(ticket, Refused{outcome.reason});
+        if (outcome.return_code == ReturnCode::bad_parameter) return part->answer(ticket, Refused{without_place(outcome.reason)});
         if (outcome.return_code != ReturnCode::ok) return part->answer(ticket, Failed{outcome.reason});
         part->answer(ticket, [self, part, command_type, parameters](CommandHandle command, Instant) {
             self->run([=](RemoteEngine& engine) { engine.begin(part, command, command_type, parameters); });
@@ -340,7 +353,7 @@ void RemoteEngine::halt(std::shared_ptr<Part> const& part, Ticket ticket) {
     if (!part->is_held || session_.text.empty() || is_given_up_) return part->report(HaltConfirmed{ticket});
     part->halts.push_back(ticket);
     if (part->halts.size() > 1) return;
-    command(part, "stop", [part](CompletedStatus status) {
+    command(part, "stop", [part](CompletedStatus status, std::string const&) {
         auto const tickets = std::exchange(part->halts, {});
         if (status == CompletedStatus::ok && !tickets.empty()) part->report(HaltConfirmed{tickets.back()});
     });
@@ -351,23 +364,24 @@ void RemoteEngine::pause(std::shared_ptr<Part> const& part, Ticket ticket, std::
         part->after_begins.emplace_back([=, self = shared_from_this()] { self->pause(part, ticket, command_type); });
         return;
     }
-    command(part, command_type, [part, ticket, command_type](CompletedStatus status) {
+    command(part, command_type, [part, ticket, command_type](CompletedStatus status, std::string const& reason) {
         if (status == CompletedStatus::ok)
             part->answer(ticket, Done{});
         else
-            part->answer(ticket, Failed{"its engine could not " + command_type + " it"});
+            part->answer(ticket, Failed{command_type + ": " + std::string{to_text(status)} + ": " + reason});
     });
 }
 
 // Runs a command without arguments. Calls `then` once, with the end.
 void RemoteEngine::command(std::shared_ptr<Part> const& part, std::string const& command_type,
-                           std::function<void(CompletedStatus)> const& then) {
+                           std::function<void(CompletedStatus, std::string const& reason)> const& then) {
     auto const id = "c" + std::to_string(++last_command_);
-    commands_[id] = [then](Completed const& completed) { then(completed.status); };
+    commands_[id] = [then](Completed const& completed) { then(completed.status, completed.reason); };
     ask(Execute{{{unit_of(part->entry.ref, command_type, id, {})}}},
         [self = shared_from_this(), then, id](Reply const* reply) {
             if (reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok) return;
-            if (self->commands_.erase(id) > 0) then(CompletedStatus::error);
+            if (self->commands_.erase(id) > 0)
+                then(CompletedStatus::error, reply == nullptr ? "its engine is lost" : without_place(outcome_of(*reply).reason));
         },
         {id});
 }

@@ -17,6 +17,7 @@
 #include "remote/part.hpp"
 #include "remote/sub_engine.hpp"
 #include "remote/translation.hpp"
+#include "types/engine_state.hpp"
 #include "types/messages.hpp"
 #include "xml/codec/codec.hpp"
 
@@ -36,13 +37,15 @@ public:
     virtual std::shared_ptr<client::Link> link(SubEngine const&, client::Link::Listener&) = 0;
     // Changes this engine's components. Throws std::exception with the reason if it refuses.
     virtual void change(ComponentChange) = 0;
-    // Returns why the engines with these instances must not be connected to this one, or nothing: one of them is this engine, or
-    // another sub engine has it. Otherwise they belong to this sub engine, instead of those before.
+    // Returns the reason if one of these instances is this engine, or belongs to another sub engine. Otherwise assigns them to
+    // this sub engine, instead of its earlier ones, and returns nothing.
     virtual std::optional<std::string> why_loop(std::string const& sub_engine, std::vector<std::string> const& instances) = 0;
     // Returns whether this engine's clock runs. If not, the sub engine receives no signs of life, and its robot stops.
     virtual bool is_alive() const = 0;
     // A line of the log about the sub engine.
     virtual void report(std::string const& sub_engine, std::string const& what) = 0;
+    // What is known of the sub engine, whenever that has changed.
+    virtual void show(EngineState const&) = 0;
 };
 
 // Used on the thread of the links, except `run`.
@@ -59,6 +62,9 @@ public:
     // A sub engine that joins is there, on an open link, which replaces an older one.
     void joined(std::shared_ptr<client::Link>);
     bool has_link() const { return link_ != nullptr; }
+
+    // Reports something that went wrong, once for several times in a row.
+    void note(std::string const& what);
 
     // From any thread: calls the function on the thread of the links.
     void run(std::function<void(RemoteEngine&)>);
@@ -102,13 +108,14 @@ private:
     void leave(std::string const& reason);
     void await_next_attempt();
     void give_signs_of_life(std::uint64_t session);
-    void note(std::string const& what);
+    void show();
     void ask(Operation, Then, CommandId once = {});
 
     // --- remote_engine.cpp: its profile and components ---
     using Parts = std::map<std::string, std::shared_ptr<Part>, std::less<>>;  // by their refs there
     void report_state(Part&, ComponentChanged const&) const;
-    void command(std::shared_ptr<Part> const&, std::string const& command_type, std::function<void(CompletedStatus)> const& then);
+    void command(std::shared_ptr<Part> const&, std::string const& command_type,
+                 std::function<void(CompletedStatus, std::string const& reason)> const& then);
     void ask_profile();
     void take_profile(GetProfile::Reply const&);
     void enter(GetProfile::Reply const&);
@@ -142,12 +149,16 @@ private:
     std::map<std::uint64_t, Open> open_;
     std::uint64_t last_request_ = 0;
     std::uint64_t last_command_ = 0;
-    std::uint64_t era_ = 0;          // counts attempts and lost links: alarms of an earlier one are void
-    unsigned failures_ = 0;          // in a row
-    bool is_given_up_ = false;       // the session, which may still exist there
-    std::optional<Steady> lost_at_;  // when the session lost its link; until its components are there again
-    bool profile_asked_ = false;     // and not answered yet
-    bool profile_changed_ = false;   // since then
+    std::uint64_t era_ = 0;                 // counts attempts and lost links: alarms of an earlier one are void
+    unsigned failures_ = 0;                 // in a row
+    bool is_present_ = false;               // its profile was read, and its components have not left
+    bool is_given_up_ = false;              // the session, which may still exist there
+    std::optional<Steady> lost_at_;         // when the session lost its link; until its components are there again
+    bool profile_asked_ = false;            // and not answered yet
+    bool profile_changed_ = false;          // since then
+    Steady last_sign_{};                    // of life
+    std::optional<Steady> asked_for_sign_;  // the first sign of life that is not answered yet
+    EngineState state_;                     // as it was shown last
     bool is_over_ = false;
 };
 

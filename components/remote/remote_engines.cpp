@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -31,7 +32,7 @@ private:
 
 }  // namespace
 
-// All members are used on the thread of the links, except `post`, and `pulse_` itself.
+// All members are used on the thread of the links, except `post`, `states`, and `pulse_` itself.
 class RemoteEngines::Links final : public Surroundings, public std::enable_shared_from_this<Links> {
 public:
     explicit Links(Host host) : host_{std::move(host)} {}
@@ -56,7 +57,7 @@ public:
             if (stays(*engine))
                 engines_.emplace(name, engine);
             else
-                engine->end();
+                end(*engine);
         }
         for (auto const& each : wanted) {
             auto& engine = engines_[each.name];
@@ -67,6 +68,19 @@ public:
     }
 
     void accept(int socket, std::string head) { door_->open(socket, std::move(head)); }
+
+    void trouble(std::string const& name, std::string const& what) {
+        auto const found = engines_.find(name);
+        if (found != engines_.end()) found->second->note(what);
+    }
+
+    // Any thread.
+    std::vector<EngineState> states() const {
+        std::lock_guard const lock{states_mutex_};
+        std::vector<EngineState> all;
+        for (auto const& [name, state] : states_) all.push_back(state);
+        return all;
+    }
 
     void join(Joining joining) {
         auto const name = "engine " + joining.url;
@@ -94,6 +108,10 @@ private:
     void report(std::string const& sub_engine, std::string const& what) override {
         host_.report("sub engine " + sub_engine, what);
     }
+    void show(EngineState const& state) override {
+        std::lock_guard const lock{states_mutex_};
+        states_[state.name] = state;
+    }
     bool is_alive() const override { return pulse_->beats(now()); }
 
     std::optional<std::string> why_loop(std::string const& sub_engine, std::vector<std::string> const& instances) override {
@@ -111,15 +129,24 @@ private:
     std::variant<std::shared_ptr<RemoteEngine>, std::string> joining(xml::Join const& join) {
         auto const found =
             std::ranges::find_if(engines_, [&](auto const& each) { return each.second->settings().joins == join.name; });
-        if (join.name.empty() || found == engines_.end()) return "no engine may join as " + quoted(join.name);
+        if (join.name.empty() || found == engines_.end())
+            return "unknown name " + quoted(join.name) + ": expected the \"joins\" of an entry in the engines file";
         auto& joined = joined_[join.name];
         if (found->second->has_link() && joined != join.instance) return "another engine has joined as " + quoted(join.name);
         joined = join.instance;
         return found->second;
     }
 
+    void end(RemoteEngine& engine) {
+        engine.end();
+        std::lock_guard const lock{states_mutex_};
+        states_.erase(engine.settings().name);
+    }
+
     Host const host_;
     client::Loop loop_;
+    mutable std::mutex states_mutex_;
+    std::map<std::string, EngineState> states_;  // guarded by states_mutex_
     std::shared_ptr<Pulse> const pulse_ = std::make_shared<Pulse>();
     std::map<std::string, std::shared_ptr<RemoteEngine>> engines_;
     std::map<std::string, Settings> settings_;  // of the links, which refer to them
@@ -130,11 +157,23 @@ private:
     std::shared_ptr<Joiner> joiner_;  // null: this engine joins none
 };
 
-RemoteEngines::RemoteEngines(Host host) : links_{std::make_shared<Links>(std::move(host))} { links_->start(); }
+RemoteEngines::RemoteEngines(Host host)
+    : links_{std::make_shared<Links>(host)},
+      programs_{
+          {.says = [report = host.report](std::string const& name, std::string const& line) { report("program " + name, line); },
+           .happens = [links = links_](
+                          std::string const& name,
+                          std::string const& what) { links->post([links, name, what] { links->trouble(name, what); }); }}} {
+    links_->start();
+}
 
 RemoteEngines::~RemoteEngines() { links_->stop(); }
 
-void RemoteEngines::set(std::vector<SubEngine> wanted) {
+void RemoteEngines::set(std::vector<SubEngine> wanted, std::string const& own_url) {
+    std::vector<Programs::Wanted> programs;
+    for (auto const& each : wanted)
+        if (!each.command.empty()) programs.push_back({each.name, each.command, each.folder, own_url, each.joins});
+    programs_.set(std::move(programs));
     links_->post([links = links_, wanted = std::move(wanted)] { links->set(wanted); });
 }
 
@@ -146,6 +185,8 @@ void RemoteEngines::join(Joining joining) {
     client::read_url(joining.url);
     links_->post([links = links_, joining = std::move(joining)] { links->join(joining); });
 }
+
+std::vector<EngineState> RemoteEngines::states() const { return links_->states(); }
 
 std::shared_ptr<Device> RemoteEngines::pulse() const { return links_->pulse(); }
 

@@ -8,7 +8,9 @@
 
 #include "engine/component.hpp"
 #include "engine/engine.hpp"
+#include "remote/programs.hpp"
 #include "remote/sub_engine.hpp"
+#include "types/engine_state.hpp"
 #include "xml/validation/schemas.hpp"
 
 namespace rois::remote {
@@ -16,8 +18,8 @@ namespace rois::remote {
 // Thread-safe.
 class RemoteEngines {
 public:
-    // Both functions are called on the thread of the links. `change` changes this engine's components, and may throw. `report`
-    // receives lines for the log about another engine.
+    // `change` changes this engine's components, and may throw. It is called on the thread of the links. `report` receives lines
+    // for the log about another engine or a program, on that thread and the one of the programs.
     struct Host {
         std::string instance;  // of this engine
         std::shared_ptr<xml::Schemas const> schemas;
@@ -26,18 +28,22 @@ public:
     };
 
     explicit RemoteEngines(Host);
-    // Ends all sessions there.
+    // Ends all sessions there, and all programs.
     ~RemoteEngines();
     RemoteEngines(RemoteEngines const&) = delete;
     RemoteEngines& operator=(RemoteEngines const&) = delete;
 
-    // Sets the sub engines. A sub engine with the same settings as before stays connected.
-    void set(std::vector<SubEngine>);
+    // Sets the sub engines. A sub engine with the same settings as before stays connected. `own_url`: of this engine's gateway,
+    // for its programs.
+    void set(std::vector<SubEngine>, std::string const& own_url);
+
+    // What is known of each sub engine, by their names.
+    std::vector<EngineState> states() const;
 
     // Takes a WebSocket of an engine that joins. `socket` and `head` as in client::accepted_link.
     void accept(int socket, std::string head);
 
-    // Makes this engine a sub engine of another one. Throws std::invalid_argument for a URL that is none.
+    // Makes this engine a sub engine of another one. Throws std::invalid_argument if the URL is invalid.
     void join(Joining);
 
     // A device by which the engine's clock shows that it runs. Add it to the engine.
@@ -46,6 +52,7 @@ public:
 private:
     class Links;
     std::shared_ptr<Links> links_;
+    Programs programs_;
 };
 
 }  // namespace rois::remote

@@ -14,6 +14,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto between_signs_of_life = 250ms;
+constexpr auto between_signs_at_rest = 1s;  // while no component there is bound: only the round trip is measured
 
 // The request_id of requests that have no number.
 constexpr std::string_view opening = "connect";
@@ -27,7 +28,10 @@ bool is_ok(Reply const& reply) {
 
 }  // namespace
 
-void RemoteEngine::begin() { attempt(); }
+void RemoteEngine::begin() {
+    show();
+    attempt();
+}
 
 void RemoteEngine::run(std::function<void(RemoteEngine&)> what) {
     surroundings_->post([self = shared_from_this(), what = std::move(what)] { what(*self); });
@@ -37,6 +41,20 @@ void RemoteEngine::run(std::function<void(RemoteEngine&)> what) {
 void RemoteEngine::note(std::string const& what) {
     if (std::exchange(last_error_, what) == what) return;
     surroundings_->report(settings_.name, what);
+    state_.last_error = what;
+    show();
+}
+
+void RemoteEngine::show() {
+    using enum EngineState::Is;
+    if (!is_present_)
+        state_.is = absent;
+    else if (is_given_up_)
+        state_.is = given_up;
+    else
+        state_.is = lost_at_ ? lost : present;
+    state_.components = parts_.size();
+    surroundings_->show(state_);
 }
 
 void RemoteEngine::attempt() {
@@ -80,7 +98,7 @@ void RemoteEngine::connected() {
 void RemoteEngine::document(std::string_view text) {
     auto const self = shared_from_this();
     auto const read = reader_.read(text);
-    if (!read) return give_up_link("it sent a document that is none of an engine's");
+    if (!read) return give_up_link("invalid document: expected an answer or a notification, not " + quoted(text, 100));
     std::visit([this](auto const& message) { take(message); }, *read);
 }
 
@@ -99,6 +117,10 @@ void RemoteEngine::take(Fault const& fault) {
 // Ignores answers that were not asked for.
 void RemoteEngine::take(xml::Answered const& answered) {
     auto const& [reply, id] = answered;
+    if (id == sign_of_life && asked_for_sign_) {
+        state_.round_trip = surroundings_->now() - *std::exchange(asked_for_sign_, std::nullopt);
+        return show();
+    }
     if (!is_open_) {
         auto const* connect = std::get_if<Connect::Reply>(&reply);
         auto const* resume = std::get_if<Resume::Reply>(&reply);
@@ -149,7 +171,7 @@ void RemoteEngine::session_ended() {
     give_up_link("its session has ended");
 }
 
-// A session that was given up, but has not ended there, is ended now: nothing that was given up goes on.
+// If this engine has given up the session, ends it there too, so that none of its commands goes on.
 void RemoteEngine::resumed(ReturnCode code) {
     if (code != ReturnCode::ok) return session_ended();
     is_open_ = true;
@@ -157,6 +179,7 @@ void RemoteEngine::resumed(ReturnCode code) {
     lost_at_.reset();
     failures_ = 0;
     surroundings_->report(settings_.name, "the link is back, and nothing was lost");
+    show();
     give_signs_of_life(era_);
     send_again();
 }
@@ -185,9 +208,13 @@ void RemoteEngine::ask(Operation operation, Then then, CommandId once) {
 void RemoteEngine::give_signs_of_life(std::uint64_t era) {
     if (era != era_ || !is_open_) return;
     bool const is_bound = std::ranges::any_of(parts_, [](auto const& each) { return each.second->is_held; });
-    if (is_bound && surroundings_->is_alive()) link_->send(client::document_of({Connect{}, std::string{sign_of_life}}));
-    surroundings_->at(surroundings_->now() + between_signs_of_life,
-                      [self = shared_from_this(), era] { self->give_signs_of_life(era); });
+    auto const now = surroundings_->now();
+    if (surroundings_->is_alive() && (is_bound || now >= last_sign_ + between_signs_at_rest)) {
+        link_->send(client::document_of({Connect{}, std::string{sign_of_life}}));
+        last_sign_ = now;
+        if (!asked_for_sign_) asked_for_sign_ = now;
+    }
+    surroundings_->at(now + between_signs_of_life, [self = shared_from_this(), era] { self->give_signs_of_life(era); });
 }
 
 void RemoteEngine::failed(std::string const& reason, client::Failure) { give_up_link(reason); }
@@ -197,19 +224,26 @@ void RemoteEngine::give_up_link(std::string const& reason) {
     ++era_;
     if (auto const link = std::exchange(link_, nullptr)) link->cut();
     is_open_ = false;
+    asked_for_sign_.reset();
+    state_.round_trip.reset();
     if (is_over_) return;
     note(reason);
     if (!session_.text.empty() && !is_given_up_ && !lost_at_) {
         lost_at_ = surroundings_->now();
+        ++state_.losses;
         auto const when_still_lost = [&](std::chrono::milliseconds time, void (RemoteEngine::*then)(std::string const&),
                                          std::string what) {
             surroundings_->at(*lost_at_ + time, [self = shared_from_this(), at = lost_at_, then, what = std::move(what)] {
                 if (self->lost_at_ == at) ((*self).*then)(what);
             });
         };
-        when_still_lost(settings_.window, &RemoteEngine::give_up, "given up: its link did not return within the window");
-        when_still_lost(settings_.resume_window, &RemoteEngine::leave, "it did not return");
+        when_still_lost(settings_.window, &RemoteEngine::give_up,
+                        "session given up: no link for " + std::to_string(settings_.window.count()) + " ms (window)");
+        when_still_lost(
+            settings_.resume_window, &RemoteEngine::leave,
+            "its components leave: no link for " + std::to_string(settings_.resume_window.count()) + " ms (resume_window)");
     }
+    show();
     await_next_attempt();
 }
 
@@ -218,6 +252,7 @@ void RemoteEngine::give_up(std::string const& reason) {
     if (session_.text.empty() || std::exchange(is_given_up_, true)) return;
     note(reason);
     auto const why = "the engine " + quoted(settings_.name) + " is lost: " + reason;
+    show();
     for (auto& [number, open] : std::exchange(open_, {})) open.then(nullptr);
     Completed const aborted{.command_id = {}, .status = CompletedStatus::abort, .results = {}, .reason = why};
     for (auto& [id, end] : std::exchange(commands_, {})) end(aborted);
@@ -238,7 +273,9 @@ void RemoteEngine::leave(std::string const& reason) {
     try {
         if (!parts_.empty()) surroundings_->change(std::move(change));
         parts_.clear();
+        is_present_ = false;
         surroundings_->why_loop(settings_.name, {});
+        show();
     } catch (std::exception const& problem) {
         note(problem.what());
     }

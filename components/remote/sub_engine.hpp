@@ -23,6 +23,8 @@ struct SubEngine {
     std::string name;                     // in front of the names of its components, engines and frames
     std::string url;                      // its gateway; empty: it joins
     std::string joins;                    // the name by which it joins
+    std::vector<std::string> command;     // the program that joins, with its arguments; empty: it is not started here
+    std::string folder;                   // in which the program runs
     std::vector<std::string> components;  // the refs there of the components that are taken; empty: all
     // Without a placement, its positions are passed on unchanged: its frame has the same name here.
     std::optional<Placement> placement{};

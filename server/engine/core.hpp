@@ -60,8 +60,8 @@ public:
     std::vector<std::string> not_halted() const;
     std::vector<std::string> not_ready() const;
     void shut_down(Instant now);
-    std::shared_ptr<NotificationQueue> heard_from(SessionId const&, Instant now);
-    void heard_pong(SessionId const&, Instant now);
+    std::shared_ptr<NotificationQueue> note_request(SessionId const&, Instant now);
+    void note_pong(SessionId const&, Instant now);
     void link_opened(SessionId const&, LinkKind, Instant now);
     void link_closed(SessionId const&, LinkKind, Closing, Instant now);
 
@@ -157,8 +157,10 @@ private:
     ToBind select_to_bind(Selection const&, Session const& asker) const;
     // Removes the results that do not match (decision 19). Returns why the condition is invalid, or nullopt.
     std::optional<std::string> choose(Results&, QueryExpression const&, Declarations const& known, std::string_view id) const;
-    // Sets the results that get_event_detail or get_error_detail returns. Returns why there are none, or nullopt. `kind` is
-    // "event" or "error".
+    // The reply to get_event_detail or get_error_detail. `kind` is "event" or "error".
+    template <class R>
+    R reply_with(Details::Answer const&, std::string_view kind, std::string const& id, QueryExpression const&) const;
+    // Sets the results of this reply. Returns why there are none, or nullopt.
     std::optional<std::string> choose_details(Results&, Details::Answer const&, std::string_view kind, std::string const& id,
                                               QueryExpression const&) const;
 
@@ -257,6 +259,14 @@ R refused(ReturnCode code, std::string reason) {
     reply.return_code = code;
     reply.reason = std::move(reason);
     return reply;
+}
+
+template <class R>
+R Engine::Core::reply_with(Details::Answer const& details, std::string_view kind, std::string const& id,
+                           QueryExpression const& condition) const {
+    R reply;
+    auto problem = choose_details(reply.results, details, kind, id, condition);
+    return problem ? refused<R>(ReturnCode::bad_parameter, *std::move(problem)) : reply;
 }
 
 }  // namespace rois

@@ -284,7 +284,7 @@ void Engine::Core::save_memory(Instant now) {
     settle(now);
 }
 
-std::shared_ptr<NotificationQueue> Engine::Core::heard_from(SessionId const& id, Instant now) {
+std::shared_ptr<NotificationQueue> Engine::Core::note_request(SessionId const& id, Instant now) {
     auto* session = find(id);
     if (session == nullptr) return {};
     session->last_activity = now.steady;
@@ -292,7 +292,7 @@ std::shared_ptr<NotificationQueue> Engine::Core::heard_from(SessionId const& id,
     return session->notifications;
 }
 
-void Engine::Core::heard_pong(SessionId const& id, Instant now) {
+void Engine::Core::note_pong(SessionId const& id, Instant now) {
     if (auto* session = find(id)) session->lease.pong_received(now.steady);
 }
 
@@ -415,8 +415,8 @@ std::shared_ptr<NotificationQueue> Engine::notifications(SessionId const& id) co
     return session == nullptr ? nullptr : session->notifications;
 }
 
-std::shared_ptr<NotificationQueue> Engine::heard_from(SessionId const& id, Instant now) { return core_->heard_from(id, now); }
-void Engine::heard_pong(SessionId const& id, Instant now) { core_->heard_pong(id, now); }
+std::shared_ptr<NotificationQueue> Engine::note_request(SessionId const& id, Instant now) { return core_->note_request(id, now); }
+void Engine::note_pong(SessionId const& id, Instant now) { core_->note_pong(id, now); }
 void Engine::link_opened(SessionId const& id, LinkKind link, Instant now) { core_->link_opened(id, link, now); }
 void Engine::link_closed(SessionId const& id, LinkKind link, Closing closing, Instant now) {
     core_->link_closed(id, link, closing, now);

@@ -172,9 +172,9 @@ public:
     std::shared_ptr<NotificationQueue> notifications(SessionId const&) const;
 
     // Signs of life, reported by the network layer: a request or pong was received, a WebSocket or notification stream has opened
-    // or closed. Operations renew the motion lease without such a report. `heard_from` returns the session's queue, or null.
-    std::shared_ptr<NotificationQueue> heard_from(SessionId const&, Instant now);
-    void heard_pong(SessionId const&, Instant now);
+    // or closed. Operations renew the motion lease without such a report. `note_request` returns the session's queue, or null.
+    std::shared_ptr<NotificationQueue> note_request(SessionId const&, Instant now);
+    void note_pong(SessionId const&, Instant now);
     void link_opened(SessionId const&, LinkKind, Instant now);
     void link_closed(SessionId const&, LinkKind, Closing, Instant now);
 

@@ -17,7 +17,7 @@ void Engine::Core::serve_engines(Instant now) {
     for (auto* session : std::vector{engines_}) {
         if (session->ending) continue;
         session->notifications->want_signs_of_life(now.steady + signs_of_life_wanted);
-        bool const silent = session->lease.last_heard() + silence + session->window <= now.steady;
+        bool const silent = session->lease.last_received() + silence + session->window <= now.steady;
         attempts([&] {
             if (silent)
                 end(*session, "its engine was silent for too long", now);

@@ -49,11 +49,8 @@ Reply Engine::Core::perform(Session& session, Unsubscribe const& unsubscribe, In
 }
 
 Reply Engine::Core::perform(Session& session, GetEventDetail const& get, Instant now) {
-    GetEventDetail::Reply reply;
-    if (auto problem = choose_details(reply.results, events_.find(get.event_id.text, session.events, now), "event",
-                                      get.event_id.text, get.condition))
-        return refused<GetEventDetail::Reply>(ReturnCode::bad_parameter, *std::move(problem));
-    return reply;
+    auto const& id = get.event_id.text;
+    return reply_with<GetEventDetail::Reply>(events_.find(id, session.events, now), "event", id, get.condition);
 }
 
 namespace {

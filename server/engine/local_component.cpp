@@ -40,7 +40,7 @@ void LocalComponent::query(Ticket ticket, std::string_view query_type, Instant n
     port_->answered(ticket, query(query_type, now));
 }
 
-// The state first: what the reports cause finds it.
+// Reports the state first: what the other reports cause may read it.
 void LocalComponent::after_call() {
     ComponentState state{status(), location(), readable_parameters()};
     if (reported_ != state) {

@@ -146,8 +146,8 @@ std::vector<Results> Engine::Core::known_answer(Session const& session, Register
     return one_row(std::move(row));
 }
 
-// Without sorting, the first READY component that matches whatever it answers will be chosen, or one before it. The next match
-// has its turn only if that one does not answer, so those behind it are not considered.
+// Without sorting, the first READY component that matches without its results is the last one that is considered: later ones
+// would be asked only if all earlier ones failed.
 Engine::Core::Later Engine::Core::Inquiry::of_one_component(Session& session, std::vector<RegisteredComponent*> const& able,
                                                             Instant now) {
     Perspective looked_at{core_.registry_, core_.places_, &session, Perspective::Of::present};

@@ -144,11 +144,8 @@ Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
 }
 
 Reply Engine::Core::perform(Session& session, GetErrorDetail const& get, Instant now) {
-    GetErrorDetail::Reply reply;
-    if (auto problem = choose_details(reply.results, errors_.find(get.error_id.text, session.errors, now), "error",
-                                      get.error_id.text, get.condition))
-        return refused<GetErrorDetail::Reply>(ReturnCode::bad_parameter, *std::move(problem));
-    return reply;
+    auto const& id = get.error_id.text;
+    return reply_with<GetErrorDetail::Reply>(errors_.find(id, session.errors, now), "error", id, get.condition);
 }
 
 // Decision 24: the engine's errors go to all sessions; a component's errors to the sessions that use it.

@@ -54,9 +54,9 @@ Reading::~Reading() {
     gateway_.engine_.link_closed(session(), link_, closing_, present());
 }
 
-void Reading::heard_pong() {
+void Reading::note_pong() {
     std::lock_guard const lock{gateway_.mutex_};
-    gateway_.engine_.heard_pong(session(), present());
+    gateway_.engine_.note_pong(session(), present());
 }
 
 Reading::Then Reading::take(std::size_t most, std::vector<Numbered>& into) {
@@ -252,7 +252,7 @@ PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via 
     Hold hold;  // ends without the lock
     std::unique_lock lock{mutex_};
     auto queue = reading != nullptr ? reading->queue_
-                 : via == Via::http ? engine_.heard_from(session, now)
+                 : via == Via::http ? engine_.note_request(session, now)
                                     : engine_.notifications(session);
     bool const known = queue != nullptr;
     bool const connects = std::holds_alternative<Connect>(request.operation);
@@ -272,7 +272,7 @@ PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via 
     if (opens && number != 0) quota_.opened(number, opener);
     // The `connect` of a session counts as a sign of life (decision 2).
     if (auto const* reply = exchange->reply(); reply && via == Via::http && !known && connects)
-        engine_.heard_from(std::get<Connect::Reply>(*reply).session, now);
+        engine_.note_request(std::get<Connect::Reply>(*reply).session, now);
     engine_.work(lock, now);
     hold.leave();
     exchange->wait();

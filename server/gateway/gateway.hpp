@@ -70,7 +70,7 @@ public:
 
     // The motion lease (decision 33): whether it needs signs of life now, and the report of one.
     bool wants_signs_of_life(Steady now) const { return queue_->wants_signs_of_life(now); }
-    void heard_pong();
+    void note_pong();
     // The long poll was answered. If this is not called, the link counts as lost when the object is destroyed.
     void answered() { closing_ = Closing::answered; }
 

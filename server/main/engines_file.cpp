@@ -1,10 +1,15 @@
 #include "main/engines_file.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <set>
+#include <sstream>
 
 #include "engine/frames/frames.hpp"
 #include "main/configuration_file.hpp"
@@ -74,6 +79,26 @@ std::vector<std::string> refs_of(json const& value) {
     return refs;
 }
 
+std::vector<std::string> command_of(json const& value) {
+    auto const is_word = [](json const& each) { return each.is_string() && !each.get_ref<std::string const&>().empty(); };
+    if (value.is_array() && !value.empty() && std::ranges::all_of(value, is_word)) return value.get<std::vector<std::string>>();
+    throw Expected{R"(a program and its arguments, such as ["python3", "lamp.py"])"};
+}
+
+bool is_program(std::filesystem::path const& file) {
+    return std::filesystem::is_regular_file(file) && ::access(file.c_str(), X_OK) == 0;
+}
+
+// Returns whether the program can be run in this folder: as execvp(3) would look for it.
+bool is_found(std::string const& program, std::filesystem::path const& folder) {
+    if (program.find('/') != program.npos) return is_program(folder / program);
+    auto const* const path = std::getenv("PATH");
+    std::istringstream places{path == nullptr ? "/bin:/usr/bin" : path};
+    for (std::string place; std::getline(places, place, ':');)
+        if (is_program(folder / place / program)) return true;
+    return false;
+}
+
 std::vector<double> numbers_of(json const& value, std::vector<std::size_t> const& sizes, std::string const& expected) {
     bool const fits = value.is_array() && std::ranges::find(sizes, value.size()) != sizes.end() &&
                       std::ranges::all_of(value, [](json const& each) { return each.is_number(); });
@@ -105,6 +130,7 @@ std::vector<Property> const& properties() {
         {"name", [](SubEngine& engine, json const& value) { engine.name = name_of(value); }},
         {"url", [](SubEngine& engine, json const& value) { engine.url = url_of(value); }},
         {"joins", [](SubEngine& engine, json const& value) { engine.joins = name_of(value); }},
+        {"command", [](SubEngine& engine, json const& value) { engine.command = command_of(value); }},
         {"components", [](SubEngine& engine, json const& value) { engine.components = refs_of(value); }},
         {"position",
          [](SubEngine& engine, json const& value) { placement(engine).position = triple_of(value, "[x, y, z] in mm"); }},
@@ -129,8 +155,10 @@ std::vector<Property> const& properties() {
 }
 
 // Reads an entry. `where`: the place of a key of it.
-SubEngine read(json const& entry, std::function<std::string(std::string const&)> const& where) {
+SubEngine read(json const& entry, std::filesystem::path const& folder,
+               std::function<std::string(std::string const&)> const& where) {
     SubEngine engine;
+    engine.folder = folder;
     auto const named = [&] { return engine.name.empty() ? std::string{} : "sub engine " + rois::quoted(engine.name) + ": "; };
     if (!entry.contains("name")) throw BadSettings{where("") + "a sub engine has no 'name'"};
     auto const set = [&](std::string const& name, json const& value) {
@@ -150,6 +178,13 @@ SubEngine read(json const& entry, std::function<std::string(std::string const&)>
     };
     set("name", entry["name"]);
     for (auto const& [name, value] : entry.items()) set(name, value);
+    if (!engine.command.empty()) {
+        if (engine.url.empty() && engine.joins.empty()) engine.joins = engine.name;
+        if (!is_found(engine.command.front(), folder))
+            throw BadSettings{where("command") + named() + "there is no program " + rois::quoted(engine.command.front())};
+        if (!engine.url.empty())
+            throw BadSettings{where("command") + named() + "a program that is started here joins: expected no 'url'"};
+    }
     if (engine.url.empty() == engine.joins.empty())
         throw BadSettings{where("name") + named() + "expected either 'url', to connect to it, or 'joins', if it connects"};
     if (engine.resume_window < engine.window)
@@ -187,6 +222,7 @@ std::vector<SubEngine> read_engines_file(std::string const& file) {
     std::vector<SubEngine> engines;
     std::set<std::string> names, joining;
     auto const begins = begins_of_entries(text);
+    auto const folder = std::filesystem::absolute(file).parent_path();
     for (auto const& entry : object["engines"]) {
         if (!entry.is_object())
             throw BadSettings{file + ":" + place_of_key(text, "engines") + ": each sub engine must be an object, { ... }"};
@@ -194,7 +230,7 @@ std::vector<SubEngine> read_engines_file(std::string const& file) {
         auto const where = [&](std::string const& key) {
             return file + ":" + place_of_key(text, key, Which::first, begin) + ": ";
         };
-        auto& engine = engines.emplace_back(read(entry, where));
+        auto& engine = engines.emplace_back(read(entry, folder, where));
         if (!names.insert(engine.name).second)
             throw BadSettings{where("name") + "there are two sub engines with the name " + rois::quoted(engine.name)};
         if (!engine.joins.empty() && !joining.insert(engine.joins).second)

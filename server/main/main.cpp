@@ -183,10 +183,10 @@ EngineProfile engine_profile(GatewaySettings const& settings, simulation::FloorP
 }
 
 // Reads the file of sub engines again. If that fails, logs why and changes nothing.
-void read_again(std::string const& file, remote::RemoteEngines& engines) {
+void read_again(std::string const& file, remote::RemoteEngines& engines, std::string const& own_url) {
     try {
         spdlog::info("engines: reading {} again after SIGHUP", file);
-        engines.set(read_engines_file(file));
+        engines.set(read_engines_file(file), own_url);
     } catch (std::exception const& error) {
         spdlog::warn("engines: nothing was changed: {}", error.what());
     }
@@ -242,13 +242,15 @@ int serve(CommandLine const& command) {
         schemas, {robots, schemas}, profiles, own_refs(settings, simulation->hall().plan()), settings.profiles};
     if (!settings.profiles.empty()) gateway.change(user_components.read());
     user_components.keep();
+    std::vector<EngineState> const none;
+    std::optional<remote::RemoteEngines> remote_engines;
     net::Documents const documents{gateway,
                                    telemetry,
                                    *schemas,
                                    {.page = files::web().at("index.html"),
                                     .console = WebFiles{files::console()},
-                                    .floor_map = xml::encode(simulation::floor_map(simulation->hall().plan()))}};
-    std::optional<remote::RemoteEngines> remote_engines;
+                                    .floor_map = xml::encode(simulation::floor_map(simulation->hall().plan())),
+                                    .engines = [&] { return remote_engines ? remote_engines->states() : none; }}};
     if (!settings.engines.empty() || !settings.join.empty()) {
         remote_engines.emplace(remote::RemoteEngines::Host{
             .instance = instance,
@@ -256,7 +258,6 @@ int serve(CommandLine const& command) {
             .change = [&](ComponentChange change) { gateway.change(std::move(change)); },
             .report = [](std::string const& name, std::string const& what) { spdlog::info("{}: {}", name, what); }});
         engine.add(remote_engines->pulse(), "pulse");
-        remote_engines->set(sub_engines);
     }
     if (!settings.engines.empty())
         net_settings.join = [&](int socket, std::string head) { remote_engines->accept(socket, std::move(head)); };
@@ -264,8 +265,9 @@ int serve(CommandLine const& command) {
     if (!settings.profiles.empty() || !settings.engines.empty())
         server.on_hang_up([&] {
             if (!settings.profiles.empty()) read_again(user_components, gateway);
-            if (!settings.engines.empty()) read_again(settings.engines, *remote_engines);
+            if (!settings.engines.empty()) read_again(settings.engines, *remote_engines, server.url());
         });
+    if (!settings.engines.empty()) remote_engines->set(sub_engines, server.url());
     if (!settings.join.empty()) {
         auto const& name = settings.join_as.empty() ? settings.engine_name : settings.join_as;
         remote_engines->join({.url = settings.join, .name = name, .own_url = server.url()});

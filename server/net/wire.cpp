@@ -5,7 +5,6 @@
 #include <sys/socket.h>
 
 #include <algorithm>
-#include <boost/asio/post.hpp>
 #include <boost/asio/write.hpp>
 #include <utility>
 
@@ -49,12 +48,8 @@ Task<Wire::Outcome> Wire::receive(Steady until, std::size_t expected) {
     if (before == 0 && input_.capacity() > largest_kept) std::string{}.swap(input_);
     input_.resize(before + std::clamp(std::max(before, std::min(expected, most_promised)), smallest_read, largest_read));
     input_due_ = until;
-    // Other connections go first. By then the peer has often sent the next request, and the read need not wait for it.
-    co_await asio::post(executor(), asio::use_awaitable_t<Executor>{});
     boost::system::error_code error;
-    std::size_t size = 0;
-    if (!interrupted_)
-        size = co_await socket_.async_read_some(asio::buffer(input_.data() + before, input_.size() - before), into(error));
+    auto const size = co_await socket_.async_read_some(asio::buffer(input_.data() + before, input_.size() - before), into(error));
     input_due_ = Steady::max();
     input_.resize(before + size);
     if (bool const interrupted = std::exchange(interrupted_, false); !error || interrupted) co_return Outcome::done;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "types/engine_state.hpp"
 #include "types/messages.hpp"
 
 namespace rois {
@@ -30,6 +31,7 @@ constexpr std::array<std::string_view, 4> error_types{"ENGINE_INTERNAL_ERROR", "
 constexpr std::array<std::string_view, 5> component_statuses{"UNINITIALIZED", "READY", "BUSY", "WARNING", "ERROR"};
 constexpr std::array<std::string_view, 5> stream_statuses{"STREAMING_NOT_RUNNING", "STREAMING_NOT_CONNECTED", "STREAMING_RUNNING",
                                                           "STREAMING_SUSPENDED", "STREAMING_RESUMED"};
+constexpr std::array<std::string_view, 4> engine_states{"absent", "present", "lost", "given_up"};
 constexpr std::array<std::string_view, 17> fault_codes{
     "not_well_formed",  "forbidden_xml",      "invalid",          "no_session",      "unauthorized", "not_allowed",
     "not_found",        "method_not_allowed", "too_slow",         "length_required", "too_large",    "unsupported_media_type",
@@ -42,11 +44,16 @@ std::string_view to_text(CompletedStatus status) { return name_in(completed_stat
 std::string_view to_text(ErrorType type) { return name_in(error_types, type); }
 std::string_view to_text(ComponentStatus status) { return name_in(component_statuses, status); }
 std::string_view to_text(StreamStatus status) { return name_in(stream_statuses, status); }
+std::string_view to_text(EngineState::Is is) { return name_in(engine_states, is); }
 std::string_view to_text(FaultCode code) { return name_in(fault_codes, code); }
 
 template <>
 std::optional<ReturnCode> to_code(std::string_view text) {
     return code_in<ReturnCode>(return_codes, text);
+}
+template <>
+std::optional<EngineState::Is> to_code(std::string_view text) {
+    return code_in<EngineState::Is>(engine_states, text);
 }
 template <>
 std::optional<CompletedStatus> to_code(std::string_view text) {

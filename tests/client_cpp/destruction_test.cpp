@@ -28,7 +28,7 @@ public:
 };
 ROIS_BOTH_WAYS(Destruction);
 
-TEST_P(Destruction, AtOnce) {
+TEST_P(Destruction, IsPossibleAtOnce) {
     for (int i = 0; i < 20; ++i) Client robot{settings()};
 }
 
@@ -97,7 +97,7 @@ TEST_P(Destruction, EndsPendingOperations) {
     EXPECT_EQ(ends.count, 3);
 }
 
-TEST_P(Destruction, OnItsOwnThread) {
+TEST_P(Destruction, IsPossibleOnItsOwnThread) {
     auto robot = std::make_unique<Client>(settings());
     std::promise<void> gone;
     robot->spawn([](std::unique_ptr<Client>& client, std::promise<void>& over) -> Task<> {

@@ -118,7 +118,7 @@ public:
         if (is_cut()) return;
         last_heard_ = world_.now.steady;
         if (dice_.one_in(100)) return cut();
-        if (way_ == Way::websocket) world_.engine->heard_pong(session_, world_.now);
+        if (way_ == Way::websocket) world_.engine->note_pong(session_, world_.now);
         if (way_ == Way::requests || dice_.one_in(10)) act();
     }
 

@@ -48,7 +48,7 @@ TEST(Decision02, ALostLinkMayBeResumedForAWhileAndThenEndsTheSession) {
     auto over_websocket = world.connect(), over_http = world.connect_without_link();
     over_websocket.bind("navigation");
     over_websocket.execute(go("go"));
-    world.engine->heard_from(over_http.session, world.now);
+    world.engine->note_request(over_http.session, world.now);
     world.engine->link_closed(over_websocket.session, LinkKind::websocket, Closing::lost, world.now);
     world.advance(29'950ms);
     EXPECT_EQ(over_websocket.ask(Resume{over_websocket.session, 0}).return_code, ReturnCode::ok);
@@ -69,9 +69,9 @@ TEST(Decision02, ALostLinkMayBeResumedForAWhileAndThenEndsTheSession) {
 TEST(Decision02, ARequestPutsTheEndOffByTheTimeoutAndTheWholeWindow) {
     World world{navigation};
     auto over_http = world.connect_without_link();
-    world.engine->heard_from(over_http.session, world.now);
+    world.engine->note_request(over_http.session, world.now);
     world.advance(10s);
-    world.engine->heard_from(over_http.session, world.now);
+    world.engine->note_request(over_http.session, world.now);
     world.advance(89'950ms);
     EXPECT_TRUE(is_open(world, over_http)) << "60 s and 30 s after the second one";
     world.advance(50ms);

@@ -127,7 +127,7 @@ TEST_F(AnEngine, LosesItsSessionWhenItIsSilentThoughItsLinkIsOpen) {
     engine.bind("navigation");
     engine.execute(go("go"));
     world.advance(4900ms);
-    world.engine->heard_pong(engine.session, world.now);
+    world.engine->note_pong(engine.session, world.now);
     world.advance(4900ms);
     EXPECT_EQ(engine.refusal_of(GetProfile{}), std::nullopt);
     world.advance(5100ms);
@@ -148,7 +148,7 @@ TEST_F(AnEngine, KeepsItsSessionWithPongsAlsoIfTheyDoNotProveMotion) {
     EXPECT_EQ(engine.ask(Connect{.motion_lease = {}, .motion_lease_http = {}, .motion_proof = MotionProof::request}).return_code,
               ReturnCode::ok);
     world.advance(4900ms);
-    world.engine->heard_pong(engine.session, world.now);
+    world.engine->note_pong(engine.session, world.now);
     world.advance(4900ms);
     EXPECT_EQ(engine.refusal_of(GetProfile{}), std::nullopt);
 }

@@ -174,7 +174,7 @@ TEST_F(Errors, BeforeAnythingRunsAreTheAnswer) {
     EXPECT_EQ(in_words(desk.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time");
 }
 
-TEST_F(Errors, WhenACommandIsPreparedAgainEndIt) {
+TEST_F(Errors, InASecondPreparationEndTheCommand) {
     desk.execute(after(200ms, go("go")), go("and on"));
     desk.set_parameter("navigation", {integer("time_limit", 1)});
     desk.heard();

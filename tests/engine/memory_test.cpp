@@ -96,7 +96,7 @@ TEST_F(InMemory, NewSubscriptionsAreRefusedFrom80PercentOn) {
     EXPECT_EQ(desk.unsubscribe(known.subscribe_id), ReturnCode::ok);
 }
 
-TEST_F(InMemory, WhatStopsWorksWithoutAny) {
+TEST_F(InMemory, StopsWorkWithoutAnyLeft) {
     desk.bind("navigation");
     desk.execute(go("a"));
     use(150);
@@ -158,7 +158,7 @@ TEST_F(InMemory, SessionsThatReadNothingEndWithoutAny) {
     EXPECT_FALSE(desk.told_of_the_end());
 }
 
-TEST_F(InMemory, StatisticsTellIt) {
+TEST_F(InMemory, StatisticsReportWhatIsUsed) {
     use(85);
     world.say({}, Connect{});
     budget.refuse("");

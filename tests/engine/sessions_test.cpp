@@ -38,7 +38,7 @@ TEST(Session, ThatIsIdleForLongestMakesRoomForANewOne) {
     bound.bind("navigation");
     subscribed.subscribe("person_detected");
     world.advance(1s);
-    world.engine->heard_from(first.session, world.now);
+    world.engine->note_request(first.session, world.now);
     auto const known = [&](Application& session) { return session.refusal_of(Search{}) == std::nullopt; };
     auto third = world.connect_without_link();
     EXPECT_FALSE(known(second)) << "the other one was active later";
@@ -159,7 +159,7 @@ TEST(Link, AStreamThatClosesLeavesTheSessionTimeoutToo) {
     expect_end_after(90s, world, desk);
 }
 
-TEST(Link, OneOfSeveralIsEnough) {
+TEST(Link, KeepsItsSessionAliveAlone) {
     World world{navigation};
     auto desk = world.connect_without_link();
     world.engine->link_opened(desk.session, LinkKind::websocket, world.now);
@@ -176,7 +176,7 @@ TEST(Link, HttpBesideAWebSocketCounts) {
     World world{navigation};
     auto desk = world.connect_without_link();
     world.engine->link_opened(desk.session, LinkKind::websocket, world.now);
-    world.engine->heard_from(desk.session, world.now);
+    world.engine->note_request(desk.session, world.now);
     world.engine->link_closed(desk.session, LinkKind::websocket, Closing::lost, world.now);
     expect_end_after(90s, world, desk);
 }
@@ -195,7 +195,7 @@ TEST(Link, ManyShortPollsDoNotShortenIt) {
 
 TEST(Link, OfAnUnknownSessionHasNoEffect) {
     World world{navigation};
-    world.engine->heard_from({"made-up"}, world.now);
+    world.engine->note_request({"made-up"}, world.now);
     world.engine->link_opened({"made-up"}, LinkKind::stream, world.now);
     world.engine->link_closed({"made-up"}, LinkKind::stream, Closing::lost, world.now);
     world.engine->end({"made-up"}, world.now);

@@ -28,7 +28,7 @@ struct ATrouble : testing::Test {
 TEST_F(ATrouble, IsCounted) {
     after(0ms);
     after(0ms, Troubles::Where::wake);
-    auto const text = telemetry.text({});
+    auto const text = telemetry.text({}, {});
     EXPECT_NE(text.find("rois_internal_exceptions_total{where=\"tick\"} 1"), std::string::npos);
     EXPECT_NE(text.find("rois_internal_exceptions_total{where=\"wake\"} 1"), std::string::npos);
 }

@@ -26,7 +26,7 @@ HttpAnswer get(std::string_view path, Fields const& fields = {}) {
     return file_answer(small.find(path), head);
 }
 
-TEST(WebFile, HasItsType) {
+TEST(WebFile, HasTheMediaTypeOfItsName) {
     EXPECT_EQ(field(get("index.html"), "Content-Type"), "text/html; charset=utf-8");
     EXPECT_EQ(field(get("assets/main-1a2b.js"), "Content-Type"), "text/javascript; charset=utf-8");
     EXPECT_EQ(field(get("assets/icon-3c4d.svg"), "Content-Type"), "image/svg+xml");

@@ -20,7 +20,7 @@ TEST(HttpAnswer, IsAnXmlDocumentThatIsNotCached) {
     EXPECT_THAT(text, EndsWith("\r\nContent-Length: 4\r\n\r\n<a/>"));
 }
 
-TEST(HttpAnswer, IsAppended) {
+TEST(HttpAnswer, IsWrittenBehindEarlierOnes) {
     std::string out = "before";
     append(out, HttpAnswer{.body = "1"}, {});
     append(out, HttpAnswer{.body = "2"}, {});

@@ -21,7 +21,7 @@ FaultCode fault(std::string_view text) {
     return std::holds_alternative<Fault>(result) ? std::get<Fault>(result).code : FaultCode::invalid;
 }
 
-TEST(HttpHead, IsParsed) {
+TEST(HttpHead, HasItsPartsAsViews) {
     auto const result = read(
         "GET /rois/notifications?after=3&wait=&after=4 HTTP/1.1\r\nHost: h\r\nAccept:  text/plain ,TEXT/Event-Stream\t\r\n\r\n");
     auto const& head = std::get<RequestHead>(result);

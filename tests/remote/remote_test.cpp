@@ -152,7 +152,7 @@ TEST(AnEngineWhoseClockStandsStill, LeavesItsSubEnginesToHoldTheirRobots) {
     engines.bind(desk, "hall.navigation");
     engines.execute(desk, go("go", "hall.navigation"));
     for (int i = 0; i < 30; ++i) {
-        engines.main.engine->heard_pong(desk.session, engines.main.now);
+        engines.main.engine->note_pong(desk.session, engines.main.now);
         engines.advance(100ms);
     }
     EXPECT_THAT(told, testing::Not(testing::Contains("suspend"))) << "the signs of life arrive";

@@ -30,7 +30,7 @@ public:
         close();
     }
     void answer_pings() {
-        if (!session_.text.empty()) engines_.hall.engine->heard_pong(session_, engines_.hall.now);
+        if (!session_.text.empty()) engines_.hall.engine->note_pong(session_, engines_.hall.now);
     }
     void inject(std::string const& document) { listener_->document(document); }
     std::uint64_t next_sequence() { return after_ + 1'000'000 + ++injected_; }
@@ -140,6 +140,7 @@ public:
     }
     bool is_alive() const override { return engines_.main_is_alive; }
     void report(std::string const&, std::string const& what) override { engines_.reported.push_back(what); }
+    void show(EngineState const& state) override { engines_.shown = state; }
 
     // Takes one step. Returns false if there is nothing to do.
     bool run() {

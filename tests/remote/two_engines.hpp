@@ -66,6 +66,7 @@ public:
     std::string instance_of_main = "main's own";
 
     std::vector<std::string> reported;  // lines for the log
+    EngineState shown;                  // what is known of the hall
     remote::RemoteEngine& remote() { return *remote_; }
     std::shared_ptr<client::Link> link_for(client::Link::Listener&);
 

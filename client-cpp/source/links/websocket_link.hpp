@@ -44,7 +44,7 @@ public:
             asio::detached);
     }
 
-    // Makes the link one that is accepted, instead of opened. For Socket only.
+    // Makes this the server's side of an accepted WebSocket. Only for Socket.
     void accept(int socket, std::string head) {
         error_code error;
         beast::get_lowest_layer(stream_).assign(asio::ip::tcp::v4(), socket, error);

@@ -33,7 +33,7 @@ class Component:
     profile. Arguments and results are dictionaries of int, float, bool, str, or lists of them."""
 
     profile = ""  # the profile document, or the name of its file
-    moves = False  # whether a command of it may move something among people: then it is held when signs of life are missing
+    moves = False  # whether a command of it may move something among people: then it is halted when no sign of life arrives within the motion lease
     continuous = False  # `start` begins a function that goes on until it is stopped; otherwise an action that ends by itself
 
     def __init__(self, ref):

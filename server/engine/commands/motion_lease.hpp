@@ -25,17 +25,17 @@ public:
         bool links_count = true;           // false: only requests are signs of life, not pongs and open streams
     };
 
-    MotionLease(Terms const& terms, Steady now) : terms_{terms}, last_heard_{now}, last_sign_of_life_{now} {}
+    MotionLease(Terms const& terms, Steady now) : terms_{terms}, last_received_{now}, last_sign_of_life_{now} {}
 
     Terms const& terms() const { return terms_; }
     void agree(Terms const& terms) { terms_ = terms; }
 
     void request_received(Steady now) {
-        last_heard_ = last_sign_of_life_ = now;
+        last_received_ = last_sign_of_life_ = now;
         end_after_link_.reset();
     }
     void pong_received(Steady now) {
-        last_heard_ = now;
+        last_received_ = now;
         if (terms_.links_count) last_sign_of_life_ = now;
     }
     void opened(LinkKind link, Steady now) {
@@ -49,7 +49,7 @@ public:
     }
 
     // The last request or pong, even if pongs do not count as signs of life.
-    Steady last_heard() const { return last_heard_; }
+    Steady last_received() const { return last_received_; }
 
     std::size_t links() const { return websockets_ + streams_; }
 
@@ -68,7 +68,7 @@ private:
     std::size_t& count(LinkKind link) { return link == LinkKind::websocket ? websockets_ : streams_; }
 
     Terms terms_;
-    Steady last_heard_;
+    Steady last_received_;
     Steady last_sign_of_life_;
     std::size_t websockets_ = 0;
     std::size_t streams_ = 0;

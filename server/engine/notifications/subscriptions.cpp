@@ -29,7 +29,7 @@ void Subscriptions::OfType::add(Subscription& subscription) {
     auto const& demand = subscription.demand;
     try {
         subscription.meaning = &by_meaning.emplace(subscription.filter.meaning(), &subscription).first->first;
-        if (!demand) others.insert(&subscription);
+        if (!demand) without_demand.insert(&subscription);
         if (!demand) return;
         for (auto const ref : demand->refs) by_ref[std::string{ref}].insert(&subscription);
         for (auto const type : demand->types) by_type[std::string{type}].insert(&subscription);
@@ -41,7 +41,7 @@ void Subscriptions::OfType::add(Subscription& subscription) {
 
 void Subscriptions::OfType::remove(Subscription& subscription) noexcept {
     if (subscription.meaning != nullptr) by_meaning.erase(by_meaning.find(*subscription.meaning));
-    others.erase(&subscription);
+    without_demand.erase(&subscription);
     if (!subscription.demand) return;
     for (auto const ref : subscription.demand->refs) take_out(by_ref, ref, &subscription);
     for (auto const type : subscription.demand->types) take_out(by_type, type, &subscription);
@@ -132,7 +132,7 @@ std::vector<Subscription*> Subscriptions::possible(std::string_view event_type, 
         auto const middle = all.insert(all.end(), more.begin(), more.end());
         std::ranges::inplace_merge(all, middle, {}, &Subscription::number);
     };
-    add(of_type.others);
+    add(of_type.without_demand);
     if (auto const of_ref = of_type.by_ref.find(component.ref().code); of_ref != of_type.by_ref.end()) add(of_ref->second);
     if (auto const alike = of_type.by_type.find(component.type_key()); alike != of_type.by_type.end()) add(alike->second);
     auto const again = std::ranges::unique(all);

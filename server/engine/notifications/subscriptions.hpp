@@ -69,11 +69,11 @@ private:
     using InOrder = std::set<Subscription*, Earlier>;
     using ByText = std::map<std::string, InOrder, std::less<>>;
 
-    // Each subscription is listed under all refs and types that its condition demands, or else in `others`.
+    // Each subscription is listed under all refs and types that its condition demands, or else in `without_demand`.
     struct OfType {
         ByText by_ref;
         ByText by_type;
-        InOrder others;
+        InOrder without_demand;
         std::unordered_map<std::string, Subscription*> by_meaning;  // by the canonical text of the filter
 
         void add(Subscription&);  // changes nothing if it throws

@@ -31,7 +31,7 @@ private:
     std::size_t taken_ = 0;  // of providers_
 };
 
-// Who provides components: a device with its components, a driver, or a link to another engine. Its components are called one at
+// A provider of components: a device with its components, a driver, or a link to another engine. Its components are called one at
 // a time, in the order of the calls. `join`, `part`, `run`, `report` and `close` are thread-safe; all other functions need the
 // lock that serializes the calls to the engine.
 class Provider : public std::enable_shared_from_this<Provider> {

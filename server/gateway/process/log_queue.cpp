@@ -132,7 +132,7 @@ void LogQueue::put(Line line) {
 }
 
 // Reports left-out lines of causes whose second is over, without waiting for their next line.
-void LogQueue::tell_what_was_left_out(Steady now) {
+void LogQueue::report_suppressed_lines(Steady now) {
     for (auto& cause : causes_)
         if (cause.left_out > 0 && now - cause.since >= std::chrono::seconds{1}) sum_up(cause);
 }
@@ -150,7 +150,7 @@ bool LogQueue::take(std::unique_lock<std::mutex>& lock, std::stop_token const& s
     while (lines_.empty()) {
         if (stop.stop_requested()) return false;
         news_.wait_for(lock, between_looks);
-        tell_what_was_left_out(limits_.now());
+        report_suppressed_lines(limits_.now());
     }
     line = std::move(lines_.front());
     lines_.pop_front();

@@ -64,7 +64,7 @@ private:
     Cause& place_of(std::uint64_t hash, Steady now);
     void sum_up(Cause&);
     void put(Line);
-    void tell_what_was_left_out(Steady now);
+    void report_suppressed_lines(Steady now);
     void run(std::stop_token const&);
     bool take(std::unique_lock<std::mutex>&, std::stop_token const&, Line&);
     void write(Line const&);

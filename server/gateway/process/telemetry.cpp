@@ -145,6 +145,22 @@ public:
         for (auto const& limit : all) add({{"limit", std::string{limit.of}}}, static_cast<double>(limit.reached));
     }
 
+    void sub_engines(std::vector<EngineState> const& all) {
+        auto const add_each = [&](std::string name, std::string help, MetricType type, auto value) {
+            begin(std::move(name), std::move(help), type);
+            for (auto const& each : all) add({{"engine", each.name}}, static_cast<double>(value(each)));
+        };
+        add_each("rois_engine_present", "1 for a sub engine whose components can be used.", MetricType::Gauge,
+                 [](auto const& engine) { return engine.is == EngineState::Is::present; });
+        add_each("rois_engine_components", "Components of a sub engine.", MetricType::Gauge,
+                 [](auto const& engine) { return engine.components; });
+        add_each("rois_engine_losses_total", "How often the link to a sub engine was lost.", MetricType::Counter,
+                 [](auto const& engine) { return engine.losses; });
+        begin("rois_engine_round_trip_seconds", "Time of a short request to a sub engine.", MetricType::Gauge);
+        for (auto const& each : all)
+            if (each.round_trip) add({{"engine", each.name}}, std::chrono::duration<double>(*each.round_trip).count());
+    }
+
     void network(Telemetry const& t) {
         begin("rois_connections", "Open connections by what they are used for.", MetricType::Gauge);
         for (std::size_t i = 0; i < kind_names.size(); ++i) add({{"kind", kind_names[i]}}, static_cast<double>(t.open_[i]));
@@ -238,11 +254,12 @@ void Telemetry::answered(Operation const& operation, ReturnCode code, std::chron
     nanoseconds_ += static_cast<std::uint64_t>(spent.count());
 }
 
-std::string Telemetry::text(EngineStatistics const& statistics) const {
+std::string Telemetry::text(EngineStatistics const& statistics, std::vector<EngineState> const& sub_engines) const {
     Exposition exposition;
     exposition.network(*this);
     exposition.engine(statistics);
     exposition.sessions(statistics.each_session);
+    exposition.sub_engines(sub_engines);
     exposition.limits(statistics.limits, *this);
     exposition.process();
     return exposition.text();

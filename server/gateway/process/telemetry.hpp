@@ -11,8 +11,10 @@
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "engine/engine.hpp"
+#include "types/engine_state.hpp"
 #include "types/instant.hpp"
 #include "types/messages.hpp"
 #include "xml/codec/codec.hpp"
@@ -74,7 +76,7 @@ public:
     std::uint64_t dropped_log_lines() const;
 
     // The Prometheus text format.
-    std::string text(EngineStatistics const&) const;
+    std::string text(EngineStatistics const&, std::vector<EngineState> const& sub_engines) const;
 
 private:
     static constexpr std::size_t operations = std::variant_size_v<Operation>;

@@ -250,7 +250,8 @@ HttpAnswer Connection::made_of(Answer&& answer) {
 Task<Connection::Then> Connection::serve_other() {
     auto& shared = loop_.shared();
     wire_.use(head_.content_length);
-    if (route_.endpoint == Endpoint::rois || route_.endpoint == Endpoint::engines) {
+    bool const joins = route_.endpoint == Endpoint::engines && head_.count("Upgrade") > 0;
+    if (route_.endpoint == Endpoint::rois || joins) {
         co_await await_answers();
         co_return serve_upgrade();
     }
@@ -270,11 +271,14 @@ Connection::Then Connection::serve_upgrade() {
     if (shared.gateway.shutting_down()) return reply(answer_of(shutting_down()));
     bool const joins = route_.endpoint == Endpoint::engines;
     if (joins && (!shared.settings.join || !is_loopback(place_.address())))
-        return reply(
-            answer_of({FaultCode::not_allowed, "engines may join only with the key engines, and from this machine", {}, {}}));
+        return reply(answer_of(
+            {FaultCode::not_allowed,
+             "joining is not allowed: expected a connection from this machine, and the key engines in the configuration",
+             {},
+             {}}));
     auto const answer = upgrade(head_);
     if (answer.status != http::status::switching_protocols) return reply(answer);
-    if (joins) return Then::engine;  // whose link sends this answer
+    if (joins) return Then::engine;  // client::accepted_link sends the answer to the handshake
     append(out_, answer, {});
     return Then::websocket;
 }
@@ -330,9 +334,7 @@ Connection::Then Connection::refuse(Fault const& fault) {
     loop_.shared().telemetry.faulted(fault.code);
     log(fault, has_head_ ? request_line() : wire_.text().substr(0, wire_.text().find_first_of("\r\n")));
     bool const asks_for_head = has_head_ ? head_.verb == http::verb::head : wire_.text().starts_with("HEAD ");
-    auto answer = answer_of(fault);
-    if (fault.code == FaultCode::too_many) answer.fields.set(http::field::retry_after, "1");
-    waiting_.push_back({std::move(answer), {asks_for_head ? Framing::Body::omitted : Framing::Body::sent, true}});
+    waiting_.push_back({answer_of(fault), {asks_for_head ? Framing::Body::omitted : Framing::Body::sent, true}});
     take_answers();
     return Then::linger;
 }

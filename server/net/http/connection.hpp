@@ -1,7 +1,7 @@
 // One HTTP connection: receives requests and answers them in order. It may become a WebSocket or an event stream.
 #pragma once
 
-#include <deque>
+#include <list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -91,7 +91,7 @@ private:
     class Waker;
     std::shared_ptr<Waker> waker_;            // is woken when an answer has come
     std::shared_ptr<Signal> answers_signal_;  // raised when an answer has come; null if nothing waits for that
-    std::deque<Waiting> waiting_;             // in the order of their requests; the first one has not come yet
+    std::list<Waiting> waiting_;              // in the order of their requests; the first one has not come yet
     std::string out_;                         // answers for the next write
     std::vector<Hold> holds_;                 // keep notifications behind these answers
     std::weak_ptr<WebSocket> websocket_;

@@ -87,8 +87,11 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const 
             return health();
         case Endpoint::readyz:
             return readiness();
+        case Endpoint::engines:
+            return {.body = xml::encode(site_.engines())};
         case Endpoint::metrics:
-            return {.body = telemetry_.text(gateway_.statistics()), .content_type = "text/plain; version=0.0.4; charset=utf-8"};
+            return {.body = telemetry_.text(gateway_.statistics(), site_.engines()),
+                    .content_type = "text/plain; version=0.0.4; charset=utf-8"};
         default:
             return not_found("there is nothing here");
     }

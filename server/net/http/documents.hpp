@@ -20,6 +20,7 @@ struct Site {
     std::string_view page;  // HTML with one <style> element, and the marks {{origin}}, {{components}} and {{schemas}}
     WebFiles console{{}};   // at "/"; if it is empty, the page is at "/"
     std::string floor_map;  // an XML document (schemas/map.xsd); empty: the engine has no map
+    std::function<std::vector<EngineState>()> engines = [] { return std::vector<EngineState>{}; };  // any thread
 };
 
 // A file of the console, compressed if the client accepts that. null: not found.

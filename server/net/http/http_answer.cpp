@@ -43,6 +43,7 @@ bool may_have_body(http::status status) {
 HttpAnswer answer_of(Fault const& fault) {
     HttpAnswer answer{.status = http::int_to_status(static_cast<unsigned>(http_status_of(fault.code))),
                       .body = xml::encode(fault)};
+    if (fault.code == FaultCode::too_many) answer.fields.set(http::field::retry_after, "1");
     answer.fault = fault;
     return answer;
 }

@@ -5,7 +5,7 @@
 #include "gateway/access/host_names.hpp"
 #include "types/text/text_encoding.hpp"
 #include "types/text/texts.hpp"
-#include "xml/codec/media_type.hpp"
+#include "xml/codec/codec.hpp"
 
 namespace rois::net {
 

@@ -104,7 +104,7 @@ void WebSocket::take(Received const& received) {
             break;
         case Received::Kind::pong:
             note_control();
-            if (pings_.take_answer(received.text) && reading_ && reading_->wants_signs_of_life(now())) reading_->heard_pong();
+            if (pings_.take_answer(received.text) && reading_ && reading_->wants_signs_of_life(now())) reading_->note_pong();
             break;
         case Received::Kind::close:
             close({received.code, ""});

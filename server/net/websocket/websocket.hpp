@@ -2,7 +2,7 @@
 // shared_ptr.
 #pragma once
 
-#include <deque>
+#include <list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -71,14 +71,14 @@ private:
 
     std::shared_ptr<Wire> wire_;
     Shared& shared_;
-    std::unique_ptr<Reading> reading_;   // of the session, until its last notification was written
-    std::deque<PendingAnswer> pending_;  // in the order of their requests; the first one has not come yet
-    bool session_changes_ = false;       // by one of them: no more frames are handled meanwhile
-    std::string answers_;                // frames for the next write
-    std::size_t answers_waiting_ = 0;    // number of answers and pongs among them
-    std::size_t answers_in_out_ = 0;     // number of answers and pongs that are being written
-    std::shared_ptr<Signal> room_;       // raised after a write; null if nothing waits for that
-    bool session_over_ = false;          // `reading_` has returned its last notification
+    std::unique_ptr<Reading> reading_;  // of the session, until its last notification was written
+    std::list<PendingAnswer> pending_;  // in the order of their requests; the first one has not come yet
+    bool session_changes_ = false;      // by one of them: no more frames are handled meanwhile
+    std::string answers_;               // frames for the next write
+    std::size_t answers_waiting_ = 0;   // number of answers and pongs among them
+    std::size_t answers_in_out_ = 0;    // number of answers and pongs that are being written
+    std::shared_ptr<Signal> room_;      // raised after a write; null if nothing waits for that
+    bool session_over_ = false;         // `reading_` has returned its last notification
     bool ping_due_ = false;
     bool writing_ = false;                // `drain` runs
     bool broken_ = false;                 // the connection is closed

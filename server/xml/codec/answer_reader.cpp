@@ -28,6 +28,10 @@ public:
         return parse(document) ? decode_stop_state(message_) : std::nullopt;
     }
 
+    std::optional<std::vector<EngineState>> read_engines(std::string_view document) {
+        return parse(document) ? decode_engines(message_) : std::nullopt;
+    }
+
 private:
     // Reads the document into `message_`. Returns false if it is not XML, or nested too deeply.
     bool parse(std::string_view document) {
@@ -73,6 +77,10 @@ AnswerReader::~AnswerReader() = default;
 AnswerReader::AnswerReader(AnswerReader&&) noexcept = default;
 
 std::optional<EngineMessage> AnswerReader::read(std::string_view document) { return impl_->read(document); }
+
+std::optional<std::vector<EngineState>> AnswerReader::read_engines(std::string_view document) {
+    return impl_->read_engines(document);
+}
 
 std::optional<StopState> AnswerReader::read_stop_state(std::string_view document) { return impl_->read_stop_state(document); }
 

@@ -8,7 +8,9 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
+#include "types/engine_state.hpp"
 #include "types/floor_map.hpp"
 #include "types/messages.hpp"
 
@@ -54,6 +56,7 @@ private:
 std::string encode(Reply const&, std::string_view request_id);
 std::string encode(Fault const&);
 std::string encode(StopState const&);
+std::string encode(std::vector<EngineState> const&);
 
 // A notification's document is its head, the digits of its sequence, and its tail. Only the digits differ between receivers. The
 // head is a string literal.
@@ -100,10 +103,15 @@ public:
 
     // Reads an answer of /rois/stop or /rois/clear. Returns nothing for any other document.
     std::optional<StopState> read_stop_state(std::string_view document);
+    // The same for an answer of /rois/engines.
+    std::optional<std::vector<EngineState>> read_engines(std::string_view document);
 
 private:
     class Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+// Returns whether the value of a Content-Type field is a media type of XML, in UTF-8 (RFC 7303).
+bool is_xml_media_type(std::string_view content_type);
 
 }  // namespace rois::xml

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "types/messages.hpp"
 #include "xml/codec/codec.hpp"
@@ -23,6 +24,9 @@ std::optional<EngineMessage> decode_engine_message(MessageTree const&);
 
 // Returns nothing if the root is another element, or has no valid `stopped`.
 std::optional<StopState> decode_stop_state(MessageTree const&);
+
+// Returns nothing if the root is another element, or an engine has no valid state.
+std::optional<std::vector<EngineState>> decode_engines(MessageTree const&);
 
 // Parts of messages. A missing node gives an empty part.
 Identifier decode_identifier(MessageTree::Node);

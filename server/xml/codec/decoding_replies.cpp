@@ -237,6 +237,27 @@ std::optional<EngineMessage> decode_engine_message(MessageTree const& message) {
     return NumberedNotification{decode_unsigned(*sequence), *std::move(told)};
 }
 
+std::optional<std::vector<EngineState>> decode_engines(MessageTree const& message) {
+    auto const root = message.root();
+    if (!root || message.name_space() != message_namespace || root.name() != "engines") return std::nullopt;
+    std::vector<EngineState> engines;
+    for (auto const node : root.children()) {
+        auto const is = to_code<EngineState::Is>(node.attribute("state").value_or(""));
+        if (node.name() != "engine" || !is) return std::nullopt;
+        EngineState engine{.name = std::string{node.attribute("name").value_or("")},
+                           .is = *is,
+                           .link = std::string{node.attribute("link").value_or("")},
+                           .round_trip = {},
+                           .components = decode_unsigned(node.attribute("components").value_or("0")),
+                           .losses = decode_unsigned(node.attribute("losses").value_or("0")),
+                           .last_error = std::string{node.child("last_error").text()}};
+        if (auto const round_trip = to_double(node.attribute("round_trip").value_or("")))
+            engine.round_trip = std::chrono::nanoseconds{static_cast<std::int64_t>(*round_trip * 1e6)};
+        engines.push_back(std::move(engine));
+    }
+    return engines;
+}
+
 std::optional<StopState> decode_stop_state(MessageTree const& message) {
     auto const root = message.root();
     if (!root || message.name_space() != message_namespace || root.name() != "stop_state") return std::nullopt;

@@ -125,6 +125,21 @@ std::string encode(Fault const& fault) {
     return std::move(out).written();
 }
 
+std::string encode(std::vector<EngineState> const& engines) {
+    using milliseconds = std::chrono::duration<double, std::milli>;
+    Writer out;
+    out.start("engines").constant("xmlns", message_namespace);
+    for (auto const& each : engines) {
+        out.start("engine").attribute("name", each.name).constant("state", to_text(each.is)).attribute("link", each.link);
+        if (each.round_trip) out.constant("round_trip", number_text(milliseconds{*each.round_trip}.count()));
+        out.attribute("components", std::uint64_t{each.components}).attribute("losses", each.losses);
+        if (!each.last_error.empty()) out.element("last_error", each.last_error);
+        out.end();
+    }
+    out.end();
+    return std::move(out).written();
+}
+
 std::string encode(StopState const& state) {
     Writer out;
     out.start("stop_state").constant("xmlns", message_namespace).element("stopped", state.stopped ? "true" : "false");

@@ -1,4 +1,4 @@
-#include "xml/codec/media_type.hpp"
+#include "xml/codec/codec.hpp"
 
 #include <algorithm>
 

@@ -154,7 +154,7 @@ std::vector<BrokenRule> rules_of_commands() {
         {"a stopped command is reported as done", "stop_ends_the_action", [] { return tells_status("ABORT", "OK"); }},
         {"errors are reported as done", "in_a_wrong_state_there_is_an_error", [] { return tells_status("ERROR", "OK"); }},
         {"stop only suspends", "stop_ends_the_action", lets_stop_do_nothing},
-        {"a waiting command is reported as running", "results_tell_how_far_a_command_is", calls_waiting_running},
+        {"a waiting command is reported as running", "results_report_the_progress_of_a_command", calls_waiting_running},
         {"anybody sees the results of a command", "results_of_an_unknown_or_anothers_command_are_refused",
          [] { return says("get_command_result", "BAD_PARAMETER", "OK", a_status); }},
         {"results are not chosen", "results_are_chosen_by_condition",

@@ -86,11 +86,11 @@ std::vector<BrokenRule> rules_of_gaps() {
             {"there is no component", "get_profile_chooses_by_condition", tells_no_components},
             {"an event has no results in its profile", "basic_messages_have_their_results", tells_no_localized_people, http},
             {"positions are numbers in the profile", "basic_messages_have_their_results", calls_positions_numbers, http},
-            {"the engine's profile lacks a component", "the_engine_tells_its_components", hides_a_component_of_the_engine},
+            {"the engine's profile lacks a component", "get_profile_lists_all_components", hides_a_component_of_the_engine},
             {"default values are not of their types", "default_values_are_of_their_types", has_purple_defaults, http},
             {"execute does not answer with the sequence", "every_command_gets_an_id", echoes_nothing},
             {"a number has no value", "details_are_chosen_by_condition", counts_nothing},
-            {"results of commands have no status", "results_tell_how_far_a_command_is",
+            {"results of commands have no status", "results_report_the_progress_of_a_command",
              [] { return edits_answers("get_command_result", removes_result("status")); }},
             {"a status has no value", "a_bound_component_is_busy_for_others",
              [] {

@@ -152,7 +152,7 @@ Breaking tells_targets_afterwards() {
 
 std::vector<BrokenRule> rules_of_motion() {
     std::string const arrives = "navigation_reaches_its_target", in_order = "targets_are_visited_in_order";
-    std::string const targets = "each_target_is_told_when_it_is_reached", line = "move_drives_its_line";
+    std::string const targets = "each_reached_target_is_reported", line = "move_drives_its_line";
     std::string const direction = "move_minds_its_direction", curve = "move_drives_its_curve";
     std::string const halts = "stop_halts_the_robot", holds = "suspend_halts_the_robot_and_resume_drives_on";
     std::vector<BrokenRule> rules{

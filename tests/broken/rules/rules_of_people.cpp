@@ -92,7 +92,7 @@ Breaking forgets_parameter(std::string const& name) {
 }  // namespace
 
 std::vector<BrokenRule> rules_of_people() {
-    std::string const stand = "people_who_stand_still_keep_name_and_place", active = "a_function_tells_while_it_is_active";
+    std::string const stand = "people_who_stand_still_keep_name_and_place", active = "an_active_function_reports_events";
     auto const visitor = World::visitor, stroller = World::strollers;
     auto const websocket = Over::websocket;
     return {{"a condition on details chooses all people or none", "details_have_the_entries_that_match",

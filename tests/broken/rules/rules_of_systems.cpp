@@ -166,7 +166,7 @@ std::vector<BrokenRule> rules_of_systems() {
     auto const websocket = Over::websocket;
     auto const unwell = World::unwell, robots = World::two_robots;
     return {
-        {"events of other sessions are sent", "what_was_not_subscribed_is_not_heard", tells_all_sessions("receive_event")},
+        {"events of other sessions are sent", "what_was_not_subscribed_is_not_received", tells_all_sessions("receive_event")},
         {"completions of other sessions are sent", "answers_come_before_what_they_cause", tells_all_sessions("completed")},
         {"details never expire", "details_expire", forgets_to_expire, websocket, World::short_memory},
         {"all events have the time of the first one", "timestamps_go_on", stops_the_clock},

@@ -84,7 +84,7 @@ void search_without_a_match_is_an_empty_list(Stage& stage) {
     require(!answer.root().child("component_ref_list").first_child(), "the list should be empty: " + answer.whole());
 }
 
-void bind_of_what_is_mine_is_ok(Stage& stage) {
+void bind_of_a_bound_component_returns_ok(Stage& stage) {
     auto const& component = *stage.two_common().first;
     Guest guest{stage};
     guest.take(component);
@@ -160,7 +160,7 @@ void after_release_nothing_is_allowed(Stage& stage) {
     next.take(component);
 }
 
-void release_of_what_is_not_mine_does_nothing(Stage& stage) {
+void release_of_an_unbound_component_has_no_effect(Stage& stage) {
     auto const& component = *stage.two_common().first;
     Guest owner{stage}, other{stage};
     ok(other.release(component.ref));
@@ -201,7 +201,7 @@ Clause binding_clause() {
              {"references_mean_what_they_say", "table 3; decision 18", references_mean_what_they_say},
              {"conditions_combine", "table 3; ISO 19143: And, Or", conditions_combine},
              {"search_without_a_match_is_an_empty_list", "table 3; decision 4", search_without_a_match_is_an_empty_list},
-             {"bind_of_what_is_mine_is_ok", "figure 9; decision 4", bind_of_what_is_mine_is_ok},
+             {"bind_of_a_bound_component_returns_ok", "figure 9; decision 4", bind_of_a_bound_component_returns_ok},
              {"a_binding_is_exclusive", "figure 8; decision 4", a_binding_is_exclusive},
              {"bind_of_an_unknown_component_is_refused", "table 3; decisions 4, 6", bind_of_an_unknown_component_is_refused},
              {"bind_any_binds_what_matches", "figure 9; decision 4", bind_any_binds_what_matches},
@@ -209,7 +209,8 @@ Clause binding_clause() {
              {"bind_any_says_why_not", "table 1; decision 4", bind_any_says_why_not},
              {"commands_need_the_binding", "figure 8; table 3; decision 5", commands_need_the_binding},
              {"after_release_nothing_is_allowed", "figures 8, 11; decision 6", after_release_nothing_is_allowed},
-             {"release_of_what_is_not_mine_does_nothing", "figure 11; decision 6", release_of_what_is_not_mine_does_nothing},
+             {"release_of_an_unbound_component_has_no_effect", "figure 11; decision 6",
+              release_of_an_unbound_component_has_no_effect},
              {"release_stops_what_runs", "figure 11; decision 6", release_stops_what_runs},
              {"a_bound_component_is_busy_for_others", "table 33; decision 7", a_bound_component_is_busy_for_others}}};
 }

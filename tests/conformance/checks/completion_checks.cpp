@@ -92,7 +92,7 @@ void in_a_wrong_state_there_is_an_error(Stage& stage) {
     same("the status of resume when idle", "ERROR", guest.ending(command(component, "resume")));
 }
 
-void results_tell_how_far_a_command_is(Stage& stage) {
+void results_report_the_progress_of_a_command(Stage& stage) {
     auto const& speaker = stage.speaker();
     Guest guest{stage};
     guest.take(speaker);
@@ -199,7 +199,8 @@ Clause completion_clause() {
          {"a_new_start_replaces_the_old_one", "decision 9", a_new_start_replaces_the_old_one},
          {"suspend_holds_and_resume_goes_on", "table 32; decision 9", suspend_holds_and_resume_goes_on},
          {"in_a_wrong_state_there_is_an_error", "tables 8, 32; decision 9", in_a_wrong_state_there_is_an_error},
-         {"results_tell_how_far_a_command_is", "figure 10; table 20; decision 17", results_tell_how_far_a_command_is},
+         {"results_report_the_progress_of_a_command", "figure 10; table 20; decision 17",
+          results_report_the_progress_of_a_command},
          {"results_are_chosen_by_condition", "tables 3, 20; decision 19", results_are_chosen_by_condition},
          {"results_of_an_unknown_or_anothers_command_are_refused", "table 3; decision 17",
           results_of_an_unknown_or_anothers_command_are_refused},

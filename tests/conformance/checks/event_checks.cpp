@@ -42,7 +42,7 @@ void every_event_can_be_subscribed(Stage& stage) {
     }
 }
 
-void an_event_is_heard_with_its_ids(Stage& stage) {
+void an_event_is_received_with_its_ids(Stage& stage) {
     Watch watch{stage};
     auto const id = watch.subscribe(watch.owner).text("subscribe_id");
     auto const event = watch.first_detection();
@@ -129,7 +129,7 @@ void inline_results_are_taken_back(Stage& stage) {
     require(!event.root().child("results"), "the last time, results were not asked for: " + event.whole());
 }
 
-void what_was_not_subscribed_is_not_heard(Stage& stage) {
+void what_was_not_subscribed_is_not_received(Stage& stage) {
     Watch watch{stage};
     Guest other{stage};
     watch.subscribe(watch.owner);
@@ -166,7 +166,7 @@ void what_does_not_run_is_silent(Stage& stage) {
     silent("release");
 }
 
-void two_applications_hear_the_same_event(Stage& stage) {
+void two_applications_receive_the_same_event(Stage& stage) {
     Watch watch{stage};
     Guest other{stage};
     watch.subscribe(watch.owner);
@@ -175,7 +175,7 @@ void two_applications_hear_the_same_event(Stage& stage) {
     same("the component", watch.detector.ref, other.hear_event(watch.type()).ref());
 }
 
-void after_unsubscribe_nothing_is_heard(Stage& stage) {
+void after_unsubscribe_nothing_is_received(Stage& stage) {
     Watch watch{stage};
     Guest witness{stage};
     ok(watch.owner.unsubscribe(watch.subscribe(watch.owner).text("subscribe_id")));
@@ -195,7 +195,7 @@ void unsubscribe_of_what_is_over_is_ok(Stage& stage) {
     ok(guest.unsubscribe(nobody));
 }
 
-void only_events_that_match_are_heard(Stage& stage) {
+void only_events_that_match_are_received(Stage& stage) {
     Watch watch{stage};
     Guest picky{stage};
     auto const never = watch.subscribe(picky, where(kit::equal("number", "-7"))).text("subscribe_id");
@@ -213,7 +213,7 @@ void what_cannot_happen_is_unsupported(Stage& stage) {
     refused(guest.subscribe(detector.detection(), where(kit::equal(nobody, "red"))), "BAD_PARAMETER");
 }
 
-void without_a_condition_all_components_are_heard(Stage& stage) {
+void without_a_condition_events_of_all_components_come(Stage& stage) {
     Watch watch{stage};
     auto const id = ok(watch.owner.subscribe(watch.type())).text("subscribe_id");
     watch.detect();
@@ -228,25 +228,25 @@ void without_a_condition_all_components_are_heard(Stage& stage) {
 }  // namespace
 
 Clause event_clause() {
-    return {
-        "7.4.1.5 Event interface",
-        {{"every_event_can_be_subscribed", "figure 13; tables 5, 35 to 46", every_event_can_be_subscribed},
-         {"an_event_is_heard_with_its_ids", "figure 13; tables 6, 22", an_event_is_heard_with_its_ids},
-         {"each_event_has_an_id_of_its_own", "tables 6, 22; decision 8", each_event_has_an_id_of_its_own},
-         {"details_of_an_event", "figure 13; tables 5, 23, 35", details_of_an_event},
-         {"details_are_chosen_by_condition", "tables 5, 23; decision 19", details_are_chosen_by_condition},
-         {"results_come_inline_when_asked_for", "decision 21", results_come_inline_when_asked_for},
-         {"details_of_an_unknown_event_are_refused", "table 5; decision 21", details_of_an_unknown_event_are_refused},
-         {"the_same_subscription_again_changes_nothing", "7.4.1.5; decision 20", the_same_subscription_again_changes_nothing},
-         {"inline_results_are_taken_back", "decision 20", inline_results_are_taken_back},
-         {"what_was_not_subscribed_is_not_heard", "7.4.1.5", what_was_not_subscribed_is_not_heard},
-         {"what_does_not_run_is_silent", "table 32; decisions 6, 9", what_does_not_run_is_silent},
-         {"two_applications_hear_the_same_event", "7.4.1.5; decision 20", two_applications_hear_the_same_event},
-         {"after_unsubscribe_nothing_is_heard", "figure 13", after_unsubscribe_nothing_is_heard},
-         {"unsubscribe_of_what_is_over_is_ok", "7.4.1.5; decision 20", unsubscribe_of_what_is_over_is_ok},
-         {"only_events_that_match_are_heard", "table 5; decision 19", only_events_that_match_are_heard},
-         {"what_cannot_happen_is_unsupported", "table 1; decision 18", what_cannot_happen_is_unsupported},
-         {"without_a_condition_all_components_are_heard", "table 5; decision 18", without_a_condition_all_components_are_heard}}};
+    return {"7.4.1.5 Event interface",
+            {{"every_event_can_be_subscribed", "figure 13; tables 5, 35 to 46", every_event_can_be_subscribed},
+             {"an_event_is_received_with_its_ids", "figure 13; tables 6, 22", an_event_is_received_with_its_ids},
+             {"each_event_has_an_id_of_its_own", "tables 6, 22; decision 8", each_event_has_an_id_of_its_own},
+             {"details_of_an_event", "figure 13; tables 5, 23, 35", details_of_an_event},
+             {"details_are_chosen_by_condition", "tables 5, 23; decision 19", details_are_chosen_by_condition},
+             {"results_come_inline_when_asked_for", "decision 21", results_come_inline_when_asked_for},
+             {"details_of_an_unknown_event_are_refused", "table 5; decision 21", details_of_an_unknown_event_are_refused},
+             {"the_same_subscription_again_changes_nothing", "7.4.1.5; decision 20", the_same_subscription_again_changes_nothing},
+             {"inline_results_are_taken_back", "decision 20", inline_results_are_taken_back},
+             {"what_was_not_subscribed_is_not_received", "7.4.1.5", what_was_not_subscribed_is_not_received},
+             {"what_does_not_run_is_silent", "table 32; decisions 6, 9", what_does_not_run_is_silent},
+             {"two_applications_receive_the_same_event", "7.4.1.5; decision 20", two_applications_receive_the_same_event},
+             {"after_unsubscribe_nothing_is_received", "figure 13", after_unsubscribe_nothing_is_received},
+             {"unsubscribe_of_what_is_over_is_ok", "7.4.1.5; decision 20", unsubscribe_of_what_is_over_is_ok},
+             {"only_events_that_match_are_received", "table 5; decision 19", only_events_that_match_are_received},
+             {"what_cannot_happen_is_unsupported", "table 1; decision 18", what_cannot_happen_is_unsupported},
+             {"without_a_condition_events_of_all_components_come", "table 5; decision 18",
+              without_a_condition_events_of_all_components_come}}};
 }
 
 }  // namespace rois::conformance

@@ -62,7 +62,7 @@ void require_target(Document const& event, Point const& due, bool is_last) {
     require(is_last == (is_final == "true" || is_final == "1"), "is_final_target of " + text + " is " + is_final);
 }
 
-void each_target_is_told_when_it_is_reached(Stage& stage) {
+void each_reached_target_is_reported(Stage& stage) {
     std::string const event = "reached_target";
     auto const& navigation = navigation_of(stage);
     if (!navigation.event(event)) throw NotObservable{navigation.ref + " has no event " + event};
@@ -267,7 +267,7 @@ Clause motion_clause() {
     return {"Effects: motion",
             {{"navigation_reaches_its_target", "tables 34, 46; decisions 8, 27", navigation_reaches_its_target},
              {"targets_are_visited_in_order", "tables 34, 46", targets_are_visited_in_order},
-             {"each_target_is_told_when_it_is_reached", "table 46; decision 8", each_target_is_told_when_it_is_reached},
+             {"each_reached_target_is_reported", "table 46; decision 8", each_reached_target_is_reported},
              {"navigation_gives_up_at_its_time_limit", "tables 8, 46; decisions 8, 16", navigation_gives_up_at_its_time_limit},
              {"stop_halts_the_robot", "tables 8, 32, 34; decision 9", stop_halts_the_robot},
              {"suspend_halts_the_robot_and_resume_drives_on", "tables 32, 34; decision 9",

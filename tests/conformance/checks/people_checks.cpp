@@ -255,7 +255,7 @@ void follow_keeps_its_distance(Stage& stage) {
                 ", and is reported " + std::to_string(std::lround(kept)) + " mm away at " + shown(resting));
 }
 
-void a_function_tells_while_it_is_active(Stage& stage) {
+void an_active_function_reports_events(Stage& stage) {
     Guest guest{stage};
     Lookout lookout{stage, guest};
     lookout.start();
@@ -314,7 +314,7 @@ Clause people_clause() {
              {"details_have_the_entries_that_match", "tables 5, 36; decision 19", details_have_the_entries_that_match},
              {"people_are_where_the_robot_drives_to", "tables 34, 36, 46; decision 27", people_are_where_the_robot_drives_to},
              {"follow_keeps_its_distance", "tables 34, 36, 47; decisions 8, 27", follow_keeps_its_distance},
-             {"a_function_tells_while_it_is_active", "tables 32, 36; decisions 6, 8, 9", a_function_tells_while_it_is_active},
+             {"an_active_function_reports_events", "tables 32, 36; decisions 6, 8, 9", an_active_function_reports_events},
              {"minimum_interval_spaces_events", "table 36", minimum_interval_spaces_events},
              {"detection_threshold_holds_small_motions_back", "table 36", detection_threshold_holds_small_motions_back}}};
 }

@@ -46,7 +46,7 @@ std::vector<std::string> refs_of_engine(pugi::xml_node root) {
     return {refs.begin(), refs.end()};
 }
 
-void the_engine_tells_its_components(Stage& stage) {
+void get_profile_lists_all_components(Stage& stage) {
     Guest guest{stage};
     auto const answer = ok(guest.ask("get_profile"));
     auto const refs = refs_in(answer);
@@ -183,7 +183,7 @@ void details_of_an_unknown_error_are_refused(Stage& stage) {
 
 Clause profile_clause() {
     return {"7.5 Profiles; 7.4.1.2 System interface: errors",
-            {{"the_engine_tells_its_components", "figure 6; tables 2, 30", the_engine_tells_its_components},
+            {{"get_profile_lists_all_components", "figure 6; tables 2, 30", get_profile_lists_all_components},
              {"each_component_has_a_profile", "tables 2, 29; decision 25", each_component_has_a_profile},
              {"get_profile_chooses_by_condition", "table 2; decision 18", get_profile_chooses_by_condition},
              {"a_condition_that_cannot_be_read_is_refused", "tables 2 to 4; decisions 4, 18",

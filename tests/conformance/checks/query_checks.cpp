@@ -64,7 +64,7 @@ void a_query_goes_to_the_lowest_that_is_ready(Stage& stage) {
     require(ok(guest.query("component_status")).ref() != first, "a query prefers a component that is BUSY");
 }
 
-void a_query_that_nobody_knows_is_unsupported(Stage& stage) {
+void an_unknown_query_is_unsupported(Stage& stage) {
     Guest guest{stage};
     refused(guest.query(nobody), "UNSUPPORTED");
     refused(guest.query("component_status", where(kit::equal("component_ref", nobody))), "UNSUPPORTED");
@@ -113,7 +113,7 @@ Clause query_clause() {
               every_query_of_every_component_is_answered},
              {"a_query_needs_no_binding", "figure 12; decision 5", a_query_needs_no_binding},
              {"a_query_goes_to_the_lowest_that_is_ready", "table 4; decision 18", a_query_goes_to_the_lowest_that_is_ready},
-             {"a_query_that_nobody_knows_is_unsupported", "table 1; decision 18", a_query_that_nobody_knows_is_unsupported},
+             {"an_unknown_query_is_unsupported", "table 1; decision 18", an_unknown_query_is_unsupported},
              {"a_query_for_an_unknown_reference_is_refused", "table 1; decision 18", a_query_for_an_unknown_reference_is_refused},
              {"positions_are_points_in_a_frame", "table 34; decision 27", positions_are_points_in_a_frame},
              {"located_results_have_their_structure", "table 34; decision 27", located_results_have_their_structure}}};

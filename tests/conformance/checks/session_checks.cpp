@@ -99,7 +99,7 @@ void disconnect_stops_what_runs(Stage& stage) {
     same("the status of a suspended component without a running command", "ERROR", second.ending(command(speaker, "suspend")));
 }
 
-void nothing_is_heard_after_disconnect(Stage& stage) {
+void nothing_is_received_after_disconnect(Stage& stage) {
     auto const& detector = stage.detector();
     auto const event = detector.detection();
     Guest gone{stage}, here{stage};
@@ -187,7 +187,7 @@ Clause session_clause() {
               connect_after_disconnect_opens_another_session},
              {"disconnect_releases_components", "figure 6; decision 3", disconnect_releases_components},
              {"disconnect_stops_what_runs", "figure 6; decision 3", disconnect_stops_what_runs},
-             {"nothing_is_heard_after_disconnect", "figure 6; decision 3", nothing_is_heard_after_disconnect},
+             {"nothing_is_received_after_disconnect", "figure 6; decision 3", nothing_is_received_after_disconnect},
              {"an_unknown_session_is_refused", "decision 1; docs/clients.md", an_unknown_session_is_refused, Way::http},
              {"connect_with_an_unknown_session_opens_a_new_one", "decision 3", connect_with_an_unknown_session_opens_a_new_one,
               Way::http},

@@ -97,7 +97,7 @@ void a_stream_that_there_is_not_is_refused(Stage& stage) {
 }
 
 // The format of the stream is unknown here: checks only that bytes arrive.
-void a_stream_is_where_it_is_said_to_be(Stage& stage) {
+void a_stream_is_where_its_url_says(Stage& stage) {
     Broadcast broadcast{stage};
     if (!broadcast.address.starts_with("http://")) throw NotPlayed{"the stream is at " + broadcast.address + ", not at http://"};
     kit::Receiving receiving{broadcast.address};
@@ -117,7 +117,7 @@ Clause stream_clause() {
              {"a_stream_is_suspended_until_it_is_resumed", "2.0, 8.2.2.5", a_stream_is_suspended_until_it_is_resumed},
              {"a_stream_ends_with_the_binding", "decision 6", a_stream_ends_with_the_binding},
              {"a_stream_that_there_is_not_is_refused", "decisions 10, 18", a_stream_that_there_is_not_is_refused},
-             {"a_stream_is_where_it_is_said_to_be", "2.0, 8.2.2.5", a_stream_is_where_it_is_said_to_be, Way::http}}};
+             {"a_stream_is_where_its_url_says", "2.0, 8.2.2.5", a_stream_is_where_its_url_says, Way::http}}};
 }
 
 }  // namespace rois::conformance

@@ -127,7 +127,7 @@ void schemas_are_served(Stage& stage) {
     }
 }
 
-void health_is_told(Stage& stage) {
+void health_is_reported(Stage& stage) {
     HttpClient client{stage.address()};
     for (auto const* const path : {"/healthz", "/readyz"}) {
         auto const reply = client.get(path);
@@ -183,7 +183,7 @@ Clause wire_clause() {
          {"a_transfer_encoding_is_refused", "docs/clients.md", a_transfer_encoding_is_refused, http},
          {"broken_http_is_refused", "docs/clients.md", broken_http_is_refused, http},
          {"schemas_are_served", "docs/clients.md", schemas_are_served, http},
-         {"health_is_told", "docs/clients.md", health_is_told, http}}};
+         {"health_is_reported", "docs/clients.md", health_is_reported, http}}};
 }
 
 }  // namespace rois::conformance

@@ -24,7 +24,7 @@ protected:
     void close(LinkKind link = LinkKind::websocket, Closing how = Closing::lost) {
         world.engine->link_closed(desk.session, link, how, world.now);
     }
-    void pong() { world.engine->heard_pong(desk.session, world.now); }
+    void pong() { world.engine->note_pong(desk.session, world.now); }
     bool is_asked() const { return world.engine->notifications(desk.session)->wants_signs_of_life(world.now.steady); }
 
     World world{moving(navigation), speech};

@@ -114,7 +114,7 @@ TEST(Frames, AddTheUncertaintyOfTheirPlacement) {
 
 // The inverse: x' = y, y' = -x. If the map turns to the left, the point moves to the right, as seen from the map: -52.35988 mm a
 // degree along its y axis, and -1 degree. var x' = 100 + 100; var y' = 400 + 100 + 10966.227; cov(y', yaw') = +209.440.
-TEST(Frames, AddItOnTheWayBackToo) {
+TEST(Frames, AddThatUncertaintyInBothDirections) {
     Frames const frames{"hall", {uncertain_map()}};
     auto const there = changed(frames, entity("hall", {1'000, 5'000, 0}, {0, 0, 120}, {400, 0, 0, 0, 100, 0, 0, 0, 9}), "map");
     EXPECT_THAT(there.position, ElementsAre(3'000, 0, 0));

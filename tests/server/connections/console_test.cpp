@@ -32,7 +32,7 @@ struct Console : testing::Test {
     HttpClient client;
 };
 
-TEST_F(Console, IsThePage) {
+TEST_F(Console, IsServedAtTheRoot) {
     auto const page = client.get("/");
     EXPECT_EQ(page.status, 200);
     EXPECT_EQ(page.header("Content-Type"), "text/html; charset=utf-8");
@@ -70,7 +70,7 @@ TEST_F(Console, LoadsAssetsThatMayBeCachedForEver) {
     }
 }
 
-TEST_F(Console, HasNothingElse) {
+TEST_F(Console, AnswersOtherPathsWithNotFound) {
     for (auto const* path :
          {"/assets/", "/assets/nothing.js", "/assets/../index.html", "/assets/%2e%2e/index.html", "/index.html"}) {
         auto const reply = client.get(path);

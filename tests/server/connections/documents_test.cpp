@@ -146,7 +146,7 @@ TEST(Metrics, CountFullyCheckedDocuments) {
     EXPECT_THAT(reply.body, HasSubstr("rois_documents_checked_total{validation=\"full\"} 3\n"));
 }
 
-TEST(Metrics, CountWhatHappens) {
+TEST(Metrics, CountRequestsFaultsAndConnections) {
     GatewayProcess gateway;
     HttpClient client{gateway};
     bind_and_complete(client, 3);

@@ -105,7 +105,7 @@ struct TheLog : testing::Test {
 
 }  // namespace
 
-TEST_F(TheLog, WritesLines) {
+TEST_F(TheLog, HasALineForEachStep) {
     LogQueue log{pipe.to_write};
     plainly(log);
     say(log, "one");

@@ -1,0 +1,263 @@
+#include "remote/programs.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+namespace rois::remote {
+
+namespace {
+
+namespace asio = boost::asio;
+using boost::system::error_code;
+using namespace std::chrono_literals;
+using Descriptor = asio::posix::stream_descriptor;
+
+constexpr std::chrono::seconds shortest_pause = 1s, longest_pause = 60s;
+constexpr auto immediately = 5s;  // a program that runs for less ends immediately
+constexpr int most_immediate_ends = 5;
+constexpr auto time_to_end = 2s;
+constexpr std::size_t longest_line = 4'096;
+
+// The arguments or the environment of a program, as execve wants them.
+class Words {
+public:
+    explicit Words(std::vector<std::string> words) : words_{std::move(words)} {
+        for (auto& word : words_) pointers_.push_back(word.data());
+        pointers_.push_back(nullptr);
+    }
+    char* const* data() const { return pointers_.data(); }
+
+private:
+    std::vector<std::string> words_;
+    std::vector<char*> pointers_;
+};
+
+Words environment(Programs::Wanted const& wanted) {
+    std::vector<std::string> all{"ROIS_URL=" + wanted.url, "ROIS_NAME=" + wanted.joins};
+    for (auto* each = ::environ; *each != nullptr; ++each) {
+        std::string_view const text{*each};
+        if (!text.starts_with("ROIS_URL=") && !text.starts_with("ROIS_NAME=")) all.emplace_back(text);
+    }
+    return Words{std::move(all)};
+}
+
+// Becomes the program. Other threads existed before the fork, so only functions are called that need no lock of them.
+[[noreturn]] void become(char const* folder, char* const* command, char* const* environment, int output, pid_t gateway) {
+    ::setpgid(0, 0);                     // what it starts itself ends with it
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // when the gateway ends, also by SIGKILL
+    if (::getppid() != gateway) ::_exit(1);
+    ::signal(SIGPIPE, SIG_DFL);
+    ::dup2(::open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
+    ::dup2(output, STDOUT_FILENO);
+    ::dup2(output, STDERR_FILENO);
+    ::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);  // the sockets of the gateway
+    if (::chdir(folder) == 0) ::execvpe(command[0], command, environment);
+    auto const* const problem = ::strerrordesc_np(errno);
+    for (auto const* text : {"it cannot be run: ", problem, "\n"})
+        if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) break;
+    ::_exit(127);
+}
+
+std::string how_it_ended(int status) {
+    return WIFSIGNALED(status) ? "by signal " + std::to_string(WTERMSIG(status))
+                               : "with exit code " + std::to_string(WEXITSTATUS(status));
+}
+
+// Used on the thread of the programs.
+class Program : public std::enable_shared_from_this<Program> {
+public:
+    Program(asio::io_context& io, std::string name, std::shared_ptr<Programs::Listener const> listener)
+        : name_{std::move(name)}, listener_{std::move(listener)}, output_{io}, end_{io}, timer_{io} {}
+
+    // Without a value: ends the program.
+    void set(std::optional<Programs::Wanted> wanted) {
+        if (wanted == wanted_ && immediate_ends_ < most_immediate_ends) return;
+        wanted_ = std::move(wanted);
+        immediate_ends_ = 0;
+        pause_ = shortest_pause;
+        is_replaced_ = true;
+        if (pid_ != 0)
+            end();
+        else
+            start_after(0s);
+    }
+
+private:
+    void start_after(std::chrono::seconds pause) {
+        timer_.expires_after(pause);
+        timer_.async_wait([self = shared_from_this()](error_code error) {
+            if (!error && self->wanted_ && self->pid_ == 0) self->start();
+        });
+    }
+
+    void start() {
+        begun_ = std::chrono::steady_clock::now();
+        is_replaced_ = false;
+        try {
+            launch();
+        } catch (std::system_error const& problem) {
+            return start_again(std::string{"its program cannot be started: "} + problem.what());
+        }
+        read();
+        end_.async_wait(Descriptor::wait_read, [self = shared_from_this()](error_code) { self->ended(); });
+    }
+
+    void launch() {
+        std::array<int, 2> pipe{};
+        if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw std::system_error{errno, std::system_category(), "pipe"};
+        output_.assign(pipe[0]);
+        Words const command{wanted_->command}, variables{environment(*wanted_)};
+        auto const gateway = ::getpid();
+        auto const pid = ::fork();
+        if (pid == 0) become(wanted_->folder.c_str(), command.data(), variables.data(), pipe[1], gateway);
+        ::close(pipe[1]);
+        auto const end = pid < 0 ? -1L : ::syscall(SYS_pidfd_open, pid, 0);
+        if (end < 0) {
+            std::system_error const problem{errno, std::system_category(), "a new process"};
+            output_.close();
+            if (pid > 0) kill_and_wait(pid);
+            throw problem;
+        }
+        pid_ = pid;
+        ::setpgid(pid_, pid_);  // as the program does: from now on its group can be ended
+        end_.assign(static_cast<int>(end));
+        output_.non_blocking(true);
+    }
+
+    void read() {
+        output_.async_read_some(asio::buffer(piece_), [self = shared_from_this()](error_code error, std::size_t size) {
+            if (error) return;
+            self->said(size);
+            self->read();
+        });
+    }
+
+    void said(std::size_t size) {
+        line_.append(piece_.data(), size);
+        for (auto end = line_.find('\n'); end != line_.npos || line_.size() > longest_line; end = line_.find('\n')) {
+            auto const length = std::min(end, longest_line);
+            listener_->says(name_, line_.substr(0, length));
+            line_.erase(0, end == length ? length + 1 : length);
+        }
+    }
+
+    void end() {
+        ::kill(-pid_, SIGTERM);
+        timer_.expires_after(time_to_end);
+        timer_.async_wait([self = shared_from_this(), pid = pid_](error_code error) {
+            if (!error && self->pid_ == pid) ::kill(-pid, SIGKILL);
+        });
+    }
+
+    void ended() {
+        // What it has written last, at most what a pipe holds: what it has started may still write.
+        error_code error;
+        for (std::size_t all = 0, size = 0; all < 64 * 1024 && !error; all += size) {
+            size = output_.read_some(asio::buffer(piece_), error);
+            if (!error) said(size);
+        }
+        if (!line_.empty()) listener_->says(name_, std::exchange(line_, {}));
+        output_.close(error);
+        end_.close(error);
+        timer_.cancel();
+        auto const status = kill_and_wait(std::exchange(pid_, 0));
+        if (is_replaced_ && wanted_)
+            start();
+        else if (wanted_)
+            start_again("its program ended " + how_it_ended(status));
+    }
+
+    // Ends also what the program has started. Returns how the program ended.
+    static int kill_and_wait(pid_t pid) {
+        ::kill(-pid, SIGKILL);
+        ::kill(pid, SIGKILL);
+        int status = 0;
+        ::waitpid(pid, &status, 0);
+        return status;
+    }
+
+    void start_again(std::string const& what) {
+        auto const ran = std::chrono::steady_clock::now() - begun_;
+        immediate_ends_ = ran < immediately ? immediate_ends_ + 1 : 0;
+        if (ran > longest_pause) pause_ = shortest_pause;
+        if (immediate_ends_ == most_immediate_ends)
+            return listener_->happens(name_, what + ", for the fifth time within 5 s of its start: it is not started again");
+        auto const pause = std::exchange(pause_, std::min(2 * pause_, longest_pause));
+        listener_->happens(name_, what + ": it is started again in " + std::to_string(pause.count()) + " s");
+        start_after(pause);
+    }
+
+    std::string const name_;
+    std::shared_ptr<Programs::Listener const> const listener_;
+    std::optional<Programs::Wanted> wanted_;  // nothing: it ends, or has ended
+    Descriptor output_;
+    Descriptor end_;  // readable when the program has ended
+    asio::steady_timer timer_;
+    std::array<char, 4'096> piece_{};
+    std::string line_;  // that has not ended yet
+    pid_t pid_ = 0;     // 0: it does not run
+    bool is_replaced_ = false;
+    std::chrono::steady_clock::time_point begun_;
+    std::chrono::seconds pause_ = shortest_pause;
+    int immediate_ends_ = 0;
+};
+
+}  // namespace
+
+class Programs::All {
+public:
+    explicit All(Listener listener) : listener_{std::make_shared<Listener const>(std::move(listener))} {}
+
+    void set(std::vector<Wanted> wanted) {
+        asio::post(io_, [this, wanted = std::move(wanted)] {
+            for (auto const& [name, program] : programs_)
+                if (std::ranges::find(wanted, name, &Wanted::name) == wanted.end()) program->set({});
+            for (auto const& each : wanted) {
+                auto& program = programs_[each.name];
+                if (!program) program = std::make_shared<Program>(io_, each.name, listener_);
+                program->set(each);
+            }
+        });
+    }
+
+    void end() {
+        set({});
+        asio::post(io_, [this] { work_.reset(); });
+        thread_.join();
+    }
+
+private:
+    std::shared_ptr<Listener const> const listener_;
+    asio::io_context io_{1};
+    asio::executor_work_guard<asio::io_context::executor_type> work_{io_.get_executor()};
+    std::map<std::string, std::shared_ptr<Program>> programs_;  // by the names of their sub engines
+    std::thread thread_{[this] { io_.run(); }};                 // programs end with it
+};
+
+Programs::Programs(Listener listener) : all_{std::make_unique<All>(std::move(listener))} {}
+
+Programs::~Programs() { all_->end(); }
+
+void Programs::set(std::vector<Wanted> wanted) { all_->set(std::move(wanted)); }
+
+}  // namespace rois::remote

@@ -1,0 +1,43 @@
+// The component programs that this gateway starts for sub engines that join (the key `command` of the engines file).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace rois::remote {
+
+// Starts each program again when it has ended, and ends all of them with this process. Thread-safe.
+class Programs {
+public:
+    struct Wanted {
+        std::string name;                  // of the sub engine
+        std::vector<std::string> command;  // the program, and its arguments
+        std::string folder;                // in which it runs
+        std::string url;                   // of the gateway that it joins: its variable ROIS_URL
+        std::string joins;                 // the name by which it joins: its variable ROIS_NAME
+
+        bool operator==(Wanted const&) const = default;
+    };
+    // Called on the thread of the programs. Lines of a program's output, and what happens to it.
+    struct Listener {
+        std::function<void(std::string const& name, std::string const& line)> says;
+        std::function<void(std::string const& name, std::string const& what)> happens;
+    };
+
+    explicit Programs(Listener);
+    // Ends all programs: with SIGTERM, and with SIGKILL after two seconds. Waits for that.
+    ~Programs();
+    Programs(Programs const&) = delete;
+    Programs& operator=(Programs const&) = delete;
+
+    // Sets the programs. Those with the same settings as before go on. One that was given up is started again.
+    void set(std::vector<Wanted>);
+
+private:
+    class All;
+    std::unique_ptr<All> all_;
+};
+
+}  // namespace rois::remote
