@@ -135,6 +135,7 @@ void profile(Context&);
 void search(Context&);
 void query(Context&);
 void get(Context&);
+void engines(Options const&, Printer&);
 void health(Options const&, Printer&);
 void stop_all(Options const&, Printer&);
 void clear(Options const&, Printer&);

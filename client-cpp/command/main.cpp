@@ -34,6 +34,7 @@ std::map<std::string_view, std::function<void(Context&)>> const& commands() {
         {"record", record},
         {"replay", replay},
         {"scenario", scenario},
+        {"engines", [](Context& context) { engines(context.options(), context.printer()); }},
         {"health", [](Context& context) { health(context.options(), context.printer()); }},
         {"stop-all", [](Context& context) { stop_all(context.options(), context.printer()); }},
         {"clear", [](Context& context) { clear(context.options(), context.printer()); }},

@@ -158,6 +158,7 @@ private:
         auto& get = command("get", "show the parameters of a component; needs no binding");
         ref(get);
         words(get, "NAME", "parameters; default: all");
+        command("engines", "list the sub engines: state, link, round trip, components, last error");
         command("health", "check whether the engine is ready; exit code 0 or 1");
         command("stop-all", "halt all robots of all sessions; no command starts until clear");
         command("clear", "allow commands again after stop-all");
@@ -304,7 +305,8 @@ bool has(CLI::App const& app, std::string const& command, std::string const& opt
 }
 
 bool needs_no_session(Options const& options) {
-    return options.command == "health" || options.command == "stop-all" || options.command == "clear";
+    return options.command == "engines" || options.command == "health" || options.command == "stop-all" ||
+           options.command == "clear";
 }
 
 bool has_own_session(Options const& options) {
@@ -341,7 +343,7 @@ std::string url_of_held_session(Options const& options) {
 void check_without_session(CLI::App const& app, Options const& options) {
     if (!needs_no_session(options)) return;
     std::vector<std::string> without_effect{"--session", "--http", "--record"};
-    if (options.command == "health")
+    if (options.command == "engines" || options.command == "health")
         without_effect.emplace_back("--session-file");  // stop-all and clear find the gateway with it
     for (auto const& name : without_effect)
         if (app.get_option(name)->count() > 0)

@@ -32,10 +32,7 @@ using boost::system::error_code;
 using namespace std::chrono_literals;
 using Descriptor = asio::posix::stream_descriptor;
 
-constexpr std::chrono::seconds shortest_pause = 1s, longest_pause = 60s;
-constexpr auto immediately = 5s;  // a program that runs for less ends immediately
 constexpr int most_immediate_ends = 5;
-constexpr auto time_to_end = 2s;
 constexpr std::size_t longest_line = 4'096;
 
 // The arguments or the environment of a program, as execve wants them.
@@ -52,11 +49,12 @@ private:
     std::vector<char*> pointers_;
 };
 
+// Without the settings of this gateway: the program may be a gateway, too.
 Words environment(Programs::Wanted const& wanted) {
     std::vector<std::string> all{"ROIS_URL=" + wanted.url, "ROIS_NAME=" + wanted.joins};
     for (auto* each = ::environ; *each != nullptr; ++each) {
         std::string_view const text{*each};
-        if (!text.starts_with("ROIS_URL=") && !text.starts_with("ROIS_NAME=")) all.emplace_back(text);
+        if (!text.starts_with("ROIS_")) all.emplace_back(text);
     }
     return Words{std::move(all)};
 }
@@ -78,6 +76,10 @@ Words environment(Programs::Wanted const& wanted) {
     ::_exit(127);
 }
 
+std::string seconds(std::chrono::milliseconds time) {
+    return std::to_string(std::chrono::duration_cast<std::chrono::seconds>(time).count()) + " s";
+}
+
 std::string how_it_ended(int status) {
     return WIFSIGNALED(status) ? "by signal " + std::to_string(WTERMSIG(status))
                                : "with exit code " + std::to_string(WEXITSTATUS(status));
@@ -86,15 +88,15 @@ std::string how_it_ended(int status) {
 // Used on the thread of the programs.
 class Program : public std::enable_shared_from_this<Program> {
 public:
-    Program(asio::io_context& io, std::string name, std::shared_ptr<Programs::Listener const> listener)
-        : name_{std::move(name)}, listener_{std::move(listener)}, output_{io}, end_{io}, timer_{io} {}
+    Program(asio::io_context& io, std::string name, std::shared_ptr<Programs::Listener const> listener, Programs::Times times)
+        : name_{std::move(name)}, listener_{std::move(listener)}, times_{times}, output_{io}, end_{io}, timer_{io} {}
 
     // Without a value: ends the program.
     void set(std::optional<Programs::Wanted> wanted) {
         if (wanted == wanted_ && immediate_ends_ < most_immediate_ends) return;
         wanted_ = std::move(wanted);
         immediate_ends_ = 0;
-        pause_ = shortest_pause;
+        pause_ = times_.shortest_pause;
         is_replaced_ = true;
         if (pid_ != 0)
             end();
@@ -103,7 +105,7 @@ public:
     }
 
 private:
-    void start_after(std::chrono::seconds pause) {
+    void start_after(std::chrono::milliseconds pause) {
         timer_.expires_after(pause);
         timer_.async_wait([self = shared_from_this()](error_code error) {
             if (!error && self->wanted_ && self->pid_ == 0) self->start();
@@ -163,14 +165,14 @@ private:
 
     void end() {
         ::kill(-pid_, SIGTERM);
-        timer_.expires_after(time_to_end);
+        timer_.expires_after(times_.to_end);
         timer_.async_wait([self = shared_from_this(), pid = pid_](error_code error) {
             if (!error && self->pid_ == pid) ::kill(-pid, SIGKILL);
         });
     }
 
     void ended() {
-        // What it has written last, at most what a pipe holds: what it has started may still write.
+        // Its last output, at most as much as a pipe holds: programs that it has started may still write.
         error_code error;
         for (std::size_t all = 0, size = 0; all < 64 * 1024 && !error; all += size) {
             size = output_.read_some(asio::buffer(piece_), error);
@@ -198,17 +200,18 @@ private:
 
     void start_again(std::string const& what) {
         auto const ran = std::chrono::steady_clock::now() - begun_;
-        immediate_ends_ = ran < immediately ? immediate_ends_ + 1 : 0;
-        if (ran > longest_pause) pause_ = shortest_pause;
+        immediate_ends_ = ran < times_.immediately ? immediate_ends_ + 1 : 0;
+        if (ran > times_.longest_pause) pause_ = times_.shortest_pause;
         if (immediate_ends_ == most_immediate_ends)
-            return listener_->happens(name_, what + ", for the fifth time within 5 s of its start: it is not started again");
-        auto const pause = std::exchange(pause_, std::min(2 * pause_, longest_pause));
-        listener_->happens(name_, what + ": it is started again in " + std::to_string(pause.count()) + " s");
+            return listener_->happens(name_, what + ", for the fifth time at once after its start: it is not started again");
+        auto const pause = std::exchange(pause_, std::min(2 * pause_, times_.longest_pause));
+        listener_->happens(name_, what + ": it is started again in " + seconds(pause));
         start_after(pause);
     }
 
     std::string const name_;
     std::shared_ptr<Programs::Listener const> const listener_;
+    Programs::Times const times_;
     std::optional<Programs::Wanted> wanted_;  // nothing: it ends, or has ended
     Descriptor output_;
     Descriptor end_;  // readable when the program has ended
@@ -218,7 +221,7 @@ private:
     pid_t pid_ = 0;     // 0: it does not run
     bool is_replaced_ = false;
     std::chrono::steady_clock::time_point begun_;
-    std::chrono::seconds pause_ = shortest_pause;
+    std::chrono::milliseconds pause_ = times_.shortest_pause;
     int immediate_ends_ = 0;
 };
 
@@ -226,7 +229,7 @@ private:
 
 class Programs::All {
 public:
-    explicit All(Listener listener) : listener_{std::make_shared<Listener const>(std::move(listener))} {}
+    All(Listener listener, Times times) : listener_{std::make_shared<Listener const>(std::move(listener))}, times_{times} {}
 
     void set(std::vector<Wanted> wanted) {
         asio::post(io_, [this, wanted = std::move(wanted)] {
@@ -234,7 +237,7 @@ public:
                 if (std::ranges::find(wanted, name, &Wanted::name) == wanted.end()) program->set({});
             for (auto const& each : wanted) {
                 auto& program = programs_[each.name];
-                if (!program) program = std::make_shared<Program>(io_, each.name, listener_);
+                if (!program) program = std::make_shared<Program>(io_, each.name, listener_, times_);
                 program->set(each);
             }
         });
@@ -248,13 +251,14 @@ public:
 
 private:
     std::shared_ptr<Listener const> const listener_;
+    Times const times_;
     asio::io_context io_{1};
     asio::executor_work_guard<asio::io_context::executor_type> work_{io_.get_executor()};
     std::map<std::string, std::shared_ptr<Program>> programs_;  // by the names of their sub engines
     std::thread thread_{[this] { io_.run(); }};                 // programs end with it
 };
 
-Programs::Programs(Listener listener) : all_{std::make_unique<All>(std::move(listener))} {}
+Programs::Programs(Listener listener, Times times) : all_{std::make_unique<All>(std::move(listener), times)} {}
 
 Programs::~Programs() { all_->end(); }
 

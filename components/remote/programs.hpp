@@ -1,6 +1,7 @@
 // The component programs that this gateway starts for sub engines that join (the key `command` of the engines file).
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -26,8 +27,15 @@ public:
         std::function<void(std::string const& name, std::string const& what)> happens;
     };
 
-    explicit Programs(Listener);
-    // Ends all programs: with SIGTERM, and with SIGKILL after two seconds. Waits for that.
+    struct Times {
+        std::chrono::milliseconds shortest_pause{1'000};  // before a program is started again; doubled each time
+        std::chrono::milliseconds longest_pause{60'000};  // a program that has run for longer begins with the shortest again
+        std::chrono::milliseconds immediately{5'000};     // after five ends within this time of the start it is given up
+        std::chrono::milliseconds to_end{2'000};          // from SIGTERM to SIGKILL
+    };
+
+    explicit Programs(Listener, Times = {});
+    // Ends all programs: with SIGTERM, and later with SIGKILL. Waits for that.
     ~Programs();
     Programs(Programs const&) = delete;
     Programs& operator=(Programs const&) = delete;

@@ -46,13 +46,6 @@ namespace {
 
 enum Exit : int { done = 0, could_not_start = 1, profile_refused = 1, bad_configuration = 2, not_halted = 71 };
 
-std::vector<ComponentProfile> read_profiles(std::shared_ptr<xml::Schemas const> const& schemas) {
-    std::vector<ComponentProfile> profiles;
-    for (auto const& [name, text] : files::profiles())
-        profiles.push_back(xml::read_component_profile(schemas, name, std::string{text}));
-    return profiles;
-}
-
 // Returns the text of the file, or of the built-in file if the name is empty.
 std::string chosen(std::string const& file, std::string_view built_in) {
     return file.empty() ? std::string{files::simulation().at(std::string{built_in})} : text_of_file(file);
@@ -207,7 +200,7 @@ void read_again(UserComponents& components, Gateway& gateway) {
 int serve(CommandLine const& command) {
     auto const& settings = command.settings;
     auto const schemas = std::make_shared<xml::Schemas const>(files::schemas());
-    auto const profiles = read_profiles(schemas);
+    auto const profiles = xml::read_component_profiles(schemas, files::profiles());
     auto const simulation = make_simulation(schemas, settings, profiles);
     auto const sub_engines = settings.engines.empty() ? std::vector<remote::SubEngine>{} : read_engines_file(settings.engines);
     if (command.wish == CommandLine::Wish::check_config) {
@@ -288,7 +281,8 @@ int check_health(GatewaySettings const& settings) {
 
 int check_profiles(std::string const& folder, GatewaySettings const& settings) {
     auto const schemas = std::make_shared<xml::Schemas const>(files::schemas());
-    auto const checked = read_profile_folder(schemas, folder, read_profiles(schemas), streams(settings));
+    auto const checked =
+        read_profile_folder(schemas, folder, xml::read_component_profiles(schemas, files::profiles()), streams(settings));
     std::fputs(report_of(checked).c_str(), stdout);
     bool const refused = std::ranges::find(checked, ProfileFile::Verdict::refused, &ProfileFile::verdict) != checked.end();
     return refused ? profile_refused : done;

@@ -1,4 +1,6 @@
-// The socket of a connection, with its unread input. Belongs to one thread.
+// The socket of a connection, with its unread input. Belongs to one thread. All input and output of a connection goes through it:
+// for TLS, an ssl::stream takes the place of the socket in `receive`, `send_now` and `send`; `watch` and `probe` use the socket
+// below it; `release` is only for connections without TLS.
 #pragma once
 
 #include <functional>

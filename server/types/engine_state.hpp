@@ -1,4 +1,4 @@
-// What a gateway knows of a sub engine (docs/engines.md): `GET /rois/engines`, and the metrics.
+// The state of a sub engine, for `GET /rois/engines` and the metrics (docs/engines.md).
 #pragma once
 
 #include <chrono>

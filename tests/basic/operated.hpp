@@ -281,10 +281,7 @@ inline std::shared_ptr<xml::Schemas const> schemas() {
 
 // The profiles of the basic components.
 inline std::vector<ComponentProfile> own_profiles() {
-    std::vector<ComponentProfile> profiles;
-    for (auto const& [name, text] : files::profiles())
-        profiles.push_back(xml::read_component_profile(schemas(), name, std::string{text}));
-    return profiles;
+    return xml::read_component_profiles(schemas(), files::profiles());
 }
 
 // An example of a user-defined component (components/simulation/profiles).

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "command/rois_fixture.hpp"
+#include "kit/profile_folder.hpp"
 
 namespace rois::test {
 namespace {
@@ -443,6 +444,23 @@ TEST_F(Rois, HasItsCommandsAndOptionsInTheManualAndTheCompletion) {
         EXPECT_THAT(manual, HasSubstr(word)) << "rois.1";
         EXPECT_THAT(completion, HasSubstr(word)) << "completion/rois";
     }
+}
+
+TEST(RoisEngines, ListsTheSubEngines) {
+    kit::ProfileFolder folder;
+    folder.put("engines.json", R"({"engines": [{"name": "lamps", "joins": "lamp"}]})");
+    GatewayProcess gateway{{"--robots", "none", "--engines", folder.name() + "/engines.json"}};
+    Variables const at{{"ROIS_URL", gateway.url()}};
+    EXPECT_EQ(run_rois({"engines"}, {}, at).out,
+              "name   state   link           round trip  components  last error\n"
+              "lamps  absent  joins as lamp  -           0           -\n");
+    EXPECT_EQ(json::parse(run_rois({"engines", "--json"}, {}, at).out),
+              (json{{"name", "lamps"}, {"state", "absent"}, {"link", "joins as lamp"}, {"components", 0}, {"losses", 0}}));
+    EXPECT_THAT(run_rois({"engines", "--xml"}, {}, at).out, HasSubstr("<engine name=\"lamps\""));
+    EXPECT_EQ(run_rois({"engines", "--session", "x"}, {}, at).exit_code, 2);
+    auto const none = run_rois({"engines"}, {}, {{"ROIS_URL", shared_gateway().url()}});
+    EXPECT_EQ(none.exit_code, 0);
+    EXPECT_EQ(none.out + none.error, "rois: the gateway has no sub engines\n");
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "main/settings.hpp"
 #include "main/temporary_file.hpp"
 
@@ -55,6 +57,15 @@ TEST(EnginesFile, ListsSubEngines) {
     EXPECT_THAT(read(R"({"engines": []})"), testing::IsEmpty());
 }
 
+TEST(EnginesFile, MayNameAProgramThatJoins) {
+    auto const engines = read(R"({"engines": [{"name": "lamps", "command": ["sh", "-c", "lamp"]},
+                                              {"name": "other", "joins": "o", "command": ["sh"]}]})");
+    EXPECT_THAT(engines.at(0).command, ElementsAre("sh", "-c", "lamp"));
+    EXPECT_EQ(engines.at(0).joins, "lamps");
+    EXPECT_TRUE(std::filesystem::is_directory(engines.at(0).folder));
+    EXPECT_EQ(engines.at(1).joins, "o");
+}
+
 TEST(EnginesFile, NamesThePlaceOfEachMistake) {
     EXPECT_EQ(complaint(""), "1:1: this is not JSON: unexpected end of input; expected '[', '{', or a literal");
     EXPECT_EQ(complaint("{}"), R"(1:1: expected "engines": [ ... ], a list of sub engines)");
@@ -73,8 +84,17 @@ TEST(EnginesFile, NamesThePlaceOfEachMistake) {
     auto const with = [&](std::string const& property) { return complaint(good + property + "}]}"); };
     EXPECT_EQ(
         with(R"("colour": 1)"),
-        "4:2: sub engine 'b': 'colour' is not a key of a sub engine: expected one of name, url, joins, components, position, "
-        "orientation, covariance, window, resume_window, motion_lease, most_components");
+        "4:2: sub engine 'b': 'colour' is not a key of a sub engine: expected one of name, url, joins, command, components, "
+        "position, orientation, covariance, window, resume_window, motion_lease, most_components");
+    EXPECT_EQ(
+        with(R"("command": "lamp")"),
+        R"(4:2: sub engine 'b': command must be a program and its arguments, such as ["python3", "lamp.py"], not '"lamp"')");
+    EXPECT_EQ(
+        with(R"("command": ["sh", ""])"),
+        R"(4:2: sub engine 'b': command must be a program and its arguments, such as ["python3", "lamp.py"], not '["sh",""]')");
+    EXPECT_EQ(with(R"("command": ["no-such-program"])"), "4:2: sub engine 'b': there is no program 'no-such-program'");
+    EXPECT_EQ(with(R"("command": ["./engines.json"])"), "4:2: sub engine 'b': there is no program './engines.json'");
+    EXPECT_EQ(with(R"("command": ["sh"])"), "4:2: sub engine 'b': a program that is started here joins: expected no 'url'");
     EXPECT_EQ(with(R"("window": 0)"), "4:2: sub engine 'b': window must be a number of seconds from 1.0 to 60.0, not '0'");
     EXPECT_EQ(
         with(R"("components": [])"),

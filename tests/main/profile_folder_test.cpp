@@ -34,12 +34,7 @@ std::shared_ptr<xml::Schemas const> const& schemas() {
 }
 
 std::vector<ComponentProfile> const& built_in() {
-    static auto const all = [] {
-        std::vector<ComponentProfile> profiles;
-        for (auto const& [name, text] : files::profiles())
-            profiles.push_back(xml::read_component_profile(schemas(), name, std::string{text}));
-        return profiles;
-    }();
+    static auto const all = xml::read_component_profiles(schemas(), files::profiles());
     return all;
 }
 

@@ -85,6 +85,31 @@ TEST_F(SubEngines, ReportErrors) {
     EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("USER_DEFINED_ERROR hall.navigation")));
 }
 
+TEST_F(SubEngines, ShowTheirState) {
+    using enum EngineState::Is;
+    engines.advance(2s);
+    EXPECT_EQ(engines.shown.is, present);
+    EXPECT_EQ(engines.shown.components, 3U);
+    EXPECT_EQ(engines.shown.link, "ws://hall");
+    EXPECT_TRUE(engines.shown.round_trip);
+    EXPECT_EQ(engines.shown.last_error, "");
+    engines.cut();
+    engines.advance(100ms);
+    EXPECT_EQ(engines.shown.is, lost);
+    EXPECT_FALSE(engines.shown.round_trip);
+    EXPECT_EQ(engines.shown.losses, 1U);
+    engines.advance(3s);
+    EXPECT_EQ(engines.shown.is, given_up);
+    EXPECT_THAT(engines.shown.last_error, HasSubstr("3000 ms (window)"));
+    engines.advance(30s);
+    EXPECT_EQ(engines.shown.is, absent);
+    EXPECT_EQ(engines.shown.components, 0U);
+    engines.repair();
+    engines.advance(31s);
+    EXPECT_EQ(engines.shown.is, present);
+    EXPECT_EQ(engines.shown.losses, 1U);
+}
+
 TEST_F(SubEngines, LoseNothingIfTheLinkReturnsWithinTheWindow) {
     engines.bind(desk, "hall.navigation");
     engines.execute(desk, go("go", "hall.navigation"));
@@ -114,6 +139,30 @@ TEST_F(SubEngines, AreGivenUpAfterTheWindow) {
     EXPECT_EQ(engines.execute(desk, go("later", "hall.navigation")).return_code, ReturnCode::ok) << "it is still bound";
     auto guard = engines.hall.connect();
     EXPECT_EQ(guard.bind("navigation"), ReturnCode::out_of_resources);
+}
+
+// The link breaks again after each number of documents of connect, resume, get_profile and bind.
+TEST(SubEnginesThatReturn, MayLoseTheirLinkAfterEachDocument) {
+    for (auto const missing : {500ms, 4000ms}) {
+        for (int documents = 0; documents < 30; ++documents) {
+            TwoEngines engines{{navigation, speech}};
+            auto desk = engines.main.connect();
+            engines.bind(desk, "hall.navigation");
+            engines.execute(desk, go("go", "hall.navigation"));
+            engines.cut();
+            engines.advance(missing);
+            engines.cut_after(documents);
+            engines.repair();
+            engines.advance(8s);
+            engines.repair();
+            engines.advance(40s);
+            EXPECT_EQ(desk.status_of("hall.navigation"), "READY") << documents << " documents after " << missing.count() << " ms";
+            engines.hall["navigation"].finishes();
+            engines.advance(1s);
+            EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("completed go ")).Times(1)) << documents;
+            EXPECT_EQ(engines.execute(desk, go("again", "hall.navigation")).return_code, ReturnCode::ok) << documents;
+        }
+    }
 }
 
 TEST_F(SubEngines, LeaveAfterTheResumeWindow) {

@@ -197,10 +197,22 @@ void TwoEngines::settle() {
     auto const work = [](World& world) { world.engine->and_work([] {}, world.now); };
     bool goes_on = true;
     while (goes_on) {
-        goes_on = around_->run() || (wire_ && !wire_->is_dead() && wire_->deliver());
+        goes_on = around_->run() || deliver();
         work(main);
         work(hall);
     }
+}
+
+bool TwoEngines::deliver() {
+    if (!wire_ || wire_->is_dead()) return false;
+    if (until_cut_ == 0) {
+        until_cut_.reset();
+        cut();
+        return true;
+    }
+    if (!wire_->deliver()) return false;
+    if (until_cut_) --*until_cut_;
+    return true;
 }
 
 void TwoEngines::advance(std::chrono::milliseconds time) {

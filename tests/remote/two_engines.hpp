@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,8 @@ public:
     void cut();
     void repair() { is_broken_ = false; }
     bool is_cut() const { return is_broken_; }
+    // Breaks the link after this number of further documents.
+    void cut_after(int documents) { until_cut_ = documents; }
     // The hall's answers and notifications are kept back.
     void hold_back(bool yes) { is_held_back_ = yes; }
     // Changes the answers of the hall.
@@ -66,7 +69,7 @@ public:
     std::string instance_of_main = "main's own";
 
     std::vector<std::string> reported;  // lines for the log
-    EngineState shown;                  // what is known of the hall
+    EngineState shown;                  // the last state of the hall
     remote::RemoteEngine& remote() { return *remote_; }
     std::shared_ptr<client::Link> link_for(client::Link::Listener&);
 
@@ -84,6 +87,7 @@ private:
     std::shared_ptr<Wire> wire_;
     bool is_broken_ = false;
     bool is_held_back_ = false;
+    std::optional<int> until_cut_;
     std::vector<std::string> asked_;
 };
 

@@ -53,10 +53,20 @@ play() {
     expect 'OK' "$bin/rois" execute lamps.lamp blink times=1
     expect 'times must be a number from 1 to 100' "$bin/rois" execute lamps.lamp blink times=101
     expect 'is_on=true' timeout 2 "$bin/rois" watch switched --start lamps.lamp
-    # It joins again after the gateway was killed, and ends cleanly.
-    kill -KILL "$gateway"
+    # It goes out and joins again after application and gateway were killed, and ends cleanly.
+    "$bin/rois" watch --start lamps.lamp >"$work/watch.log" 2>&1 &
+    watch=$!
+    running+=("$watch")
+    wait_for 'switched.*is_on=true' "$work/watch.log"
+    kill -KILL "$watch" "$gateway"
     start_gateway "${ROIS_URL##*:}"
     wait_for 'present with' "$work/gateway.log"
+    for _ in $(seq 60); do
+        said=$("$bin/rois" query light)
+        [[ $said == *false* ]] && break
+        sleep 0.1
+    done
+    expect 'false' "$bin/rois" query light
     expect 'OK' "$bin/rois" execute lamps.lamp blink times=1
     kill -TERM "$lamp"
     wait "$lamp" || fail "the lamp ended with $?"

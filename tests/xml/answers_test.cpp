@@ -292,6 +292,32 @@ TEST(StopStateDocument, IsValidAndReadBack) {
         R"(<stop_state xmlns="urn:x-rois:psm:xml:message:1"><stopped>true</stopped><not_halted>navigation</not_halted></stop_state>)");
 }
 
+TEST(EnginesDocument, IsValidAndReadBack) {
+    EngineState const hall{.name = "hall",
+                           .is = EngineState::Is::present,
+                           .link = "ws://127.0.0.1:8081",
+                           .round_trip = std::chrono::microseconds{410},
+                           .components = 15,
+                           .losses = 2,
+                           .last_error = ""};
+    EngineState const lamps{.name = "lamps",
+                            .is = EngineState::Is::given_up,
+                            .link = "joins as lamps",
+                            .round_trip = {},
+                            .components = 1,
+                            .losses = 0,
+                            .last_error = "<&>\"'"};
+    for (auto const& engines : {std::vector<EngineState>{}, {hall}, {hall, lamps}}) {
+        auto const text = encode(engines);
+        EXPECT_EQ(problem("engines", text), "") << text;
+        auto const again = AnswerReader{}.read_engines(text);
+        ASSERT_TRUE(again) << text;
+        EXPECT_EQ(encode(*again), text);
+    }
+    EXPECT_FALSE(AnswerReader{}.read_engines(document("engines", "<engine name=\"a\" state=\"asleep\"/>")));
+    EXPECT_FALSE(AnswerReader{}.read_engines(encode(StopState{true, {}})));
+}
+
 TEST(StopStateDocument, IsNoOtherDocument) {
     AnswerReader reader;
     for (auto const& other :

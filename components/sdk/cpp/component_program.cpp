@@ -29,13 +29,6 @@ std::shared_ptr<xml::Schemas const> const& schemas() {
     return all;
 }
 
-std::vector<ComponentProfile> known_profiles() {
-    std::vector<ComponentProfile> profiles;
-    for (auto const& [name, text] : files::profiles())
-        profiles.push_back(xml::read_component_profile(schemas(), name, std::string{text}));
-    return profiles;
-}
-
 EngineProfile profile_of_program(std::string const& name, std::string const& instance) {
     EngineProfile profile;
     profile.object.identifier = "urn:x-rois:def:HRIEngine:program::" + name;
@@ -52,7 +45,11 @@ EngineProfile profile_of_program(std::string const& name, std::string const& ins
 bool serve(std::string const& url, std::string const& name, Components components) {
     Readers readers;
     auto const instance = fresh_secret();
-    Engine engine{profile_of_program(name, instance), known_profiles(), {}, readers, fresh_secret};
+    Engine engine{profile_of_program(name, instance),
+                  xml::read_component_profiles(schemas(), files::profiles()),
+                  {},
+                  readers,
+                  fresh_secret};
     for (auto& component : components) engine.add(std::move(component));
     Telemetry telemetry;
     Gateway gateway{engine, readers, telemetry};
@@ -83,8 +80,8 @@ ComponentDescription describe(std::string ref, std::string const& profile) {
 int serve(int argc, char const* const* argv, std::string name, std::function<Components()> const& make) {
     CLI::App program{"Components of a RoIS engine"};
     std::string url = "ws://127.0.0.1:8080";
-    program.add_option("--url", url, "the gateway to join")->capture_default_str();
-    program.add_option("--name", name, "the name by which the program joins")->capture_default_str();
+    program.add_option("--url", url, "the gateway to join")->envname("ROIS_URL")->capture_default_str();
+    program.add_option("--name", name, "the name by which the program joins")->envname("ROIS_NAME")->capture_default_str();
     CLI11_PARSE(program, argc, argv);
     try {
         return serve(url, name, make()) ? 0 : not_halted;

@@ -483,10 +483,10 @@ async def keep_joined(service, url):
 
 
 def run(url, name, components):
-    """Serves the components until SIGTERM or SIGINT. The arguments --url and --name of the program replace the given ones."""
+    """Serves the components until SIGTERM or SIGINT. --url and --name, or ROIS_URL and ROIS_NAME, replace the given ones."""
     parser = argparse.ArgumentParser(description="Components of a RoIS engine.")
-    parser.add_argument("--url", default=url, help="the gateway to join")
-    parser.add_argument("--name", default=name, help="the name by which the program joins")
+    parser.add_argument("--url", default=os.environ.get("ROIS_URL", url), help="the gateway to join")
+    parser.add_argument("--name", default=os.environ.get("ROIS_NAME", name), help="the name by which the program joins")
     arguments = parser.parse_args()
     logging.basicConfig(level=logging.INFO, format="%(levelname)s %(message)s")
     service = Service(arguments.name, components)

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gateway/access/secrets.hpp"
+#include "gateway/health.hpp"
 #include "gateway/pages.hpp"
 #include "net/http/http_answer.hpp"
 #include "net/http/http_head.hpp"
@@ -12,8 +13,6 @@
 namespace rois::net {
 
 namespace {
-
-constexpr std::chrono::milliseconds longest_tick{500};  // since the last tick of a healthy engine
 
 void secure(HttpAnswer& answer, std::string_view policy) {
     answer.fields.set("Content-Security-Policy", policy);
@@ -33,8 +32,10 @@ HttpAnswer versioned_xml(std::string body, RequestHead const& head) {
     return versioned("application/xml; charset=utf-8", std::move(body), head);
 }
 
-HttpAnswer plain(http::status status, std::string body) {
-    return {.status = status, .body = std::move(body), .content_type = "text/plain; charset=utf-8"};
+HttpAnswer verdict(std::string const& trouble, std::string_view otherwise) {
+    return {.status = trouble.empty() ? http::status::ok : http::status::service_unavailable,
+            .body = trouble.empty() ? std::string{otherwise} : trouble,
+            .content_type = "text/plain; charset=utf-8"};
 }
 
 HttpAnswer not_found(std::string reason) { return answer_of({FaultCode::not_found, std::move(reason), {}, {}}); }
@@ -84,9 +85,10 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const 
         case Endpoint::floor_map:
             return site_.floor_map.empty() ? not_found("this engine has no floor map") : versioned_xml(site_.floor_map, head);
         case Endpoint::healthz:
-            return health();
+            return verdict(why_not_alive(telemetry_), "alive\n");
         case Endpoint::readyz:
-            return readiness();
+            if (gateway_.shutting_down()) return answer_of(shutting_down());
+            return verdict(why_not_ready(gateway_, telemetry_), "ready\n");
         case Endpoint::engines:
             return {.body = xml::encode(site_.engines())};
         case Endpoint::metrics:
@@ -115,23 +117,6 @@ HttpAnswer Documents::schema(std::string const& file, RequestHead const& head) c
     auto const found = schemas_.find(file);
     if (found == schemas_.end()) return not_found("unknown schema " + quoted(file) + "; /rois/schemas lists the schemas");
     return versioned_xml(std::string{found->second}, head);
-}
-
-// Does not use the engine, which may be locked.
-HttpAnswer Documents::health() const {
-    bool const ticks = telemetry_.age_of_last_tick(std::chrono::steady_clock::now()) <= longest_tick;
-    return ticks ? plain(http::status::ok, "alive\n")
-                 : plain(http::status::service_unavailable,
-                         "the engine has not ticked for more than 0.5 s: a component blocks, or the process is overloaded\n");
-}
-
-HttpAnswer Documents::readiness() const {
-    if (gateway_.shutting_down()) return answer_of(shutting_down());
-    if (auto answer = health(); answer.status != http::status::ok) return answer;
-    std::string trouble;
-    if (gateway_.everything_is_stopped()) trouble = "stopped: nothing starts until POST /rois/clear\n";
-    for (auto const& ref : gateway_.not_ready()) trouble += ref + " has not confirmed that it stands still\n";
-    return trouble.empty() ? plain(http::status::ok, "ready\n") : plain(http::status::service_unavailable, trouble);
 }
 
 }  // namespace rois::net

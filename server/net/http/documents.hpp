@@ -38,8 +38,6 @@ private:
     HttpAnswer page(RequestHead const&) const;
     HttpAnswer component_profile(std::string const& ref, RequestHead const&) const;
     HttpAnswer schema(std::string const& file, RequestHead const&) const;
-    HttpAnswer health() const;
-    HttpAnswer readiness() const;
 
     Gateway const& gateway_;
     Telemetry const& telemetry_;

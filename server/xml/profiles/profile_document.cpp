@@ -77,4 +77,10 @@ ComponentProfile read_component_profile(std::shared_ptr<Schemas const> const& sc
     throw BadDocument{at(name, Place{}) + ": this is an engine profile: expected 'HRIComponentProfile'"};
 }
 
+std::vector<ComponentProfile> read_component_profiles(std::shared_ptr<Schemas const> const& schemas, NamedFiles const& files) {
+    std::vector<ComponentProfile> profiles;
+    for (auto const& [name, text] : files) profiles.push_back(read_component_profile(schemas, name, std::string{text}));
+    return profiles;
+}
+
 }  // namespace rois::xml

@@ -27,4 +27,7 @@ ProfileDocument read_profile_document(std::shared_ptr<Schemas const> const&, std
 // Reads a component profile (7.5.4) and accepts no deviation. Throws BadDocument.
 ComponentProfile read_component_profile(std::shared_ptr<Schemas const> const&, std::string const& name, std::string const& text);
 
+// The same for each of these files.
+std::vector<ComponentProfile> read_component_profiles(std::shared_ptr<Schemas const> const&, NamedFiles const&);
+
 }  // namespace rois::xml

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <chrono>
 #include <memory>
+#include <thread>
 
 #include "kit/profile_folder.hpp"
 #include "server/application.hpp"
@@ -61,7 +63,8 @@ TEST(Joining, GivesTheMainEngineItsComponents) {
 TEST(Joining, IsRefusedForAnUnknownName) {
     Main main;
     auto const robot = robot_that_joins(main, "robot2");
-    EXPECT_THAT(robot->log_with("refuses"), HasSubstr("no engine may join as 'robot2'"));
+    EXPECT_THAT(robot->log_with("refuses"),
+                HasSubstr("unknown name 'robot2': expected the \"joins\" of an entry in the engines file"));
 }
 
 TEST(Joining, IsRefusedForANameThatIsInUse) {
@@ -96,6 +99,55 @@ TEST(Joining, AnswersWhatIsNotAJoinWithAFault) {
 TEST(Joining, IsNotAllowedWithoutAnEnginesFile) {
     HttpClient http;
     EXPECT_EQ(kit::shake_hands(http, {}, "/rois/engines").status, 403);
+}
+
+TEST(Engines, AreListedWithTheirStates) {
+    Main main;
+    HttpClient http{main};
+    auto const list = [&] { return http.get("/rois/engines").body; };
+    EXPECT_EQ(list(),
+              R"(<engines xmlns="urn:x-rois:psm:xml:message:1"><engine name="robot1" state="absent" link="joins as robot1")"
+              R"( components="0" losses="0"/></engines>)");
+    auto const robot = robot_that_joins(main);
+    main.gateway().log_with("present with");
+    while (list().find("round_trip") == std::string::npos) {
+    }
+    EXPECT_THAT(list(), HasSubstr(R"(state="present")"));
+    EXPECT_THAT(list(), HasSubstr(R"(components="15")"));
+    auto const metrics = http.get("/metrics").body;
+    EXPECT_THAT(metrics, HasSubstr("rois_engine_present{engine=\"robot1\"} 1\n"));
+    EXPECT_THAT(metrics, HasSubstr("rois_engine_components{engine=\"robot1\"} 15\n"));
+    EXPECT_THAT(metrics, HasSubstr("rois_engine_round_trip_seconds{engine=\"robot1\"} 0.0"));
+    robot->signal(SIGKILL);
+    while (list().find(R"(losses="1")") == std::string::npos) {
+    }
+    EXPECT_THAT(list(), HasSubstr("<last_error>"));
+    EXPECT_EQ(HttpClient{}.get("/rois/engines").body, R"(<engines xmlns="urn:x-rois:psm:xml:message:1"/>)");
+}
+
+// A gateway with a program that says its process id.
+TEST(Programs, EndWithTheGateway) {
+    for (auto const end : {SIGTERM, SIGKILL}) {
+        kit::ProfileFolder folder;
+        folder.put("engines.json", R"({"engines": [{"name": "p", "command": ["sh", "-c", "echo pid $$; exec sleep 600"]}]})");
+        GatewayProcess gateway{{"--robots", "none", "--engines", folder.name() + "/engines.json"}};
+        std::string const mark = "program p: pid ";
+        auto const log = gateway.log_with(mark);
+        auto const pid = std::stoi(log.substr(log.find(mark) + mark.size()));
+        EXPECT_EQ(::kill(pid, 0), 0);
+        gateway.signal(end);
+        gateway.wait();
+        for (int i = 0; i < 2'000 && ::kill(pid, 0) == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds{5});
+        EXPECT_NE(::kill(pid, 0), 0) << "after signal " << end;
+    }
+}
+
+TEST(Programs, LeaveNoSocketOfTheGatewayOpen) {
+    kit::ProfileFolder folder;
+    folder.put("engines.json",
+               R"({"engines": [{"name": "p", "command": ["sh", "-c", "ls -l /proc/$$/fd; echo done; sleep 600"]}]})");
+    GatewayProcess gateway{{"--robots", "none", "--engines", folder.name() + "/engines.json"}};
+    EXPECT_THAT(gateway.log_with("program p: done"), Not(HasSubstr("socket:")));
 }
 
 TEST(Joining, HappensAgainAfterTheRobotHasRestarted) {

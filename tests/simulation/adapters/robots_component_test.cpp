@@ -86,8 +86,7 @@ class Engaged : public testing::Test, private Outbox {
 protected:
     Engaged() {
         auto const schemas = std::make_shared<xml::Schemas const>(files::schemas());
-        for (auto const& [name, text] : files::profiles())
-            profiles_.push_back(xml::read_component_profile(schemas, name, std::string{text}));
+        profiles_ = xml::read_component_profiles(schemas, files::profiles());
         int secrets = 0;
         engine_ = std::make_unique<WorkingEngine>(EngineProfile{}, profiles_, EngineSettings{}, static_cast<Outbox&>(*this),
                                                   [secrets]() mutable { return "secret-" + std::to_string(++secrets); });

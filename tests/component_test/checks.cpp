@@ -1,0 +1,368 @@
+#include "component_test/checks.hpp"
+
+#include <algorithm>
+#include <thread>
+
+#include "conformance/check.hpp"
+#include "types/data_type.hpp"
+#include "types/text/texts.hpp"
+
+namespace rois::component_test {
+
+namespace {
+
+using namespace std::chrono_literals;
+using conformance::NotPlayed;
+
+constexpr auto nobody = "nobody";  // a name that no program has
+
+void require(bool holds, std::string const& otherwise) {
+    if (!holds) Program::complain(otherwise);
+}
+
+void require_ok(Outcome const& outcome, std::string const& what) {
+    require(outcome.return_code == ReturnCode::ok,
+            what + ": expected OK, not " + std::string{to_text(outcome.return_code)} + ": " + outcome.reason);
+}
+
+void require_refusal(Execute::Reply const& reply, std::string const& what) {
+    require(reply.return_code != ReturnCode::ok, what + ": expected a refusal, not OK");
+}
+
+Condition only(std::string const& ref) {
+    return {PropertyComparison{.left = {ValueReference{"component_ref"}}, .right = {Literal{ref}}}};
+}
+
+Identifier identifier(std::string const& ref) {
+    Identifier of;
+    of.code = ref;
+    return of;
+}
+
+Parameter parameter(ParameterProfile const& profile, std::vector<std::string> values) {
+    Parameter made;
+    made.name = profile.name;
+    made.data_type_ref = profile.data_type_ref;
+    made.values = std::move(values);
+    return made;
+}
+
+// A value of this type.
+std::vector<std::string> some_value(ParameterProfile const& profile) {
+    if (profile.default_value) return default_values(profile.data_type_ref, *profile.default_value);
+    switch (DataType::of(profile.data_type_ref).base) {
+        case BaseType::integer:
+        case BaseType::real:
+            return {"1"};
+        case BaseType::boolean:
+            return {"true"};
+        case BaseType::date_time:
+            return {"2026-01-01T00:00:00Z"};
+        case BaseType::date:
+            return {"2026-01-01"};
+        case BaseType::time:
+            return {"00:00:00Z"};
+        default:
+            return {"x"};
+    }
+}
+
+ParameterList arguments_of(MessageProfile const& command) {
+    ParameterList all;
+    for (auto const& each : command.arguments) all.push_back(parameter(each, some_value(each)));
+    return all;
+}
+
+bool is_common(std::string const& command) {
+    return command == "start" || command == "stop" || command == "suspend" || command == "resume";
+}
+
+std::vector<MessageProfile> messages(ComponentEntry const& component, MessageKind kind) {
+    std::vector<MessageProfile> found;
+    std::ranges::copy_if(component.profile->messages, std::back_inserter(found),
+                         [&](auto const& each) { return each.kind == kind; });
+    return found;
+}
+
+// Stops the component. Everything that ran has completed then.
+void stop(Program& program, std::string const& ref) {
+    auto const stopped = program.execute(ref, "stop");
+    require_ok(stopped.reply, "stop");
+    auto const end = program.completed(stopped.id, longest_halt);
+    require(end.status == CompletedStatus::ok,
+            "stop: expected completed with OK, not " + std::string{to_text(end.status)} + ": " + end.reason);
+    require(end.active == false, "stop: expected completed with active=\"false\"");
+}
+
+// Starts the component, if it accepts that.
+std::string start(Program& program, std::string const& ref) {
+    auto const started = program.execute(ref, "start");
+    if (started.reply.return_code != ReturnCode::ok) throw NotPlayed{"it refuses start: " + started.reply.reason};
+    return started.id;
+}
+
+// --- Joining ---
+
+void joins_by_its_name(Program& program) {
+    auto const join = program.await_join();
+    require(join.name == "tested", "join: expected the name in ROIS_NAME, 'tested', not " + quoted(join.name));
+}
+
+void knows_no_session_at_first(Program& program) {
+    auto const answer = program.answer_to(Resume{{"nobody"}, 0});
+    auto const* fault = std::get_if<Fault>(&answer);
+    require(fault != nullptr && fault->code == FaultCode::no_session,
+            "resume of an unknown session: expected the fault no_session");
+}
+
+void opens_a_session(Program& program) {
+    auto const reply = program.connect();
+    require(!reply.session.text.empty(), "connect: expected the id of a session");
+    require(reply.window == window, "connect: expected window=\"" + std::to_string(window.count()) + "\", as requested");
+}
+
+void keeps_its_session(Program& program) {
+    auto const reply = program.ask(Connect{});
+    require(reply.session.text == program.session().text, "a second connect is a sign of life: expected the same session");
+}
+
+void has_a_profile(Program& program) {
+    program.be_ready();
+    auto const& profile = program.profile();
+    auto const* instance = find_parameter(profile.parameters, "instance");
+    require(instance != nullptr && instance->default_value == program.instance(),
+            "get_profile: expected the parameter instance with the value of join");
+    for (auto const& each : program.components()) {
+        require(std::ranges::find(profile.components, each.ref) != profile.components.end(),
+                "get_profile: the component " + quoted(each.ref) + " is not in the profile of the engine");
+        require(each.traits != nullptr, "get_profile: expected `moves` and `when_stopped` of the component " + quoted(each.ref));
+        for (auto const* common : {"start", "stop", "suspend", "resume"})
+            require(find_message(*each.profile, MessageKind::command, common) != nullptr,
+                    "get_profile: the profile of " + quoted(each.ref) + " lacks the command " + common +
+                        ": expected all messages of its components inside");
+    }
+}
+
+void reports_the_state_of_each_component(Program& program) {
+    program.be_ready();
+    program.settle();
+    for (auto const& each : program.components())
+        require(program.reports(each.ref), "expected component_changed of " + quoted(each.ref) + " after connect");
+}
+
+// --- The link ---
+
+void refuses_other_operations(Program& program) {
+    program.be_ready();
+    auto const reply = program.ask(Search{});
+    require(reply.return_code == ReturnCode::unsupported || reply.return_code == ReturnCode::ok,
+            "search: expected UNSUPPORTED, or the components");
+    require_ok(program.ask(Connect{}), "connect after that");
+}
+
+void survives_what_is_no_document(Program& program) {
+    program.be_ready();
+    program.send("<oops");
+    for (auto const until = Clock::now() + 500ms; Clock::now() < until && !program.link_has_ended();)
+        std::this_thread::sleep_for(10ms);
+    if (program.link_has_ended()) return program.be_ready();
+    auto const answer = program.answer_to(Connect{});  // behind a fault, or a close
+    (void)answer;
+}
+
+void joins_again_as_the_same_instance(Program& program) {
+    program.be_ready();
+    auto const before = program.instance();
+    program.cut();
+    program.await_join();
+    require(program.instance() == before, "the same start must join with the same instance");
+    auto const reply = program.ask(Resume{program.session(), program.last_sequence()});
+    require_ok(reply, "resume within the window");
+}
+
+// A command that completes while the link is missing is reported when it is back.
+void keeps_what_it_reports_meanwhile(Program& program) {
+    program.be_ready();
+    auto const ref = program.components().front().ref;
+    auto const id = start(program, ref);
+    program.cut();
+    program.await_join();
+    require_ok(program.ask(Resume{program.session(), program.last_sequence()}), "resume within the window");
+    auto const known = program.ask(GetCommandResult{{id}, {}});
+    require_ok(known, "get_command_result of an accepted command");
+    require(program.ask(GetCommandResult{{nobody}, {}}).return_code == ReturnCode::bad_parameter,
+            "get_command_result of an unknown command: expected BAD_PARAMETER");
+    stop(program, ref);
+    program.completed(id, longest_halt);
+}
+
+void ends_its_session_after_the_window(Program& program) {
+    program.be_ready();
+    auto const session = program.session();
+    program.cut();
+    std::this_thread::sleep_for(window + 2'500ms);
+    program.await_join();
+    auto const answer = program.answer_to(Resume{session, program.last_sequence()});
+    auto const* fault = std::get_if<Fault>(&answer);
+    require(fault != nullptr && fault->code == FaultCode::no_session,
+            "resume " + std::to_string((window + 2'500ms).count()) + " ms after the link: expected the fault no_session");
+    program.connect();
+}
+
+void begins_anew_with_a_restarted_engine(Program& program) {
+    program.be_ready();
+    auto const ref = program.components().front().ref;
+    start(program, ref);
+    auto const session = program.session();
+    program.cut();
+    program.await_join();
+    program.connect();
+    require(program.session().text != session.text, "connect on a new link: expected a new session");
+    program.settle();
+}
+
+// --- The end ---
+
+void ends_on_sigterm(Program& program) {
+    auto const code = program.end();
+    require(code.has_value(), "SIGTERM: it has not ended within " + std::to_string(program.patience().count()) + " ms");
+    require(code == 0, "SIGTERM: expected exit code 0, not " + std::to_string(*code));
+}
+
+}  // namespace
+
+Group joining_checks() {
+    return {"Joining",
+            {{"joins_by_its_name", joins_by_its_name},
+             {"knows_no_session_at_first", knows_no_session_at_first},
+             {"opens_a_session", opens_a_session},
+             {"keeps_its_session", keeps_its_session},
+             {"has_a_profile", has_a_profile},
+             {"reports_the_state_of_each_component", reports_the_state_of_each_component}}};
+}
+
+Group checks_of(ComponentEntry const& component) {
+    auto const ref = component.ref;
+    Group group{"Component " + ref, {}};
+    auto const add = [&](std::string name, std::function<void(Program&)> play) {
+        group.checks.push_back({std::move(name), [play = std::move(play)](Program& program) {
+                                    program.be_ready();
+                                    play(program);
+                                    program.settle();
+                                }});
+    };
+    add("is_bound_and_released", [ref](Program& program) {
+        require_ok(program.ask(Release{identifier(ref)}), "release before bind");
+        require_ok(program.ask(Bind{identifier(ref)}), "bind");
+        require_ok(program.ask(Release{identifier(ref)}), "release");
+        require(program.ask(Bind{identifier(nobody)}).return_code != ReturnCode::ok,
+                "bind of an unknown component: expected a refusal");
+    });
+    for (auto const& event : messages(component, MessageKind::event))
+        add("subscribes_to_" + event.name, [name = event.name](Program& program) {
+            auto const reply = program.ask(Subscribe{.event_type = name, .condition = {}, .inline_results = true});
+            require_ok(reply, "subscribe");
+            require(!reply.subscribe_id.text.empty(), "subscribe: expected a subscribe_id");
+        });
+    for (auto const& query : messages(component, MessageKind::query))
+        add("answers_the_query_" + query.name, [ref, query](Program& program) {
+            Query asked{.query_type = query.name, .condition = {}};
+            asked.condition.filter = only(ref);
+            auto const reply = program.ask(std::move(asked));
+            require_ok(reply, query.name);
+            require(reply.component_ref.code == ref, query.name + ": expected component_ref " + quoted(ref));
+            auto const why = why_not(reply.results, query.results);
+            require(why.empty(), query.name + ": " + why);
+            for (auto const& each : query.results)
+                require(find(reply.results.parameters, each.name) != nullptr,
+                        query.name + ": lacks the result " + quoted(each.name));
+        });
+    add("refuses_an_unknown_command",
+        [ref](Program& program) { require_refusal(program.execute(ref, nobody, {}, true).reply, "an unknown command"); });
+    for (auto const& command : messages(component, MessageKind::command)) {
+        auto const& name = command.name;
+        add("refuses_an_unknown_argument_of_" + name, [ref, command](Program& program) {
+            auto arguments = arguments_of(command);
+            arguments.push_back(parameter({.name = nobody, .data_type_ref = {}, .default_value = {}, .description = {}}, {"1"}));
+            arguments.back().data_type_ref.code = "int";
+            require_refusal(program.execute(ref, command.name, arguments, true).reply, "an argument that is not in the profile");
+        });
+        for (auto const& argument : command.arguments) {
+            auto const type = DataType::of(argument.data_type_ref);
+            if (!rois::why_not(type, std::vector<std::string>{"no value"})) continue;  // any text is one
+            add("refuses_a_wrong_" + argument.name + "_of_" + name, [ref, command, argument](Program& program) {
+                auto arguments = arguments_of(command);
+                for (auto& each : arguments)
+                    if (each.name == argument.name) each.values = {"no value"};
+                require_refusal(program.execute(ref, command.name, arguments, true).reply,
+                                "the value 'no value' of a parameter of type " + argument.data_type_ref.code);
+                require_refusal(program.execute(ref, command.name, arguments).reply, "the same without check_only");
+            });
+        }
+        add("only_checks_" + name, [ref, command](Program& program) {
+            auto const reply = program.execute(ref, command.name, arguments_of(command), true).reply;
+            require(reply.return_code == ReturnCode::ok || reply.return_code == ReturnCode::bad_parameter ||
+                        reply.return_code == ReturnCode::unsupported,
+                    "expected OK, or BAD_PARAMETER with a reason");
+        });
+    }
+    add("completes_start_once", [ref](Program& program) {
+        auto const id = start(program, ref);
+        std::this_thread::sleep_for(300ms);
+        stop(program, ref);
+        program.completed(id, longest_halt);
+    });
+    add("halts_while_it_runs", [ref](Program& program) {
+        auto const id = start(program, ref);
+        stop(program, ref);
+        auto const end = program.completed(id, longest_halt);
+        require(end.status == CompletedStatus::ok || end.status == CompletedStatus::abort,
+                "the end of a start that was stopped: expected OK or ABORT, not " + std::string{to_text(end.status)});
+    });
+    add("stops_without_a_start", [ref](Program& program) {
+        stop(program, ref);
+        stop(program, ref);
+    });
+    add("halts_when_it_is_released", [ref](Program& program) {
+        require_ok(program.ask(Bind{identifier(ref)}), "bind");
+        auto const id = start(program, ref);
+        require_ok(program.ask(Release{identifier(ref)}), "release");
+        program.completed(id, longest_halt);
+    });
+    for (auto const& command : messages(component, MessageKind::command)) {
+        if (is_common(command.name)) continue;
+        add("completes_" + command.name + "_once", [ref, command](Program& program) {
+            auto const run = program.execute(ref, command.name, arguments_of(command));
+            if (run.reply.return_code != ReturnCode::ok)
+                throw NotPlayed{"it refuses the arguments that this program has chosen: " + run.reply.reason};
+            program.completed(run.id, program.patience());
+        });
+        add("halts_" + command.name + "_while_it_runs", [ref, command](Program& program) {
+            auto const run = program.execute(ref, command.name, arguments_of(command));
+            if (run.reply.return_code != ReturnCode::ok)
+                throw NotPlayed{"it refuses the arguments that this program has chosen: " + run.reply.reason};
+            stop(program, ref);
+            program.completed(run.id, longest_halt);
+        });
+    }
+    for (auto const* pause : {"suspend", "resume"})
+        add("answers_" + std::string{pause}, [ref, pause](Program& program) {
+            auto const run = program.execute(ref, pause);
+            if (run.reply.return_code == ReturnCode::ok) program.completed(run.id, longest_halt);
+        });
+    return group;
+}
+
+Group link_checks() {
+    return {"The link",
+            {{"refuses_other_operations", refuses_other_operations},
+             {"survives_what_is_no_document", survives_what_is_no_document},
+             {"joins_again_as_the_same_instance", joins_again_as_the_same_instance},
+             {"keeps_what_it_reports_meanwhile", keeps_what_it_reports_meanwhile},
+             {"ends_its_session_after_the_window", ends_its_session_after_the_window},
+             {"begins_anew_with_a_restarted_engine", begins_anew_with_a_restarted_engine}}};
+}
+
+Group ending_checks() { return {"The end", {{"ends_on_sigterm", ends_on_sigterm}}}; }
+
+}  // namespace rois::component_test

@@ -1,0 +1,47 @@
+// The engine's side of a WebSocket that a component program has opened.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include "kit/socket.hpp"
+
+namespace rois::component_test {
+
+using Clock = std::chrono::steady_clock;
+
+class Link {
+public:
+    // Answers the handshake. Throws Broken if it is none for /rois/engines.
+    explicit Link(int descriptor);
+    ~Link();
+    Link(Link const&) = delete;
+    Link& operator=(Link const&) = delete;
+
+    void send(std::string_view document);
+    // Returns the next text message; nothing if none came until then, or the link has ended.
+    std::optional<std::string> next(Clock::time_point until);
+    bool has_ended() const;
+    // Ends the connection without a close frame.
+    void cut();
+
+private:
+    void read();
+    void take(std::string message);
+
+    kit::Socket socket_;
+    mutable std::mutex mutex_;
+    std::condition_variable news_;
+    std::deque<std::string> messages_;
+    bool ended_ = false;
+    std::thread reader_;
+};
+
+}  // namespace rois::component_test

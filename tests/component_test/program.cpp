@@ -1,0 +1,230 @@
+#include "component_test/program.hpp"
+
+#include <poll.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "conformance/check.hpp"
+#include "files/files.hpp"
+#include "kit/process.hpp"
+#include "types/data_type.hpp"
+#include "types/text/texts.hpp"
+#include "xml/validation/schemas.hpp"
+
+namespace rois::component_test {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+std::shared_ptr<xml::Schemas const> const& schemas() {
+    static auto const all = std::make_shared<xml::Schemas const>(files::schemas());
+    return all;
+}
+
+CommandUnitSequence sequence_of(std::string const& ref, std::string const& command, std::string const& id,
+                                ParameterList const& arguments) {
+    CommandMessage message{.component_ref = {}, .command_type = command, .command_id = {id}, .arguments = arguments};
+    message.component_ref.code = ref;
+    return {{{.delay_time = {}, .unit = std::move(message)}}};
+}
+
+}  // namespace
+
+std::string why_not(Results const& results, std::vector<ParameterProfile> const& known) {
+    for (auto const& each : results.parameters) {
+        auto const* profile = find_parameter(known, each.name);
+        if (profile == nullptr) return "the result " + quoted(each.name) + " is not in the profile";
+        if (auto const problem = rois::why_not(DataType::of(profile->data_type_ref), each.values))
+            return "the result " + quoted(each.name) + ": " + *problem;
+    }
+    return {};
+}
+
+Program::Program(std::vector<std::string> command, std::chrono::milliseconds patience)
+    : patience_{patience},
+      process_{kit::start(command.front(), {command.begin() + 1, command.end()},
+                          {{"ROIS_URL", "ws://127.0.0.1:" + std::to_string(listener_.port())}, {"ROIS_NAME", "tested"}}, {})},
+      validator_{std::make_unique<xml::Validator>(schemas())},
+      joins_{schemas()} {}
+
+Program::~Program() {
+    link_.reset();
+    if (process_ == 0) return;
+    ::kill(process_, SIGKILL);
+    kit::exit_code(process_);
+}
+
+void Program::complain(std::string const& what) { throw conformance::Broken{what}; }
+
+void Program::be_ready() {
+    if (link_has_ended()) {
+        await_join();
+        connect();
+    }
+    auto const reply = ask(GetProfile{});
+    if (reply.return_code != ReturnCode::ok || !reply.profile) complain("get_profile: " + reply.reason);
+    profile_ = reply.profile;
+    components_ = reply.components;
+    if (components_.empty()) complain("get_profile: expected at least one component");
+    for (auto const& each : components_)
+        if (!each.profile) complain("get_profile: the component " + quoted(each.ref) + " has no profile");
+}
+
+xml::Join Program::await_join() {
+    link_.reset();
+    pollfd waiting{listener_.descriptor(), POLLIN, 0};
+    if (::poll(&waiting, 1, static_cast<int>(patience_.count())) <= 0) complain("it did not connect to /rois/engines");
+    link_ = std::make_unique<Link>(listener_.accept().value());
+    auto const document = link_->next(Clock::now() + patience_);
+    if (!document) complain("it did not send join");
+    auto const read = joins_.read(*document);
+    if (auto const* fault = std::get_if<Fault>(&read)) complain("join: " + fault->reason);
+    auto join = std::get<xml::Join>(read);
+    if (join.instance.empty()) complain("join: expected an instance");
+    instance_ = join.instance;
+    xml::JoinResponse response;
+    response.window = window;
+    link_->send(xml::encode(response));
+    return join;
+}
+
+Connect::Reply Program::connect() {
+    last_sequence_ = 0;
+    commands_.clear();
+    completed_.clear();
+    subscribed_.clear();
+    states_.clear();
+    auto reply = ask(Connect{.motion_lease = 1'000ms,
+                             .motion_lease_http = {},
+                             .motion_proof = MotionProof::request,
+                             .is_engine = true,
+                             .window = window});
+    if (reply.return_code != ReturnCode::ok) complain("connect: " + reply.reason);
+    session_ = reply.session;
+    return reply;
+}
+
+void Program::cut() { link_->cut(); }
+
+void Program::send(std::string const& document) {
+    if (!link_) complain("there is no link");
+    link_->send(document);
+}
+
+xml::EngineMessage Program::answer_to(Operation operation) {
+    auto const id = std::to_string(++last_request_);
+    auto const* subscribe = std::get_if<Subscribe>(&operation);
+    if (subscribe != nullptr) subscribed_.insert(subscribe->event_type);
+    send(xml::encode(Request{std::move(operation), id}));
+    auto const until = Clock::now() + patience_;
+    while (Clock::now() < until) {
+        auto const answer = take(until);
+        if (!answer && link_->has_ended()) complain("the link has ended before the answer");
+        if (!answer) continue;
+        auto const* fault = std::get_if<Fault>(&*answer);
+        auto const& given = fault != nullptr ? fault->request_id : std::get<xml::Answered>(*answer).request_id;
+        if (given != id) complain("expected the answer with request_id " + quoted(id) + ", not " + quoted(given));
+        return *answer;
+    }
+    complain("no answer within " + std::to_string(patience_.count()) + " ms");
+}
+
+Program::Started Program::execute(std::string const& ref, std::string const& command, ParameterList const& arguments,
+                                  bool check_only) {
+    auto const id = "command-" + std::to_string(++last_command_);
+    commands_[id] = {ref, command};
+    auto reply =
+        ask(Execute{.command_unit_list = sequence_of(ref, command, check_only ? "" : id, arguments), .check_only = check_only});
+    if (reply.return_code != ReturnCode::ok && reply.reason.empty()) complain("a refused command needs a reason");
+    if (check_only || reply.return_code != ReturnCode::ok) commands_.erase(id);
+    return {std::move(reply), id};
+}
+
+Completed Program::completed(std::string const& id, std::chrono::milliseconds within) {
+    auto const until = Clock::now() + within;
+    while (!completed_.contains(id) && Clock::now() < until && !link_->has_ended())
+        if (take(until)) complain("an answer without a request");
+    auto const found = completed_.find(id);
+    if (found == completed_.end())
+        complain(quoted(commands_.at(id).second) + " has not completed within " + std::to_string(within.count()) + " ms");
+    return found->second;
+}
+
+void Program::settle(std::chrono::milliseconds time) {
+    auto const until = Clock::now() + time;
+    while (Clock::now() < until && !link_->has_ended())
+        if (take(until)) complain("an answer without a request, or a second one");
+}
+
+std::optional<xml::EngineMessage> Program::take(Clock::time_point until) {
+    auto const document = link_->next(until);
+    if (!document) return {};
+    if (auto const objection = validator_->objection_to(*document))
+        complain("invalid document: " + objection->reason + ": " + quoted(*document, 300));
+    auto message = reader_.read(*document);
+    if (!message) complain("neither an answer nor a notification: " + quoted(*document, 300));
+    auto const* notification = std::get_if<xml::NumberedNotification>(&*message);
+    if (notification == nullptr) return message;
+    judge(*notification);
+    return {};
+}
+
+void Program::judge(xml::NumberedNotification const& numbered) {
+    if (numbered.sequence != last_sequence_ + 1)
+        complain("expected the notification " + std::to_string(last_sequence_ + 1) + ", not " +
+                 std::to_string(numbered.sequence));
+    last_sequence_ = numbered.sequence;
+    std::visit([this](auto const& each) { judge(each); }, numbered.notification);
+}
+
+void Program::judge(Completed const& completed) {
+    auto const& id = completed.command_id.text;
+    auto const command = commands_.find(id);
+    if (command == commands_.end()) complain("completed of the unknown or refused command " + quoted(id));
+    auto const& [ref, name] = command->second;
+    if (!completed_.emplace(id, completed).second) complain("a second completed of " + quoted(name));
+    auto const* message = find_message(profile_of(ref), MessageKind::command, name);
+    if (!completed.results) complain("completed of " + quoted(name) + " without results");
+    if (auto const why = why_not(*completed.results, message == nullptr ? std::vector<ParameterProfile>{} : message->results);
+        !why.empty())
+        complain("completed of " + quoted(name) + ": " + why);
+}
+
+void Program::judge(ReceiveEvent const& event) {
+    auto const& type = event.event_type;
+    auto const* message = find_message(profile_of(event.component_ref.code), MessageKind::event, type);
+    if (message == nullptr) complain("the event " + quoted(type) + " is not in the profile");
+    if (!subscribed_.contains(type)) complain("the event " + quoted(type) + " without a subscription");
+    if (!event.results) complain("the event " + quoted(type) + " without its results");
+    if (auto const why = why_not(*event.results, message->results); !why.empty())
+        complain("the event " + quoted(type) + ": " + why);
+}
+
+void Program::judge(ComponentChanged const& changed) {
+    if (!components_.empty()) profile_of(changed.component_ref.code);
+    states_.insert(changed.component_ref.code);
+}
+
+ComponentProfile const& Program::profile_of(std::string const& ref) const {
+    auto const found = std::ranges::find(components_, ref, &ComponentEntry::ref);
+    if (found == components_.end()) complain("the component " + quoted(ref) + " is not in the profile");
+    return *found->profile;
+}
+
+std::optional<int> Program::end() {
+    ::kill(process_, SIGTERM);
+    for (auto const until = Clock::now() + patience_; Clock::now() < until; std::this_thread::sleep_for(10ms)) {
+        int status = 0;
+        if (::waitpid(process_, &status, WNOHANG) != process_) continue;
+        process_ = 0;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    }
+    return {};
+}
+
+}  // namespace rois::component_test
