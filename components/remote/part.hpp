@@ -13,7 +13,7 @@
 
 namespace rois::remote {
 
-// Used on the thread of the links, except `report`, `attach` and `detach`.
+// Used on the thread of the links, except `report`, `is_full`, `attach` and `detach`.
 class Part {
 public:
     Part(ComponentEntry entry_there, std::string ref_here) : entry{std::move(entry_there)}, ref{std::move(ref_here)} {}
@@ -42,6 +42,10 @@ public:
     void report(ComponentReport&& report) {
         std::lock_guard const lock{mutex_};
         if (port_ != nullptr) port_->report(std::move(report));
+    }
+    bool is_full() {
+        std::lock_guard const lock{mutex_};
+        return port_ != nullptr && port_->is_full();
     }
     void answer(Ticket ticket, ComponentAnswer answer) { report(Answered{ticket, std::move(answer)}); }
 

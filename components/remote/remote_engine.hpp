@@ -99,6 +99,8 @@ private:
     void take(xml::Answered const&);
     void take(Fault const&);
     void take(xml::NumberedNotification const&);
+    bool is_flooded() const;
+    void go_on_when_handled(std::uint64_t era);
     void opened(Connect::Reply const&);
     void resumed(ReturnCode);
     void session_ended();
@@ -149,6 +151,7 @@ private:
     std::map<std::uint64_t, Open> open_;
     std::uint64_t last_request_ = 0;
     std::uint64_t last_command_ = 0;
+    std::uint64_t documents_ = 0;           // received
     std::uint64_t era_ = 0;                 // counts attempts and lost links: alarms of an earlier one are void
     unsigned failures_ = 0;                 // in a row
     bool is_present_ = false;               // its profile was read, and its components have not left

@@ -16,6 +16,9 @@ using namespace std::chrono_literals;
 constexpr auto between_signs_of_life = 250ms;
 constexpr auto between_signs_at_rest = 1s;  // while no component there is bound: only the round trip is measured
 
+constexpr std::uint64_t between_checks = 64;  // documents, for a sub engine that reports too much
+constexpr auto until_next_look = 5ms;
+
 // The request_id of requests that have no number.
 constexpr std::string_view opening = "connect";
 constexpr std::string_view sign_of_life = "alive";
@@ -100,6 +103,23 @@ void RemoteEngine::document(std::string_view text) {
     auto const read = reader_.read(text);
     if (!read) return give_up_link("invalid document: expected an answer or a notification, not " + quoted(text, 100));
     std::visit([this](auto const& message) { take(message); }, *read);
+    if (++documents_ % between_checks != 0 || !link_ || !is_flooded()) return;
+    link_->pause();
+    go_on_when_handled(era_);
+}
+
+// All components have one provider.
+bool RemoteEngine::is_flooded() const {
+    return std::ranges::any_of(parts_, [](auto const& each) { return each.second->is_full(); });
+}
+
+// A sub engine that reports more than this engine handles has to wait, and fills no memory here.
+void RemoteEngine::go_on_when_handled(std::uint64_t era) {
+    surroundings_->at(surroundings_->now() + until_next_look, [self = shared_from_this(), era] {
+        if (self->era_ != era || !self->link_) return;
+        if (self->is_flooded()) return self->go_on_when_handled(era);
+        self->link_->go_on();
+    });
 }
 
 void RemoteEngine::take(Fault const& fault) {

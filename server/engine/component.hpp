@@ -139,6 +139,9 @@ public:
 
     virtual void report(ComponentReport&&) = 0;
 
+    // Returns whether many reports of this provider wait for the engine: a link should not read more of them now. Any thread.
+    virtual bool is_full() const { return false; }
+
     // The answer to a question. Each ticket may be answered once; late answers are counted and ignored.
     void answered(Ticket ticket, ComponentAnswer answer) { report(Answered{ticket, std::move(answer)}); }
 

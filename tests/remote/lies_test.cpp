@@ -116,6 +116,22 @@ TEST_F(ALyingSubEngine, IsRefusedWithMoreThanEightLevels) {
     EXPECT_EQ(reported(), "its engines have more than 8 levels");
 }
 
+TEST_F(ALyingSubEngine, WaitsIfItReportsMoreThanThisEngineHandles) {
+    desk.subscribe("reached_target");
+    for (int i = 0; i < 900; ++i)
+        engines.hall["navigation"].fires("reached_target", {value("is_final_target", "bool", {"true"})});
+    engines.hall.engine->and_work([] {}, engines.hall.now);
+    engines.receive_without_main();
+    EXPECT_FALSE(engines.is_paused());
+    for (int i = 0; i < 300; ++i)
+        engines.hall["navigation"].fires("reached_target", {value("is_final_target", "bool", {"true"})});
+    engines.hall.engine->and_work([] {}, engines.hall.now);
+    engines.receive_without_main();
+    EXPECT_TRUE(engines.is_paused());
+    engines.advance(1s);
+    EXPECT_FALSE(engines.is_paused());
+}
+
 TEST_F(ALyingSubEngine, MayChangeAProfileWhileACommandRuns) {
     engines.bind(desk, "hall.navigation");
     engines.execute(desk, go("go", "hall.navigation"));

@@ -29,6 +29,9 @@ public:
         listener_ = nullptr;
         close();
     }
+    void pause() override { is_paused_ = true; }
+    void go_on() override { is_paused_ = false; }
+    bool is_paused() const { return is_paused_; }
     void answer_pings() {
         if (!session_.text.empty()) engines_.hall.engine->note_pong(session_, engines_.hall.now);
     }
@@ -62,7 +65,7 @@ public:
             answer(id, *operation);
             return true;
         }
-        if (!session_.text.empty() && reads_)
+        if (!session_.text.empty() && reads_ && !is_paused_)
             for (auto const& [sequence, notification] : reads_->read(after_, 1)) {
                 after_ = sequence;
                 listener_->document(std::string{xml::notification_head(notification->body)} + std::to_string(sequence) +
@@ -120,6 +123,7 @@ private:
     SessionId session_;
     std::uint64_t after_ = 0;
     std::uint64_t injected_ = 0;
+    bool is_paused_ = false;
     std::shared_ptr<NotificationQueue> reads_;
 };
 
@@ -191,6 +195,13 @@ TwoEngines::~TwoEngines() {
 
 std::shared_ptr<client::Link> TwoEngines::link_for(client::Link::Listener& listener) {
     return wire_ = std::make_shared<Wire>(*this, listener);
+}
+
+bool TwoEngines::is_paused() const { return wire_ && wire_->is_paused(); }
+
+void TwoEngines::receive_without_main() {
+    while (around_->run() || deliver()) {
+    }
 }
 
 void TwoEngines::settle() {

@@ -35,6 +35,10 @@ public:
     void advance(std::chrono::milliseconds);
     // Delivers documents until none is under way.
     void settle();
+    // Delivers them, while the main engine does not handle any.
+    void receive_without_main();
+    // The main engine's link reads nothing more.
+    bool is_paused() const;
 
     // Performs an operation at the main engine, and delivers its documents.
     Reply ask(Application const&, Operation const&);

@@ -56,6 +56,11 @@ public:
     // no_session, is reported as a document. WebSocket: sends `resume` (not needed for a session that this link has opened).
     virtual void attach(SessionId const&, std::uint64_t last_sequence) = 0;
 
+    // Reads nothing more until `go_on`, so that the sender has to wait; a document that has begun to arrive may still be
+    // reported. Without effect over HTTP.
+    virtual void pause() {}
+    virtual void go_on() {}
+
     // Calls this listener from now on.
     void listen(Listener& listener) { listener_ = &listener; }
 
@@ -77,8 +82,8 @@ protected:
 inline Link::Document document_of(Request const& request) { return std::make_shared<std::string const>(xml::encode(request)); }
 
 std::shared_ptr<Link> websocket_link(Loop&, Target const&, Settings const&, Link::Listener&);
-// A WebSocket that a client opens here. `socket`: a connected socket, which the link closes. `head`: the bytes received on it: the
-// request for the upgrade, and perhaps more.
+// A WebSocket that a client opens here. `socket`: a connected socket, which the link closes. `head`: the bytes received on it:
+// the request for the upgrade, and perhaps more.
 std::shared_ptr<Link> accepted_link(Loop&, int socket, std::string head, Settings const&, Link::Listener&);
 std::shared_ptr<Link> http_link(Loop&, Target const&, Settings const&, Link::Listener&);
 

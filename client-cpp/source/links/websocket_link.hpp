@@ -61,6 +61,12 @@ public:
         send(document_of({Resume{session, last_sequence}, "resume"}));
     }
 
+    void pause() override { is_paused_ = true; }
+    void go_on() override {
+        is_paused_ = false;
+        if (std::exchange(read_is_due_, false)) read();
+    }
+
     void cut() override {
         listener_ = nullptr;
         resolver_.cancel();
@@ -135,6 +141,10 @@ private:
 
     void read() {
         if (listener_ == nullptr) return;
+        if (is_paused_) {
+            read_is_due_ = true;
+            return;
+        }
         stream_.async_read_some(incoming_, most_at_once,
                                 [self = this->shared_from_this()](error_code error, std::size_t) { self->was_read(error); });
     }
@@ -185,6 +195,8 @@ private:
     std::string head_;  // of a link that is accepted
     beast::flat_buffer incoming_;
     std::deque<Document> outgoing_;  // the first one is being sent
+    bool is_paused_ = false;
+    bool read_is_due_ = false;  // as soon as it goes on
 };
 
 }  // namespace rois::client

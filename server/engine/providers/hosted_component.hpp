@@ -40,6 +40,7 @@ public:
     bool take_lost_report() { return lost_report_.exchange(false); }
 
     void report(ComponentReport&&) override;
+    bool is_full() const override { return provider_->is_full(); }
 
 private:
     friend class Provider;

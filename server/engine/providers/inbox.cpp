@@ -43,6 +43,11 @@ void Inbox::close(ProvidersEntries& of) noexcept {
     is_empty_ = next_.empty() && returned_.empty();
 }
 
+std::size_t Inbox::waiting(ProvidersEntries const& of) const {
+    std::lock_guard const lock{mutex_};
+    return of.entries.size();
+}
+
 InboxEntries Inbox::take() noexcept {
     InboxEntries one;
     if (empty()) return one;

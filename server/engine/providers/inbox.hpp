@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <functional>
 #include <list>
 #include <memory>
@@ -52,6 +53,8 @@ public:
 
     void add(ProvidersEntries&, InboxEntries&& one);
     void close(ProvidersEntries&) noexcept;
+    // The number of entries that wait.
+    std::size_t waiting(ProvidersEntries const&) const;
     // Returns one entry, or none.
     InboxEntries take() noexcept;
     // For an entry whose handling failed: it is taken again first.

@@ -32,8 +32,8 @@ private:
 };
 
 // A provider of components: a device with its components, a driver, or a link to another engine. Its components are called one at
-// a time, in the order of the calls. `join`, `part`, `run`, `report` and `close` are thread-safe; all other functions need the
-// lock that serializes the calls to the engine.
+// a time, in the order of the calls. `join`, `part`, `run`, `report`, `is_full` and `close` are thread-safe; all other functions
+// need the lock that serializes the calls to the engine.
 class Provider : public std::enable_shared_from_this<Provider> {
 public:
     // Where the calls run: on the threads that call `run`, or on a thread of the provider.
@@ -76,12 +76,16 @@ public:
 
     void report(std::shared_ptr<HostedComponent> from, InboxEntry::What);
     Inbox& inbox() { return *inbox_; }
+    // Returns whether more reports wait than the engine handles in some milliseconds. Thread-safe.
+    bool is_full() const { return inbox_->waiting(entries_) > most_waiting; }
 
     // The provider's thread ends after its present call.
     void close();
 
 private:
     friend class ProvidersToRun;
+
+    static constexpr std::size_t most_waiting = 1'000;
 
     bool has_waiting(Runner) const;
     void run_waiting(std::unique_lock<std::mutex>&, Runner);
