@@ -88,7 +88,7 @@ std::string how_it_ended(int status) {
 // Used on the thread of the programs.
 class Program : public std::enable_shared_from_this<Program> {
 public:
-    Program(asio::io_context& io, std::string name, std::shared_ptr<Programs::Listener const> listener, Programs::Times times)
+    Program(asio::io_context& io, std::string name, std::shared_ptr<Programs::Listener const> listener, ProgramTimes times)
         : name_{std::move(name)}, listener_{std::move(listener)}, times_{times}, output_{io}, end_{io}, timer_{io} {}
 
     // Without a value: ends the program.
@@ -211,7 +211,7 @@ private:
 
     std::string const name_;
     std::shared_ptr<Programs::Listener const> const listener_;
-    Programs::Times const times_;
+    ProgramTimes const times_;
     std::optional<Programs::Wanted> wanted_;  // nothing: it ends, or has ended
     Descriptor output_;
     Descriptor end_;  // readable when the program has ended
@@ -229,7 +229,7 @@ private:
 
 class Programs::All {
 public:
-    All(Listener listener, Times times) : listener_{std::make_shared<Listener const>(std::move(listener))}, times_{times} {}
+    All(Listener listener, ProgramTimes times) : listener_{std::make_shared<Listener const>(std::move(listener))}, times_{times} {}
 
     void set(std::vector<Wanted> wanted) {
         asio::post(io_, [this, wanted = std::move(wanted)] {
@@ -251,14 +251,14 @@ public:
 
 private:
     std::shared_ptr<Listener const> const listener_;
-    Times const times_;
+    ProgramTimes const times_;
     asio::io_context io_{1};
     asio::executor_work_guard<asio::io_context::executor_type> work_{io_.get_executor()};
     std::map<std::string, std::shared_ptr<Program>> programs_;  // by the names of their sub engines
     std::thread thread_{[this] { io_.run(); }};                 // programs end with it
 };
 
-Programs::Programs(Listener listener, Times times) : all_{std::make_unique<All>(std::move(listener), times)} {}
+Programs::Programs(Listener listener, ProgramTimes times) : all_{std::make_unique<All>(std::move(listener), times)} {}
 
 Programs::~Programs() { all_->end(); }
 

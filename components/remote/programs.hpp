@@ -9,6 +9,13 @@
 
 namespace rois::remote {
 
+struct ProgramTimes {
+    std::chrono::milliseconds shortest_pause{1'000};  // before a program is started again; doubled each time
+    std::chrono::milliseconds longest_pause{60'000};  // a program that has run for longer begins with the shortest again
+    std::chrono::milliseconds immediately{5'000};     // after five ends within this time of the start it is given up
+    std::chrono::milliseconds to_end{2'000};          // from SIGTERM to SIGKILL
+};
+
 // Starts each program again when it has ended, and ends all of them with this process. Thread-safe.
 class Programs {
 public:
@@ -27,14 +34,7 @@ public:
         std::function<void(std::string const& name, std::string const& what)> happens;
     };
 
-    struct Times {
-        std::chrono::milliseconds shortest_pause{1'000};  // before a program is started again; doubled each time
-        std::chrono::milliseconds longest_pause{60'000};  // a program that has run for longer begins with the shortest again
-        std::chrono::milliseconds immediately{5'000};     // after five ends within this time of the start it is given up
-        std::chrono::milliseconds to_end{2'000};          // from SIGTERM to SIGKILL
-    };
-
-    explicit Programs(Listener, Times = {});
+    explicit Programs(Listener, ProgramTimes = {});
     // Ends all programs: with SIGTERM, and later with SIGKILL. Waits for that.
     ~Programs();
     Programs(Programs const&) = delete;

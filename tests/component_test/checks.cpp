@@ -84,6 +84,8 @@ std::vector<MessageProfile> messages(ComponentEntry const& component, MessageKin
     return found;
 }
 
+void bind(Program& program, std::string const& ref) { require_ok(program.ask(Bind{identifier(ref)}), "bind"); }
+
 // Stops the component. Everything that ran has completed then.
 void stop(Program& program, std::string const& ref) {
     auto const stopped = program.execute(ref, "stop");
@@ -184,6 +186,7 @@ void joins_again_as_the_same_instance(Program& program) {
 void keeps_what_it_reports_meanwhile(Program& program) {
     program.be_ready();
     auto const ref = program.components().front().ref;
+    bind(program, ref);
     auto const id = start(program, ref);
     program.cut();
     program.await_join();
@@ -212,6 +215,7 @@ void ends_its_session_after_the_window(Program& program) {
 void begins_anew_with_a_restarted_engine(Program& program) {
     program.be_ready();
     auto const ref = program.components().front().ref;
+    bind(program, ref);
     start(program, ref);
     auto const session = program.session();
     program.cut();
@@ -245,16 +249,17 @@ Group checks_of(ComponentEntry const& component) {
     auto const ref = component.ref;
     Group group{"Component " + ref, {}};
     auto const add = [&](std::string name, std::function<void(Program&)> play) {
-        group.checks.push_back({std::move(name), [play = std::move(play)](Program& program) {
+        group.checks.push_back({std::move(name), [ref, play = std::move(play)](Program& program) {
                                     program.be_ready();
+                                    bind(program, ref);
                                     play(program);
                                     program.settle();
                                 }});
     };
     add("is_bound_and_released", [ref](Program& program) {
-        require_ok(program.ask(Release{identifier(ref)}), "release before bind");
-        require_ok(program.ask(Bind{identifier(ref)}), "bind");
         require_ok(program.ask(Release{identifier(ref)}), "release");
+        require_ok(program.ask(Release{identifier(ref)}), "release of a component that is not bound");
+        bind(program, ref);
         require(program.ask(Bind{identifier(nobody)}).return_code != ReturnCode::ok,
                 "bind of an unknown component: expected a refusal");
     });
@@ -324,7 +329,6 @@ Group checks_of(ComponentEntry const& component) {
         stop(program, ref);
     });
     add("halts_when_it_is_released", [ref](Program& program) {
-        require_ok(program.ask(Bind{identifier(ref)}), "bind");
         auto const id = start(program, ref);
         require_ok(program.ask(Release{identifier(ref)}), "release");
         program.completed(id, longest_halt);

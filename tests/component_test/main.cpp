@@ -4,6 +4,8 @@
 #include <exception>
 #include <fstream>
 #include <iostream>
+#include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "component_test/checks.hpp"
 #include "conformance/check.hpp"
 #include "conformance/report.hpp"
+#include "files/files.hpp"
 #include "xml/validation/schemas.hpp"
 
 namespace rois::component_test {
@@ -67,7 +70,8 @@ CommandLine read_command_line(std::vector<std::string> const& arguments) {
 
 class Judge {
 public:
-    explicit Judge(CommandLine const& line) : program_{line.program, line.patience} {
+    explicit Judge(CommandLine const& line)
+        : program_{line.program, line.patience, std::make_shared<xml::Schemas const>(files::schemas())} {
         for (auto const& word : line.program) report_.gateway += (report_.gateway.empty() ? "" : " ") + word;
     }
 

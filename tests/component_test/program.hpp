@@ -13,6 +13,7 @@
 #include "types/messages.hpp"
 #include "xml/codec/codec.hpp"
 #include "xml/validation/joining.hpp"
+#include "xml/validation/schemas.hpp"
 #include "xml/validation/validator.hpp"
 
 namespace rois::component_test {
@@ -23,7 +24,7 @@ constexpr std::chrono::milliseconds longest_halt{500};
 // All functions throw Broken if the program does not do what docs/component-programs.md asks.
 class Program {
 public:
-    Program(std::vector<std::string> command, std::chrono::milliseconds patience);
+    Program(std::vector<std::string> command, std::chrono::milliseconds patience, std::shared_ptr<xml::Schemas const> const&);
     ~Program();  // kills it
     Program(Program const&) = delete;
     Program& operator=(Program const&) = delete;

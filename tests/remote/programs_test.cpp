@@ -30,7 +30,7 @@ protected:
 
     // Waits for this number of lines.
     std::vector<std::string> said(std::size_t lines) { return first(said_, lines); }
-    std::vector<std::string> happened(std::size_t times) { return first(happened_, times); }
+    std::vector<std::string> happened(std::size_t number) { return first(happened_, number); }
 
     static bool exists(std::string const& pid) { return ::kill(to_number<pid_t>(pid).value(), 0) == 0; }
     static bool ends(std::string const& pid) {
@@ -38,7 +38,7 @@ protected:
         return !exists(pid);
     }
 
-    static constexpr Programs::Times times{.shortest_pause = 5ms, .longest_pause = 20ms, .immediately = 5s, .to_end = 50ms};
+    static constexpr ProgramTimes times{.shortest_pause = 5ms, .longest_pause = 20ms, .immediately = 5s, .to_end = 50ms};
     std::unique_ptr<Programs> programs = std::make_unique<Programs>(
         Programs::Listener{
             .says = [this](std::string const&, std::string const& line) { add(said_, line); },

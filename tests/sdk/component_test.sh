@@ -13,35 +13,51 @@ fail() {
     exit 1
 }
 
-for program in "python3 -B $root/components/sdk/python/lamp.py" "$bin/rois-lamp"; do
-    # shellcheck disable=SC2086
-    "$bin/rois-component-test" --report "$work/report.xml" $program >"$work/out" 2>"$work/log" || fail "$program: $(<"$work/log")" "$work/out"
-    grep -q '<testsuite name="Component lamp"' "$work/report.xml" || fail "no JUnit report" "$work/report.xml"
-    grep -q ' 0 found a broken rule' "$work/out" || fail "$program" "$work/out"
-done
-
-# find VARIANT CHECK: the check finds the broken rule.
-find() {
-    local status=0
-    "$bin/rois-component-test" --patience 2 python3 -B "$here/broken_lamp.py" "$1" >"$work/$1" 2>/dev/null || status=$?
-    [[ $status == 1 ]] && grep -q "BROKEN *$2 " "$work/$1" || fail "$1: expected exit code 1, not $status, and a broken $2" "$work/$1"
+# judge NAME PROGRAM...: in the background; the exit code is in NAME.status.
+judge() {
+    local name=$1
+    shift
+    {
+        "$bin/rois-component-test" --patience 3 --report "$work/$name.xml" "$@" >"$work/$name" 2>"$work/$name.log" && echo 0 || echo $?
+    } >"$work/$name.status" &
 }
-find answers_twice keeps_its_session
-find answers_without_request_id knows_no_session_at_first
-find completes_twice completes_start_once
-find never_completes completes_start_once
-find does_not_halt halts_while_it_runs
-find answers_with_a_wrong_type answers_the_query_light
-find answers_without_a_result answers_the_query_light
-find reports_a_wrong_event completes_blink_once
-find reports_without_a_subscription completes_blink_once
-find accepts_any_argument refuses_a_wrong_times_of_blink
-find runs_what_is_only_checked only_checks_start
-find has_no_instance has_a_profile
-find joins_under_a_new_instance joins_again_as_the_same_instance
-find forgets_what_it_has_sent keeps_what_it_reports_meanwhile
-find resumes_any_session knows_no_session_at_first
-find never_ends_its_session ends_its_session_after_the_window
-find keeps_its_session_for_a_new_engine begins_anew_with_a_restarted_engine
-find sends_an_invalid_document opens_a_session
-find ignores_the_end ends_on_sigterm
+# breaks VARIANT CHECK: this check finds the broken rule.
+checks=()
+breaks() {
+    judge "$1" python3 -B "$here/broken_lamp.py" "$1"
+    checks+=("$1 $2")
+}
+
+judge python python3 -B "$root/components/sdk/python/lamp.py"
+judge cpp "$bin/rois-lamp"
+breaks answers_twice keeps_its_session
+breaks answers_without_request_id opens_a_session
+breaks completes_twice completes_start_once
+breaks never_completes completes_start_once
+breaks does_not_halt halts_while_it_runs
+breaks answers_with_a_wrong_type answers_the_query_light
+breaks answers_without_a_result answers_the_query_light
+breaks reports_a_wrong_event completes_start_once
+breaks reports_without_a_subscription is_bound_and_released
+breaks accepts_any_argument refuses_a_wrong_times_of_blink
+breaks runs_what_is_only_checked only_checks_start
+breaks has_no_instance has_a_profile
+breaks joins_under_a_new_instance joins_again_as_the_same_instance
+breaks forgets_what_it_has_sent keeps_what_it_reports_meanwhile
+breaks resumes_any_session knows_no_session_at_first
+breaks never_ends_its_session ends_its_session_after_the_window
+breaks keeps_its_session_for_a_new_engine begins_anew_with_a_restarted_engine
+breaks sends_an_invalid_document keeps_its_session
+breaks ignores_the_end ends_on_sigterm
+wait
+
+for lamp in python cpp; do
+    [[ $(<"$work/$lamp.status") == 0 ]] || fail "the lamp in $lamp: exit code $(<"$work/$lamp.status")" "$work/$lamp"
+    grep -q ' 0 found a broken rule, 0 could not be played' "$work/$lamp" || fail "the lamp in $lamp" "$work/$lamp"
+    grep -q '<testsuite name="Component lamp"' "$work/$lamp.xml" || fail "no JUnit report" "$work/$lamp.xml"
+done
+for each in "${checks[@]}"; do
+    read -r variant check <<<"$each"
+    grep -q "BROKEN *$check " "$work/$variant" || fail "$variant: expected a broken $check" "$work/$variant"
+    [[ $(<"$work/$variant.status") == 1 ]] || fail "$variant: expected exit code 1, not $(<"$work/$variant.status")" "$work/$variant"
+done
