@@ -4,7 +4,7 @@ import collections
 import json
 import statistics
 
-from parts import client, console, engines, fanout, floods, growth, memory, requests
+from parts import client, console, crowd, engines, fanout, floods, growth, memory, requests
 
 AGAINST = collections.ChainMap(requests.AGAINST, fanout.AGAINST, client.AGAINST, engines.AGAINST)  # row -> the row that it is compared with
 
@@ -50,7 +50,7 @@ def table(rounds, part):
             else:
                 lines.append(f"{row:58} {number(one['bytes_each']):>10} {one['idle_cpu_percent']:>10.1f}")
         return lines
-    if part in ("console", "floods"):
+    if part in ("console", "floods", "crowd"):
         for row, one in middle.items():
             lines.append(f"{row:58} {', '.join(f'{name} {number(value)}' for name, value in one.items())}")
         return lines
@@ -162,6 +162,14 @@ def goals(rounds):
         at_most("10 event of a sub engine: CPU of the main engine", ratio(rounds, engines.EVENT_MAIN, engines.EVENT_LOCAL), 1.5, "times"),
         at_most("10 event of a sub engine: CPU of both engines", ratio(rounds, engines.EVENT_BOTH, engines.EVENT_LOCAL), 2.6, "times"),
         at_most("10 query of a sub engine, alone: p50 longer by", longer(middle), 200, "µs"),
+        at_most("11 100 sub engines join within", value_of(crowd.JOINING, "seconds"), 5, "s"),
+        at_most("11 p99 of another client meanwhile", value_of(crowd.JOINING, "neighbour_p99_ms"), 10, "ms"),
+        *(
+            at_most(f"11 p99 beside one that {special}, compared with before", value_of(crowd.with_one(special), "times_before"), 1.1, "times")
+            for special in crowd.SPECIAL
+        ),
+        at_most("11 memory of a further sub engine", value_of(crowd.AT_REST, "kb_each"), 300, "kB"),
+        at_most("11 threads of 100 further sub engines", value_of(crowd.AT_REST, "threads"), 0, ""),
     ]
 
 

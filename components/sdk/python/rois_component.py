@@ -16,12 +16,12 @@ from xml.etree import ElementTree
 from xml.sax.saxutils import escape, quoteattr
 
 M, R = "{urn:x-rois:psm:xml:message:1}", "{http://www.omg.org/spec/RoIS/20240801}"
-GML = "{http://www.opengis.net/gml/3.2}"
-XSI = "{http://www.w3.org/2001/XMLSchema-instance}"
+GML, XSI = "{http://www.opengis.net/gml/3.2}", "{http://www.w3.org/2001/XMLSchema-instance}"
 NAMES = f'xmlns="{M[1:-1]}" xmlns:rois="{R[1:-1]}" xmlns:xsi="{XSI[1:-1]}"'
 COMMON = "urn:x-rois:def:component:OMG::RoISCommon"
 
 log = logging.getLogger("rois")
+longest_pause = 30  # seconds between two attempts to join
 
 
 class Refused(Exception):
@@ -475,7 +475,7 @@ async def keep_joined(service, url):
                 if str(problem) != said:
                     log.warning("%s: %s", url, problem or "the link broke")
                 said = str(problem)
-            pause = 0.1 if time.monotonic() - begun > 5 else min(2 * pause, 30)
+            pause = 0.1 if time.monotonic() - begun > 5 else min(2 * pause, longest_pause)
             await asyncio.sleep(pause)
     finally:
         watch.cancel()
