@@ -71,6 +71,34 @@ TEST_F(SubEngines, AnswerQueries) {
     EXPECT_EQ(reply.component_ref.code, "hall.navigation");
 }
 
+// Two applications, one at each engine, want the same component.
+TEST_F(SubEngines, ShareTheirComponentsWithTheirOwnApplications) {
+    auto guard = engines.hall.connect();
+    EXPECT_EQ(guard.bind("navigation"), ReturnCode::ok);
+    engines.advance(1s);
+    EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::out_of_resources);
+    EXPECT_EQ(engines.execute(desk, go("go", "hall.navigation")).return_code, ReturnCode::bad_parameter) << "not bound";
+    EXPECT_EQ(guard.release("navigation"), ReturnCode::ok);
+    engines.advance(1s);
+    EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::ok);
+    EXPECT_EQ(guard.bind("navigation"), ReturnCode::out_of_resources);
+}
+
+TEST_F(SubEngines, DoNotMindJumpsOfTheCalendar) {
+    engines.bind(desk, "hall.navigation");
+    engines.execute(desk, go("go", "hall.navigation"));
+    for (auto const jump : {std::chrono::hours{24 * 400}, std::chrono::hours{-24 * 800}}) {
+        engines.main.now.utc += jump;
+        engines.advance(2s);
+        engines.hall.now.utc += jump;
+        engines.advance(5s);
+        EXPECT_EQ(desk.status_of("hall.navigation"), "READY");
+    }
+    robot().finishes();
+    engines.advance(1s);
+    EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("completed go OK")));
+}
+
 TEST_F(SubEngines, ReportEvents) {
     desk.subscribe("reached_target");
     robot().fires("reached_target", {value("is_final_target", "bool", {"true"})});
