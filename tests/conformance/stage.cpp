@@ -105,8 +105,10 @@ std::string Guest::status_of(std::string const& command_id) {
     return Application::status_of(command_id);
 }
 
-std::optional<Document> Guest::heard_since(std::size_t before, std::string const& event_type) const {
-    auto const is_it = [&](Document const& heard) { return heard.text("event_type") == event_type; };
+std::optional<Document> Guest::heard_since(std::size_t before, std::string const& event_type, std::string const& ref) const {
+    auto const is_it = [&](Document const& heard) {
+        return heard.text("event_type") == event_type && (ref.empty() || heard.ref() == ref);
+    };
     auto const found = std::find_if(history().begin() + static_cast<std::ptrdiff_t>(before), history().end(), is_it);
     return found == history().end() ? std::nullopt : std::optional{*found};
 }
@@ -114,8 +116,9 @@ std::optional<Document> Guest::heard_since(std::size_t before, std::string const
 Document Guest::start_until(Component const& component, std::string const& event_type) {
     auto const before = history().size();
     require_success(order(command(component, "start")), component);
-    auto const heard = heard_since(before, event_type);
-    return heard ? *heard : hear_event(event_type);
+    auto heard = heard_since(before, event_type, component.ref);
+    while (!heard || heard->ref() != component.ref) heard = hear_event(event_type);
+    return *heard;
 }
 
 void Guest::require_success(std::string const& command_id, Component const& component) {
