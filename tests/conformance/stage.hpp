@@ -105,7 +105,8 @@ public:
     // Returns the statuses with which this command completed.
     std::vector<std::string> endings(std::string const& command_id) const;
     std::size_t heard_events(std::string const& type) const;
-    // The first event of this type behind the first `before` notifications of the history, if there is one.
+    // The first event of this type, and of this component if `ref` is not empty, behind the first `before` notifications of the
+    // history.
     std::optional<Document> heard_since(std::size_t before, std::string const& event_type, std::string const& ref = {}) const;
     // Starts a component, and returns its first event of this type. It may come before the end of `start`, which has to wait
     // until `execute` is answered.
