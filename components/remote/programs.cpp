@@ -229,7 +229,8 @@ private:
 
 class Programs::All {
 public:
-    All(Listener listener, ProgramTimes times) : listener_{std::make_shared<Listener const>(std::move(listener))}, times_{times} {}
+    All(Listener listener, ProgramTimes times)
+        : listener_{std::make_shared<Listener const>(std::move(listener))}, times_{times} {}
 
     void set(std::vector<Wanted> wanted) {
         asio::post(io_, [this, wanted = std::move(wanted)] {

@@ -175,6 +175,14 @@ EngineProfile engine_profile(GatewaySettings const& settings, simulation::FloorP
     return profile;
 }
 
+// If that fails, the engine's clock tries again with its next tick, and reports the problem.
+void handle_reports(Gateway& gateway) noexcept {
+    try {
+        gateway.handle_reports(Provider::Runner::client);
+    } catch (...) {
+    }
+}
+
 // Reads the file of sub engines again. If that fails, logs why and changes nothing.
 void read_again(std::string const& file, remote::RemoteEngines& engines, std::string const& own_url) {
     try {
@@ -249,6 +257,7 @@ int serve(CommandLine const& command) {
             .instance = instance,
             .schemas = schemas,
             .change = [&](ComponentChange change) { gateway.change(std::move(change)); },
+            .handle = [&] { handle_reports(gateway); },
             .report = [](std::string const& name, std::string const& what) { spdlog::info("{}: {}", name, what); }});
         engine.add(remote_engines->pulse(), "pulse");
     }
