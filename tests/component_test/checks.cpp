@@ -248,13 +248,32 @@ Group joining_checks() {
 Group checks_of(ComponentEntry const& component) {
     auto const ref = component.ref;
     Group group{"Component " + ref, {}};
-    auto const add = [&](std::string name, std::function<void(Program&)> play) {
+    auto const add_silently = [&](std::string name, std::function<void(Program&)> play) {
         group.checks.push_back({std::move(name), [ref, play = std::move(play)](Program& program) {
                                     program.be_ready();
                                     bind(program, ref);
                                     play(program);
                                     program.settle();
                                 }});
+    };
+    // As an engine does: to all events, whether an application wants them or not.
+    auto const subscribe = [events = messages(component, MessageKind::event)](Program& program) {
+        for (auto const& event : events) {
+            if (program.has_subscribed(event.name)) continue;
+            auto const reply = program.ask(Subscribe{.event_type = event.name, .condition = {}, .inline_results = true});
+            require_ok(reply, "subscribe to " + event.name);
+            require(!reply.subscribe_id.text.empty(), "subscribe: expected a subscribe_id");
+        }
+    };
+    add_silently("reports_no_event_without_a_subscription", [ref](Program& program) {
+        start(program, ref);
+        stop(program, ref);
+    });
+    auto const add = [&](std::string name, std::function<void(Program&)> play) {
+        add_silently(std::move(name), [subscribe, play = std::move(play)](Program& program) {
+            subscribe(program);
+            play(program);
+        });
     };
     add("is_bound_and_released", [ref](Program& program) {
         require_ok(program.ask(Release{identifier(ref)}), "release");
@@ -263,12 +282,6 @@ Group checks_of(ComponentEntry const& component) {
         require(program.ask(Bind{identifier(nobody)}).return_code != ReturnCode::ok,
                 "bind of an unknown component: expected a refusal");
     });
-    for (auto const& event : messages(component, MessageKind::event))
-        add("subscribes_to_" + event.name, [name = event.name](Program& program) {
-            auto const reply = program.ask(Subscribe{.event_type = name, .condition = {}, .inline_results = true});
-            require_ok(reply, "subscribe");
-            require(!reply.subscribe_id.text.empty(), "subscribe: expected a subscribe_id");
-        });
     for (auto const& query : messages(component, MessageKind::query))
         add("answers_the_query_" + query.name, [ref, query](Program& program) {
             Query asked{.query_type = query.name, .condition = {}};

@@ -28,12 +28,14 @@ constexpr auto usage =
     "Starts the component program, and plays its engine. The program finds the engine by the variable ROIS_URL, and joins by "
     "the\n"
     "name in ROIS_NAME. Its components are started and stopped.\n\n"
+    "  --only TEXT          joining, and checks whose name has TEXT within\n"
     "  --report FILE        write the report as JUnit XML, too\n"
     "  --patience SECONDS   longest wait for an answer or the end of a command [10]\n\n"
     "Exit codes: 0 all rules hold, 1 a rule is broken, 2 bad usage\n";
 
 struct CommandLine {
     std::string report;
+    std::string only;
     std::chrono::seconds patience{10};
     std::vector<std::string> program;
 };
@@ -55,6 +57,8 @@ CommandLine read_command_line(std::vector<std::string> const& arguments) {
         auto const& value = arguments[++i];
         if (name == "--report") {
             line.report = value;
+        } else if (name == "--only") {
+            line.only = value;
         } else if (name == "--patience") {
             int seconds = 0;
             auto const [end, error] = std::from_chars(value.data(), value.data() + value.size(), seconds);
@@ -71,12 +75,14 @@ CommandLine read_command_line(std::vector<std::string> const& arguments) {
 class Judge {
 public:
     explicit Judge(CommandLine const& line)
-        : program_{line.program, line.patience, std::make_shared<xml::Schemas const>(files::schemas())} {
+        : only_{line.only}, program_{line.program, line.patience, std::make_shared<xml::Schemas const>(files::schemas())} {
         for (auto const& word : line.program) report_.gateway += (report_.gateway.empty() ? "" : " ") + word;
     }
 
     conformance::Report judge() {
-        play(joining_checks());
+        auto const joining = joining_checks();
+        auto& of_joining = chapter(joining.title);
+        for (auto const& check : joining.checks) play(of_joining, check);
         // Without a profile nothing else can be judged.
         for (auto const& component : std::vector{program_.components()}) play(checks_of(component));
         if (!program_.components().empty()) play(link_checks());
@@ -85,26 +91,34 @@ public:
     }
 
 private:
-    void play(Group const& group) {
-        auto& chapter = report_.chapters.emplace_back(conformance::Chapter{group.title, {}});
-        for (auto const& check : group.checks) {
-            conformance::Finding finding{.name = check.name, .proves = "docs/component-programs.md", .over = ""};
-            auto const begun = Clock::now();
-            try {
-                check.play(program_);
-            } catch (conformance::NotPlayed const& why) {
-                finding.outcome = Outcome::not_played;
-                finding.text = why.what();
-            } catch (std::exception const& why) {
-                finding.outcome = Outcome::broken;
-                finding.text = why.what();
-                program_.abandon_link();
-            }
-            finding.seconds = std::chrono::duration<double>(Clock::now() - begun).count();
-            chapter.findings.push_back(std::move(finding));
-        }
+    conformance::Chapter& chapter(std::string const& title) {
+        return report_.chapters.emplace_back(conformance::Chapter{title, {}});
     }
 
+    void play(Group const& group) {
+        auto& of_group = chapter(group.title);
+        for (auto const& check : group.checks)
+            if (check.name.find(only_) != check.name.npos) play(of_group, check);
+    }
+
+    void play(conformance::Chapter& of_group, Check const& check) {
+        conformance::Finding finding{.name = check.name, .proves = "docs/component-programs.md", .over = ""};
+        auto const begun = Clock::now();
+        try {
+            check.play(program_);
+        } catch (conformance::NotPlayed const& why) {
+            finding.outcome = Outcome::not_played;
+            finding.text = why.what();
+        } catch (std::exception const& why) {
+            finding.outcome = Outcome::broken;
+            finding.text = why.what();
+            program_.abandon_link();
+        }
+        finding.seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+        of_group.findings.push_back(std::move(finding));
+    }
+
+    std::string only_;
     Program program_;
     conformance::Report report_;
 };

@@ -63,7 +63,7 @@ public:
                     bool check_only = false);
     // Waits for the end of a command.
     Completed completed(std::string const& id, std::chrono::milliseconds within);
-    bool has_completed(std::string const& id) const { return completed_.contains(id); }
+    bool has_subscribed(std::string const& event_type) const { return subscribed_.contains(event_type); }
 
     // Takes the notifications that come within this time. An answer breaks a rule.
     void settle(std::chrono::milliseconds time = std::chrono::milliseconds{200});

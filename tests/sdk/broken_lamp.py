@@ -137,13 +137,10 @@ elif variant == "never_ends_its_session":
 
 elif variant == "keeps_its_session_for_a_new_engine":
 
-    @replace(Service, "serve")
-    async def serve(old, self, socket):
-        is_attached = bool(self.session)
-        task = asyncio.ensure_future(old(self, socket))
-        await asyncio.sleep(0)
-        self.is_attached = is_attached
-        await task
+    @replace(Service, "on_connect")
+    async def on_connect(old, self, request):
+        self.is_attached = bool(self.session)
+        await old(self, request)
 
 elif variant == "sends_an_invalid_document":
 
