@@ -90,8 +90,13 @@ void Door::open(int socket, std::string head) {
         return;
     }
     auto const guest = std::make_shared<Guest>(weak_from_this());
+    auto link = client::accepted_link(loop_, socket, std::move(head), settings_, *guest);
+    if (!link) {
+        ::close(socket);
+        return;
+    }
     guests_.insert(guest);
-    guest->enter(client::accepted_link(loop_, socket, std::move(head), settings_, *guest));
+    guest->enter(std::move(link));
 }
 
 void Door::close() {

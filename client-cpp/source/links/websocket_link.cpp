@@ -10,8 +10,7 @@ std::shared_ptr<Link> websocket_link(Loop& loop, Target const& target, Settings 
 std::shared_ptr<Link> accepted_link(Loop& loop, int socket, std::string head, Settings const& settings,
                                     Link::Listener& listener) {
     auto link = std::make_shared<WebSocketLink<Socket>>(loop, Target{}, settings, listener, nullptr);
-    link->accept(socket, std::move(head));
-    return link;
+    return link->accept(socket, std::move(head)) ? link : nullptr;
 }
 
 }  // namespace rois::client

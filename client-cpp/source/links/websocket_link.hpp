@@ -3,7 +3,6 @@
 
 #include "links/byte_stream.hpp"
 // Asio first.
-#include <unistd.h>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
@@ -44,12 +43,12 @@ public:
             asio::detached);
     }
 
-    // Makes this the server's side of an accepted WebSocket. Only for Socket.
-    void accept(int socket, std::string head) {
+    // Makes this the server's side of an accepted WebSocket. Returns whether it owns the socket now. Only for Socket.
+    bool accept(int socket, std::string head) {
         error_code error;
         beast::get_lowest_layer(stream_).assign(asio::ip::tcp::v4(), socket, error);
-        if (error) ::close(socket);
         head_ = std::move(head);
+        return !error;
     }
 
     void send(Document document) override {
