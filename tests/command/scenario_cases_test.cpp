@@ -6,6 +6,7 @@
 #include <fstream>
 #include <future>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -164,7 +165,14 @@ private:
             reply.return_code = ReturnCode::error;
             reply.reason = step["refused"];
         }
-        asio::post(host_.io(), [this] { play(); });  // after the answer
+        asio::post(host_.io(), later());  // after the answer
+    }
+
+    // Plays, unless this engine has been deleted by then.
+    std::function<void()> later() {
+        return [this, alive = std::weak_ptr{alive_}] {
+            if (alive.lock()) play();
+        };
     }
 
     // Plays the steps up to the next request.
@@ -175,8 +183,8 @@ private:
             ++next_;
             if (step.contains("wait")) {
                 timer_.expires_after(std::chrono::milliseconds{static_cast<int>(step["wait"].get<double>() * 1000)});
-                timer_.async_wait([this](auto failure) {
-                    if (!failure) play();
+                timer_.async_wait([next = later()](auto failure) {
+                    if (!failure) next();
                 });
                 return;
             }
@@ -216,6 +224,7 @@ private:
     command::HostedSession& session_;
     Script& script_;
     asio::steady_timer timer_;
+    std::shared_ptr<int> const alive_ = std::make_shared<int>();
     std::string document_;
     std::vector<CommandId> commands_;
     std::size_t next_ = 0;

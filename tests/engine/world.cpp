@@ -131,6 +131,8 @@ void World::change(std::vector<std::string> going, std::vector<Part> const& comi
     components_.merge(added);
 }
 
+void World::forget(std::string const& ref) { components_.erase(ref); }
+
 Application World::connect(Connect const& connection) {
     auto application = connect_without_link(connection);
     engine->link_opened(application.session, LinkKind::websocket, now);

@@ -108,6 +108,8 @@ public:
 
     // Removes and adds components in one step.
     void change(std::vector<std::string> going, std::vector<Part> const& coming);
+    // This component has been removed in another way.
+    void forget(std::string const& ref);
 
     // Changes the calendar time; no time passes.
     void set_calendar(std::chrono::hours by) { now.utc += by; }

@@ -53,6 +53,7 @@ TEST_P(ChangeWithoutMemory, HappensWholeOrNotAtAll) {
             EXPECT_EQ(desk.result_of("go"), "OK") << n;
             continue;
         }
+        world.forget("navigation");
         EXPECT_THAT(left, ElementsAre("base", "speech")) << n;
         EXPECT_FALSE(base.drives) << n;
         for (int i = 0; i < 3; ++i) {

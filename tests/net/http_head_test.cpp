@@ -140,7 +140,9 @@ TEST(HttpHead, MayAcceptGzip) {
 
 TEST(HttpHead, ReplacesAHostWithUnusualCharacters) {
     auto const host = [](std::string const& value) {
-        return std::get<RequestHead>(read("GET / HTTP/1.1\r\nHost: " + value + "\r\n\r\n")).host();
+        auto const text = "GET / HTTP/1.1\r\nHost: " + value + "\r\n\r\n";
+        auto const result = read(text);
+        return std::string{std::get<RequestHead>(result).host()};
     };
     EXPECT_EQ(host("robot.example:8080"), "robot.example:8080");
     EXPECT_EQ(host("[::1]:8080"), "[::1]:8080");
