@@ -77,7 +77,7 @@ TEST_F(SubEngines, ShareTheirComponentsWithTheirOwnApplications) {
     EXPECT_EQ(guard.bind("navigation"), ReturnCode::ok);
     engines.advance(1s);
     EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::out_of_resources);
-    EXPECT_EQ(engines.execute(desk, go("go", "hall.navigation")).return_code, ReturnCode::bad_parameter) << "not bound";
+    EXPECT_EQ(engines.execute(desk, go("go", "hall.navigation")).return_code, ReturnCode::error) << "not bound";
     EXPECT_EQ(guard.release("navigation"), ReturnCode::ok);
     engines.advance(1s);
     EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::ok);

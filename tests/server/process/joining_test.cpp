@@ -119,6 +119,7 @@ TEST(Engines, AreListedWithTheirStates) {
     EXPECT_THAT(metrics, HasSubstr("rois_engine_components{engine=\"robot1\"} 15\n"));
     EXPECT_THAT(metrics, HasSubstr("rois_engine_round_trip_seconds{engine=\"robot1\"} 0.0"));
     robot->signal(SIGKILL);
+    robot->wait();
     while (list().find(R"(losses="1")") == std::string::npos) {
     }
     EXPECT_THAT(list(), HasSubstr("<last_error>"));
