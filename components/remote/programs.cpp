@@ -135,10 +135,10 @@ private:
         ::close(pipe[1]);
         auto const end = pid < 0 ? -1L : ::syscall(SYS_pidfd_open, pid, 0);
         if (end < 0) {
-            std::system_error const problem{errno, std::system_category(), "a new process"};
+            auto const error = errno;
             output_.close();
             if (pid > 0) kill_and_wait(pid);
-            throw problem;
+            throw std::system_error{error, std::system_category(), "a new process"};
         }
         pid_ = pid;
         ::setpgid(pid_, pid_);  // as the program does: from now on its group can be ended

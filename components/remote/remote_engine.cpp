@@ -53,9 +53,10 @@ void check(ComponentEntry const& entry, std::string const& name) {
 }
 
 // This engine names the place of the command in its own sequence.
-std::string without_place(std::string reason) {
+std::string without_place(std::string_view reason) {
     constexpr std::string_view place = "command_unit_list[1]: ";
-    return reason.starts_with(place) ? reason.substr(place.size()) : reason;
+    if (reason.starts_with(place)) reason.remove_prefix(place.size());
+    return std::string{reason};
 }
 
 CompletedStatus status_of_refusal(ReturnCode code) {

@@ -79,6 +79,7 @@ public:
     std::vector<EngineState> states() const {
         std::lock_guard const lock{states_mutex_};
         std::vector<EngineState> all;
+        all.reserve(states_.size());
         for (auto const& [name, state] : states_) all.push_back(state);
         return all;
     }
@@ -172,7 +173,7 @@ private:
     std::shared_ptr<Joiner> joiner_;  // null: this engine joins none
 };
 
-RemoteEngines::RemoteEngines(Host host)
+RemoteEngines::RemoteEngines(Host const& host)
     : links_{std::make_shared<Links>(host)},
       programs_{
           {.says = [report = host.report](std::string const& name, std::string const& line) { report("program " + name, line); },

@@ -28,7 +28,7 @@ public:
         std::function<void(std::string const& engine, std::string const& what)> report;
     };
 
-    explicit RemoteEngines(Host);
+    explicit RemoteEngines(Host const&);
     // Ends all sessions there, and all programs.
     ~RemoteEngines();
     RemoteEngines(RemoteEngines const&) = delete;

@@ -175,11 +175,12 @@ EngineProfile engine_profile(GatewaySettings const& settings, simulation::FloorP
     return profile;
 }
 
-// If that fails, the engine's clock tries again with its next tick, and reports the problem.
 void handle_reports(Gateway& gateway) noexcept {
     try {
         gateway.handle_reports(Provider::Runner::client);
-    } catch (...) {
+    } catch (std::exception const& problem) {
+        // The engine's clock handles them in its next tick.
+        spdlog::warn("engines: reports were not handled: {}", problem.what());
     }
 }
 
