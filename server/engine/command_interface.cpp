@@ -231,10 +231,11 @@ Reply Engine::Core::perform(Session& session, GetParameter const& get, Instant) 
 template <class Op, class Then>
 Engine::Core::Later Engine::Core::prepare(Session& session, SharedAsked const& asked, std::vector<Preparation> list, Then then,
                                           Instant now) {
-    if (std::ranges::none_of(list, &Preparation::asks)) return then(session, std::move(list), now);
+    auto const questions = static_cast<std::size_t>(std::ranges::count_if(list, &Preparation::asks));
+    if (questions == 0) return then(session, std::move(list), now);
     auto const prepared = std::make_shared<std::vector<Preparation>>(std::move(list));
     auto const round =
-        questions_.begin(now.steady + settings_.question_deadline,
+        questions_.begin(now.steady + settings_.question_deadline, questions,
                          [this, asked, prepared, then = std::move(then)](Questions::Answers& answers, Instant when) mutable {
                              answer_later(*asked, [&](Session& asker) -> Later {
                                  auto next = answers.begin();

@@ -11,13 +11,10 @@ namespace {
 
 class Collected final : public Questions::Round {
 public:
-    explicit Collected(Questions::Then then) : then_{std::move(then)} {}
+    Collected(std::size_t questions, Questions::Then then) : then_{std::move(then)}, answers_(questions) {}
 
 private:
-    void take(std::size_t place, std::optional<ComponentAnswer>&& answer) override {
-        answers_.resize(std::max(answers_.size(), place + 1));
-        answers_[place] = std::move(answer);
-    }
+    void take(std::size_t place, std::optional<ComponentAnswer>&& answer) override { answers_[place] = std::move(answer); }
     void end(Instant now) override { std::exchange(then_, {})(answers_, now); }
 
     Questions::Then then_;
@@ -26,8 +23,8 @@ private:
 
 }  // namespace
 
-std::shared_ptr<Questions::Round> Questions::begin(Steady due, Then then) {
-    auto round = std::make_shared<Collected>(std::move(then));
+std::shared_ptr<Questions::Round> Questions::begin(Steady due, std::size_t questions, Then then) {
+    auto round = std::make_shared<Collected>(questions, std::move(then));
     begin(*round, due);
     return round;
 }
@@ -42,7 +39,7 @@ Ticket Questions::add(std::shared_ptr<Round> round, std::size_t place, Registere
 
 Ticket Questions::ask(RegisteredComponent& component, Steady due, char const* what,
                       std::function<void(std::optional<ComponentAnswer>&, Instant now)> then) {
-    auto const round = begin(due, [then = std::move(then)](Answers& answers, Instant now) { then(answers.front(), now); });
+    auto const round = begin(due, 1, [then = std::move(then)](Answers& answers, Instant now) { then(answers.front(), now); });
     return add(round, 0, component, what);
 }
 

@@ -1,6 +1,7 @@
 // The questions to components that are not answered yet (decision 36).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -40,8 +41,9 @@ public:
 
     // Begins a round, which may have ended before. A tick after `due` ends the questions that are not answered then.
     static void begin(Round& round, Steady due) { round.due_ = due; }
-    // A round that calls `then` with all answers, by the places of their questions, when it ends.
-    static std::shared_ptr<Round> begin(Steady due, Then then);
+    // A round that calls `then` with this number of answers, by the places of their questions, when it ends. A question that
+    // could not be added, because memory was short, has no answer.
+    static std::shared_ptr<Round> begin(Steady due, std::size_t questions, Then then);
     // Adds a question to the round, which the caller then asks with this ticket. `place` identifies it in the round. `what` is
     // the text of the error if no answer comes.
     Ticket add(std::shared_ptr<Round>, std::size_t place, RegisteredComponent&, char const* what);
