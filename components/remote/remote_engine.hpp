@@ -40,8 +40,6 @@ public:
     // Returns the reason if one of these instances is this engine, or belongs to another sub engine. Otherwise assigns them to
     // this sub engine, instead of its earlier ones, and returns nothing.
     virtual std::optional<std::string> why_loop(std::string const& sub_engine, std::vector<std::string> const& instances) = 0;
-    // Calls the function, which takes a document, and soon lets this engine handle the reports of that, on the same thread.
-    virtual void attend(std::function<void()> const& take) = 0;
     // Returns whether this engine's clock runs. If not, the sub engine receives no signs of life, and its robot stops.
     virtual bool is_alive() const = 0;
     // A line of the log about the sub engine.

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/loop.hpp"
-#include "engine/providers/inbox.hpp"
 #include "remote/door.hpp"
 #include "remote/joiner.hpp"
 #include "remote/remote_engine.hpp"
@@ -114,19 +113,6 @@ private:
         std::lock_guard const lock{states_mutex_};
         states_[state.name] = state;
     }
-    // The clock of the engine would have to be woken for each report. After all documents that have arrived, one call handles
-    // many.
-    void attend(std::function<void()> const& take) override {
-        {
-            Inbox::Attended const attended;
-            take();
-        }
-        if (std::exchange(handles_soon_, true)) return;
-        post([this] {
-            handles_soon_ = false;
-            host_.handle();
-        });
-    }
     bool is_alive() const override { return pulse_->beats(now()); }
 
     std::optional<std::string> why_loop(std::string const& sub_engine, std::vector<std::string> const& instances) override {
@@ -164,7 +150,6 @@ private:
     std::map<std::string, EngineState> states_;  // guarded by states_mutex_
     std::shared_ptr<Pulse> const pulse_ = std::make_shared<Pulse>();
     std::map<std::string, std::shared_ptr<RemoteEngine>> engines_;
-    bool handles_soon_ = false;
     std::map<std::string, Settings> settings_;  // of the links, which refer to them
     std::map<std::string, std::vector<std::string>> instances_;
     std::map<std::string, std::string> joined_;  // the instance that has joined last, by name

@@ -24,7 +24,6 @@ public:
         std::string instance;  // of this engine
         std::shared_ptr<xml::Schemas const> schemas;
         std::function<void(ComponentChange)> change;
-        std::function<void()> handle;  // lets the engine handle the reports of components, on the thread of the links
         std::function<void(std::string const& engine, std::string const& what)> report;
     };
 

@@ -102,7 +102,7 @@ void RemoteEngine::document(std::string_view text) {
     auto const self = shared_from_this();
     auto const read = reader_.read(text);
     if (!read) return give_up_link("invalid document: expected an answer or a notification, not " + quoted(text, 100));
-    surroundings_->attend([&] { std::visit([this](auto const& message) { take(message); }, *read); });
+    std::visit([this](auto const& message) { take(message); }, *read);
     if (++documents_ % between_checks != 0 || !link_ || !is_flooded()) return;
     link_->pause();
     go_on_when_handled(era_);

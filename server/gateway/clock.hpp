@@ -22,7 +22,7 @@ public:
               while (!stop.stop_requested()) {
                   bool const reported = gateway.await_reports(next) && std::chrono::steady_clock::now() < next;
                   try {
-                      reported ? gateway.handle_reports(Provider::Runner::clock) : gateway.tick();
+                      reported ? gateway.handle_reports() : gateway.tick();
                   } catch (...) {
                       troubles.report(Troubles::Where::tick);
                   }

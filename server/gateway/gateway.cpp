@@ -349,10 +349,10 @@ bool Gateway::Alarm::wait_until(Steady until) {
 
 bool Gateway::await_reports(Steady until) { return alarm_.wait_until(until); }
 
-void Gateway::handle_reports(Provider::Runner runner) {
+void Gateway::handle_reports() {
     auto const now = present();
     std::unique_lock lock{mutex_};
-    engine_.work(lock, now, runner);
+    engine_.work(lock, now, Provider::Runner::clock);
 }
 
 // Returns freed memory to the system. Otherwise it would count against the budget until the process ends.

@@ -172,8 +172,8 @@ public:
 
     // Waits until a component has reported something, at most until `until`. Returns whether one has. For the engine's clock.
     bool await_reports(Steady until);
-    // Lets the engine handle what components have reported. Any thread; only the clock also runs calls that are left for it.
-    void handle_reports(Provider::Runner);
+    // Lets the engine handle what components have reported.
+    void handle_reports();
 
     // Halts every component before the process ends in an emergency. Gives up if the engine stays locked for a second.
     void halt_at_last() noexcept;

@@ -175,15 +175,6 @@ EngineProfile engine_profile(GatewaySettings const& settings, simulation::FloorP
     return profile;
 }
 
-void handle_reports(Gateway& gateway) noexcept {
-    try {
-        gateway.handle_reports(Provider::Runner::client);
-    } catch (std::exception const& problem) {
-        // The engine's clock handles them in its next tick.
-        spdlog::warn("engines: reports were not handled: {}", problem.what());
-    }
-}
-
 // Reads the file of sub engines again. If that fails, logs why and changes nothing.
 void read_again(std::string const& file, remote::RemoteEngines& engines, std::string const& own_url) {
     try {
@@ -258,7 +249,6 @@ int serve(CommandLine const& command) {
             .instance = instance,
             .schemas = schemas,
             .change = [&](ComponentChange change) { gateway.change(std::move(change)); },
-            .handle = [&] { handle_reports(gateway); },
             .report = [](std::string const& name, std::string const& what) { spdlog::info("{}: {}", name, what); }});
         engine.add(remote_engines->pulse(), "pulse");
     }

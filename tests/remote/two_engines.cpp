@@ -142,7 +142,6 @@ public:
         if (std::ranges::find(instances, engines_.instance_of_main) == instances.end()) return {};
         return "that would be a loop";
     }
-    void attend(std::function<void()> const& take) override { take(); }
     bool is_alive() const override { return engines_.main_is_alive; }
     void report(std::string const&, std::string const& what) override { engines_.reported.push_back(what); }
     void show(EngineState const& state) override { engines_.shown = state; }

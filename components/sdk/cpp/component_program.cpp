@@ -58,7 +58,6 @@ bool serve(std::string const& url, std::string const& name, Components component
         {.instance = instance,
          .schemas = schemas(),
          .change = [](ComponentChange const&) {},
-         .handle = [] {},
          .report = [](std::string const& whose, std::string const& what) { spdlog::info("{}: {}", whose, what); }}};
     net::Settings settings;
     settings.port = 0;
