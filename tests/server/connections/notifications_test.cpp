@@ -70,6 +70,7 @@ TEST(LongPoll, ReturnsWaitingNotificationsAtOnce) {
 TEST(LongPoll, WaitsForTheNext) {
     HttpClient client, waiting;
     bind_and_complete(client, 1);
+    EXPECT_THAT(sequences(client.notifications(0, 30)), ElementsAre(1));
     waiting.line().send("GET /rois/notifications?after=1&wait=30 HTTP/1.1\r\nHost: localhost\r\nRoIS-Session: " + client.session +
                         "\r\n\r\n");
     complete(client, 1);
