@@ -82,8 +82,8 @@ protected:
 inline Link::Document document_of(Request const& request) { return std::make_shared<std::string const>(xml::encode(request)); }
 
 std::shared_ptr<Link> websocket_link(Loop&, Target const&, Settings const&, Link::Listener&);
-// A WebSocket that a client opens here. `socket`: a connected socket, which the link closes. `head`: the bytes received on it, with
-// the request for the upgrade. Returns null if the socket cannot be used.
+// A WebSocket that a client opens here. `socket`: a connected socket, which the link closes. `head`: the bytes received on it,
+// with the request for the upgrade. Returns null if the socket cannot be used.
 std::shared_ptr<Link> accepted_link(Loop&, int socket, std::string head, Settings const&, Link::Listener&);
 std::shared_ptr<Link> http_link(Loop&, Target const&, Settings const&, Link::Listener&);
 
