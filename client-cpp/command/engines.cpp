@@ -8,7 +8,6 @@
 #include "command/context.hpp"
 #include "command/http.hpp"
 #include "command/output/terminal.hpp"
-#include "types/text/texts.hpp"
 #include "xml/codec/codec.hpp"
 
 namespace rois::command {
@@ -44,13 +43,10 @@ Json json_of(EngineState const& engine) {
 }  // namespace
 
 void engines(Options const& options, Printer& printer) {
-    auto const answer = http_get({options.url, options.token, options.ca_file}, "/rois/engines", options.deadline);
+    HttpServer const server{options.url, options.token, options.ca_file};
+    auto const answer = http_get(server, "/rois/engines", options.deadline);
     auto const all = answer.status == 200 ? xml::AnswerReader{}.read_engines(answer.body) : std::nullopt;
-    if (!all) {
-        auto const body = harmless(trimmed(answer.body.substr(0, 200)));
-        throw Trouble{Exit::fault, "engines: " + options.url + " answers " + std::to_string(answer.status) +
-                                       (body.empty() ? "" : ": " + body) + hint_for_url(options.url)};
-    }
+    if (!all) throw unexpected(options.command, server, answer);
     if (printer.form() == Form::xml) return printer.text(answer.body + "\n");
     if (printer.form() == Form::json) {
         for (auto const& each : *all) printer.line({}, {}, json_of(each));

@@ -9,7 +9,6 @@
 #include "command/http.hpp"
 #include "command/output/terminal.hpp"
 #include "types/text/listing.hpp"
-#include "types/text/texts.hpp"
 #include "xml/codec/codec.hpp"
 
 namespace rois::command {
@@ -34,9 +33,7 @@ StopState posted(Options const& options, HttpServer const& server, std::string c
         for (auto& ref : state->not_halted) ref = harmless(ref);
         return *std::move(state);
     }
-    auto const body = harmless(trimmed(answer.body.substr(0, 200)));
-    throw Trouble{Exit::fault, options.command + ": " + options.url + " answers " + std::to_string(answer.status) +
-                                   (body.empty() ? "" : ": " + body) + hint_for_url(options.url)};
+    throw unexpected(options.command, server, answer);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <optional>
 #include <regex>
 
-#include "command/exit.hpp"
+#include "command/output/terminal.hpp"
 #include "types/text/texts.hpp"
 
 namespace rois::command {
@@ -128,6 +128,12 @@ void rethrow(std::exception_ptr const& error) {
 }
 
 }  // namespace
+
+Trouble unexpected(std::string const& command, HttpServer const& server, HttpAnswer const& answer) {
+    auto const body = harmless(trimmed(answer.body.substr(0, 200)));
+    return {Exit::fault, command + ": " + server.url + " answers " + std::to_string(answer.status) +
+                             (body.empty() ? "" : ": " + body) + hint_for_url(server.url)};
+}
 
 std::string hint_for_url(std::string const& url) {
     auto const last = url.find_last_not_of('/');

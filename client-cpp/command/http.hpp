@@ -4,6 +4,8 @@
 #include <chrono>
 #include <string>
 
+#include "command/exit.hpp"
+
 namespace rois::command {
 
 struct HttpAnswer {
@@ -32,6 +34,9 @@ void check(HttpServer const&);
 // Returns whether both URLs have the same host, port, path and security (TLS or plain). Throws Trouble (usage) if a URL is
 // invalid.
 bool is_same_gateway(std::string const& url, std::string const& other);
+
+// The trouble of a command (`command`) with an answer that it did not expect.
+Trouble unexpected(std::string const& command, HttpServer const&, HttpAnswer const&);
 
 // Returns advice about a URL at which no engine answers; empty if there is none.
 std::string hint_for_url(std::string const& url);

@@ -17,6 +17,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <exception>
 #include <map>
 #include <optional>
 #include <system_error>
@@ -149,7 +150,11 @@ private:
     void read() {
         output_.async_read_some(asio::buffer(piece_), [self = shared_from_this()](error_code error, std::size_t size) {
             if (error) return;
-            self->said(size);
+            try {
+                self->said(size);
+            } catch (std::exception const&) {
+                self->line_.clear();  // no memory
+            }
             self->read();
         });
     }
@@ -251,12 +256,24 @@ public:
     }
 
 private:
+    // Without memory a line of output, or a restart, may be lost. The gateway goes on.
+    void run() {
+        while (true) {
+            try {
+                io_.run();
+                return;
+            } catch (std::exception const&) {
+                continue;
+            }
+        }
+    }
+
     std::shared_ptr<Listener const> const listener_;
     ProgramTimes const times_;
     asio::io_context io_{1};
     asio::executor_work_guard<asio::io_context::executor_type> work_{io_.get_executor()};
     std::map<std::string, std::shared_ptr<Program>> programs_;  // by the names of their sub engines
-    std::thread thread_{[this] { io_.run(); }};                 // programs end with it
+    std::thread thread_{[this] { run(); }};                     // programs end with it
 };
 
 Programs::Programs(Listener listener, ProgramTimes times) : all_{std::make_unique<All>(std::move(listener), times)} {}

@@ -44,7 +44,7 @@ public:
     virtual bool is_alive() const = 0;
     // A line of the log about the sub engine.
     virtual void report(std::string const& sub_engine, std::string const& what) = 0;
-    // What is known of the sub engine, whenever that has changed.
+    // Called whenever the state of the sub engine has changed.
     virtual void show(EngineState const&) = 0;
 };
 
@@ -63,7 +63,7 @@ public:
     void joined(std::shared_ptr<client::Link>);
     bool has_link() const { return link_ != nullptr; }
 
-    // Reports something that went wrong, once for several times in a row.
+    // Reports a problem. If the same one is reported again and again, the log has it once.
     void note(std::string const& what);
 
     // From any thread: calls the function on the thread of the links.
