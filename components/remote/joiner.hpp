@@ -22,6 +22,8 @@ public:
 
     void begin() { attempt(); }
     void end();
+    // An exception, for example because memory is missing, may have interrupted this object: joins again.
+    void recover() { give_up("an exception on the thread of the links"); }
 
 private:
     class Side;

@@ -30,6 +30,12 @@ public:
     int begins_asked = 0;                             // commands that its engine has not accepted yet
     std::vector<std::function<void()>> after_begins;  // a suspend or resume, which would overtake them
 
+    void forget_questions() {
+        binds_asked = begins_asked = 0;
+        halts.clear();
+        after_begins.clear();
+    }
+
     // Thread-safe. Reports are dropped unless there is a port.
     void attach(ComponentPort& port) {
         std::lock_guard const lock{mutex_};

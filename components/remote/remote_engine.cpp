@@ -259,9 +259,13 @@ void RemoteEngine::report_state(Part& part, ComponentChanged const& changed) con
 void RemoteEngine::operator()(Completed const& completed) {
     auto const found = commands_.find(completed.command_id.text);
     if (found == commands_.end()) return;  // it ended before, or never began
-    auto const end = std::move(found->second);
-    commands_.erase(found);
-    end(completed);
+    auto command = commands_.extract(found);
+    try {
+        command.mapped()(completed);
+    } catch (...) {
+        commands_.insert(std::move(command));  // `recover` ends it
+        throw;
+    }
 }
 
 // --- What this engine asks ---
@@ -315,7 +319,14 @@ void RemoteEngine::prepare(std::shared_ptr<Part> const& part, Ticket ticket, std
         if (outcome.return_code == ReturnCode::bad_parameter) return part->answer(ticket, Refused{without_place(outcome.reason)});
         if (outcome.return_code != ReturnCode::ok) return part->answer(ticket, Failed{outcome.reason});
         part->answer(ticket, [self, part, command_type, parameters](CommandHandle command, Instant) {
-            self->run([=](RemoteEngine& engine) { engine.begin(part, command, command_type, parameters); });
+            self->run([=](RemoteEngine& engine) {
+                try {
+                    engine.begin(part, command, command_type, parameters);
+                } catch (...) {
+                    part->report(CommandEnded{.command = command, .status = CompletedStatus::error});
+                    throw;
+                }
+            });
         });
     });
 }
@@ -323,7 +334,7 @@ void RemoteEngine::prepare(std::shared_ptr<Part> const& part, Ticket ticket, std
 void RemoteEngine::begin(std::shared_ptr<Part> const& part, CommandHandle command, std::string const& command_type,
                          ParameterList const& parameters) {
     auto const id = "c" + std::to_string(++last_command_);
-    commands_[id] = [self = shared_from_this(), part, command](Completed const& completed) {
+    auto end = [self = shared_from_this(), part, command](Completed const& completed) {
         CommandEnded ended{
             .command = command, .status = completed.status, .results = {}, .afterwards = {}, .reason = completed.reason};
         if (completed.results) ended.results = *completed.results;
@@ -331,6 +342,7 @@ void RemoteEngine::begin(std::shared_ptr<Part> const& part, CommandHandle comman
         if (completed.active) ended.afterwards = *completed.active ? Afterwards::active : Afterwards::idle;
         part->report(std::move(ended));
     };
+    commands_.emplace(id, std::move(end));
     auto unit = unit_of(part->entry.ref, command_type, id, translation_.to_there(parameters));
     ++part->begins_asked;
     ask(Execute{{{std::move(unit)}}},
@@ -377,7 +389,7 @@ void RemoteEngine::pause(std::shared_ptr<Part> const& part, Ticket ticket, std::
 void RemoteEngine::command(std::shared_ptr<Part> const& part, std::string const& command_type,
                            std::function<void(CompletedStatus, std::string const& reason)> const& then) {
     auto const id = "c" + std::to_string(++last_command_);
-    commands_[id] = [then](Completed const& completed) { then(completed.status, completed.reason); };
+    commands_.emplace(id, [then](Completed const& completed) { then(completed.status, completed.reason); });
     ask(Execute{{{unit_of(part->entry.ref, command_type, id, {})}}},
         [self = shared_from_this(), then, id](Reply const* reply) {
             if (reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok) return;
@@ -393,9 +405,10 @@ void RemoteEngine::query(std::shared_ptr<Part> const& part, Ticket ticket, std::
     ask(std::move(asked), [self = shared_from_this(), part, ticket](Reply const* reply) {
         auto const* answer = reply == nullptr ? nullptr : std::get_if<Query::Reply>(reply);
         if (answer == nullptr || answer->return_code != ReturnCode::ok) return part->answer(ticket, std::vector<Results>{});
-        auto results = answer->results;
-        self->translation_.to_here(results);
-        part->answer(ticket, one_row(std::move(results)));
+        std::vector<Results> rows{answer->results};
+        rows.insert(rows.end(), answer->other_rows.begin(), answer->other_rows.end());
+        for (auto& row : rows) self->translation_.to_here(row);
+        part->answer(ticket, std::move(rows));
     });
 }
 

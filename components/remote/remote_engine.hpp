@@ -58,6 +58,9 @@ public:
     void begin();
     // Ends the session. Its components leave. Nothing happens after this.
     void end();
+    // An exception, for example because memory is missing, may have interrupted this object at any place: gives up the session,
+    // and connects again. If this throws, call it again.
+    void recover();
 
     // A sub engine that joins is there, on an open link, which replaces an older one.
     void joined(std::shared_ptr<client::Link>);
@@ -107,6 +110,7 @@ private:
     void send_again();
     void give_up_link(std::string const& reason);
     void give_up(std::string const& reason);
+    void end_commands(std::string const& why);
     void leave(std::string const& reason);
     void await_next_attempt();
     void give_signs_of_life(std::uint64_t session);

@@ -37,7 +37,9 @@ class RemoteEngines::Links final : public Surroundings, public std::enable_share
 public:
     explicit Links(Host host) : host_{std::move(host)} {}
 
-    void start() { loop_.start(shared_from_this()); }
+    void start() {
+        loop_.start(shared_from_this(), [this] { recover(); });
+    }
     void stop() {
         post([this] {
             set({});
@@ -136,6 +138,13 @@ private:
         if (found->second->has_link() && joined != join.instance) return "another engine has joined as " + quoted(join.name);
         joined = join.instance;
         return found->second;
+    }
+
+    // An exception has left a handler of this thread, for example because memory is missing. It may have interrupted any of them.
+    void recover() {
+        for (auto const& [name, engine] : engines_) engine->recover();
+        door_->close();
+        if (joiner_) joiner_->recover();
     }
 
     void end(RemoteEngine& engine) {

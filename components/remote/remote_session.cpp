@@ -248,7 +248,7 @@ void RemoteEngine::give_up_link(std::string const& reason) {
     state_.round_trip.reset();
     if (is_over_) return;
     note(reason);
-    if (!session_.text.empty() && !is_given_up_ && !lost_at_) {
+    if (is_present_ && !lost_at_) {
         lost_at_ = surroundings_->now();
         ++state_.losses;
         auto const when_still_lost = [&](std::chrono::milliseconds time, void (RemoteEngine::*then)(std::string const&),
@@ -273,15 +273,35 @@ void RemoteEngine::give_up(std::string const& reason) {
     note(reason);
     auto const why = "the engine " + quoted(settings_.name) + " is lost: " + reason;
     show();
-    for (auto& [number, open] : std::exchange(open_, {})) open.then(nullptr);
-    Completed const aborted{.command_id = {}, .status = CompletedStatus::abort, .results = {}, .reason = why};
-    for (auto& [id, end] : std::exchange(commands_, {})) end(aborted);
+    end_commands(why);
     states_.clear();
     for (auto const& [ref, part] : parts_) {
         part->is_held = false;
         part->report(std::make_shared<ComponentState const>(ComponentState{ComponentStatus::error, {}, {}}));
         part->report(ErrorOccurred{ErrorType::component_not_responding, why, Report::once});
     }
+}
+
+// Each stays until its end has been reported: if that throws, the next call reports it.
+void RemoteEngine::end_commands(std::string const& why) {
+    while (!open_.empty()) {
+        auto const open = open_.extract(open_.begin());
+        open.mapped().then(nullptr);
+    }
+    Completed const aborted{.command_id = {}, .status = CompletedStatus::abort, .results = {}, .reason = why};
+    while (!commands_.empty()) {
+        auto const first = commands_.begin();
+        first->second(aborted);
+        commands_.erase(first);
+    }
+}
+
+void RemoteEngine::recover() {
+    constexpr auto why = "an exception on the thread of the links";
+    give_up_link(why);
+    give_up(why);
+    end_commands(why);
+    for (auto const& [ref, part] : parts_) part->forget_questions();
 }
 
 // Its components leave until it returns.

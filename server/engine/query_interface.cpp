@@ -79,7 +79,7 @@ private:
     // A row of results that matches; without a row, the component matches whatever it answers.
     struct Match {
         std::size_t place = 0;  // in possible_
-        std::optional<Results> row;
+        std::optional<std::size_t> row;
     };
 
     bool engine_knows() const { return query_type_ == "component_status" || query_type_ == "get_parameter"; }
@@ -98,6 +98,7 @@ private:
     void sort(std::vector<Match>&, Perspective&) const;
     Later next_match(Session&, Instant now);
     Later after_match(Session&, Instant now);
+    Query::Reply answer(Session const&, Possible&, std::size_t row) const;
     Later joined(Session&, Instant now);
     Reply why_nobody_answered() const;
 
@@ -213,8 +214,8 @@ std::vector<Engine::Core::Inquiry::Match> Engine::Core::Inquiry::matches(Perspec
             if (selection_.match(candidate) == rois::Match::yes) found.push_back({place, {}});
             continue;
         }
-        for (auto const& row : *rows)
-            if (selection_.match(MessageCandidate{candidate, row}) == rois::Match::yes) found.push_back({place, row});
+        for (std::size_t row = 0; row < rows->size(); ++row)
+            if (selection_.match(MessageCandidate{candidate, (*rows)[row]}) == rois::Match::yes) found.push_back({place, row});
     }
     return found;
 }
@@ -224,8 +225,9 @@ void Engine::Core::Inquiry::sort(std::vector<Match>& found, Perspective& looked_
     std::vector<Candidate const*> candidates;
     for (auto const& [place, row] : found) {
         candidates.push_back(&looked_at.candidate(*possible_[place].component));
-        if (row)
-            candidates.back() = with_results.emplace_back(std::make_unique<MessageCandidate>(*candidates.back(), *row)).get();
+        if (!row) continue;
+        auto const& results = (*possible_[place].rows)[*row];
+        candidates.back() = with_results.emplace_back(std::make_unique<MessageCandidate>(*candidates.back(), results)).get();
     }
     std::vector<Match> ordered;
     ordered.reserve(found.size());
@@ -256,19 +258,14 @@ Engine::Core::Later Engine::Core::Inquiry::choose(Perspective& looked_at, Sessio
 Engine::Core::Later Engine::Core::Inquiry::next_match(Session& session, Instant now) {
     while (next_ < matches_.size()) {
         auto& [place, row] = matches_[next_++];
-        auto& [component, was_asked, rows] = possible_[place];
+        auto& possible = possible_[place];
+        auto& [component, was_asked, rows] = possible;
         if (!row && engine_knows()) {
-            auto known = known_answer(session, *component, query_type_);
-            if (!known.empty()) row = std::move(known.front());
+            rows = known_answer(session, *component, query_type_);
+            if (!rows->empty()) row = 0;
             if (!row) failed_ = component->ref().code;
         }
-        if (row) {
-            Later found;
-            auto& reply = std::get<Query::Reply>(found.emplace(std::in_place_type<Query::Reply>));
-            reply.component_ref = component->ref();
-            reply.results = std::move(*row);
-            return found;
-        }
+        if (row) return answer(session, possible, *row);
         if (was_asked || engine_knows()) continue;
         bool const is_last = next_ == matches_.size();
         auto const due = is_last ? until_ : now.steady + (until_ - now.steady) / 2;
@@ -284,10 +281,23 @@ Engine::Core::Later Engine::Core::Inquiry::after_match(Session& session, Instant
     auto& match = matches_[next_ - 1];
     auto& rows = possible_[match.place].rows;
     if (rows && !rows->empty()) {
-        match.row = std::move(rows->front());
+        match.row = 0;
         --next_;
     }
     return next_match(session, now);
+}
+
+// Another engine receives all rows, because it applies the condition of its application itself.
+Query::Reply Engine::Core::Inquiry::answer(Session const& session, Possible& possible, std::size_t row) const {
+    auto& rows = *possible.rows;
+    Query::Reply reply;
+    reply.component_ref = possible.component->ref();
+    reply.results = std::move(rows[row]);
+    if (session.is_engine && rows.size() > 1) {
+        rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(row));
+        reply.other_rows = std::move(rows);
+    }
+    return reply;
 }
 
 Reply Engine::Core::Inquiry::why_nobody_answered() const {

@@ -148,6 +148,7 @@ struct Query {
     struct Reply : Outcome {
         Identifier component_ref;  // of the component that answered
         Results results;
+        std::vector<Results> other_rows{};  // of this component; only in the sessions of engines (decision 39)
     };
 };
 

@@ -39,6 +39,17 @@ TEST_F(AnEngine, GetsTheTraitsOfComponents) {
     EXPECT_FALSE(world.connect().ask(GetProfile{}).components[1].traits) << "an application";
 }
 
+TEST_F(AnEngine, ReceivesAllRowsOfAQuery) {
+    auto const row = [](std::string const& length) { return Results{{value("length", "double", {length})}, {}}; };
+    world["navigation"].knows = {row("1"), row("2"), row("3")};
+    auto const answer = engine.query("route", equal("length", "2"));
+    EXPECT_EQ(in_words(answer.results.parameters), "length=2");
+    ASSERT_EQ(answer.other_rows.size(), 2u);
+    EXPECT_EQ(in_words(answer.other_rows[0].parameters), "length=1");
+    EXPECT_EQ(in_words(answer.other_rows[1].parameters), "length=3");
+    EXPECT_THAT(world.connect().query("route").other_rows, IsEmpty()) << "an application";
+}
+
 TEST_F(AnEngine, ReceivesLocationsAndParameters) {
     world["navigation"].where = Located{};
     world["navigation"].where->of = "robot";

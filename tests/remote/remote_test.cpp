@@ -71,6 +71,15 @@ TEST_F(SubEngines, AnswerQueries) {
     EXPECT_EQ(reply.component_ref.code, "hall.navigation");
 }
 
+TEST_F(SubEngines, AnswerQueriesWithTheRowThatMatches) {
+    auto const row = [](std::string const& length) { return Results{{value("length", "double", {length})}, {}}; };
+    robot().knows = {row("1"), row("2"), row("3")};
+    auto const reply = engines.ask(desk, Query{"route", equal("length", "2")});
+    EXPECT_EQ(in_words(reply.results.parameters), "length=2") << reply.reason;
+    EXPECT_THAT(reply.other_rows, IsEmpty());
+    EXPECT_EQ(engines.ask(desk, Query{"route", equal("length", "4")}).return_code, ReturnCode::unsupported);
+}
+
 // Two applications, one at each engine, want the same component.
 TEST_F(SubEngines, ShareTheirComponentsWithTheirOwnApplications) {
     auto guard = engines.hall.connect();
@@ -201,6 +210,14 @@ TEST_F(SubEngines, LeaveAfterTheResumeWindow) {
     engines.repair();
     engines.advance(31s);
     EXPECT_EQ(desk.search().size(), 3u);
+}
+
+// Then there is no session that could be lost with the link.
+TEST_F(SubEngines, LeaveAfterTheResumeWindowAlsoIfTheirSessionHadEnded) {
+    engines.inject(xml::encode(Fault{FaultCode::no_session, "ended", {}, {}}));
+    engines.cut();
+    engines.advance(31s);
+    EXPECT_THAT(desk.search(), IsEmpty());
 }
 
 TEST_F(SubEngines, ComeAndGoWithTheirProfile) {

@@ -35,21 +35,25 @@ public:
     void answer_pings() {
         if (!session_.text.empty()) engines_.hall.engine->note_pong(session_, engines_.hall.now);
     }
-    void inject(std::string const& document) { listener_->document(document); }
+    void inject(std::string const& document) {
+        engines_.on_links([&] { listener_->document(document); });
+    }
     std::uint64_t next_sequence() { return after_ + 1'000'000 + ++injected_; }
     void broke() {
         close();
-        fail("the link broke", client::Failure::passing);
+        engines_.on_links([&] { fail("the link broke", client::Failure::passing); });
     }
     bool is_dead() const { return listener_ == nullptr; }
 
     // Takes one step. Returns false if there is nothing to do.
     bool deliver() {
         if (std::exchange(opening_, false)) {
-            if (engines_.is_broken_)
-                fail("cannot be reached", client::Failure::passing);
-            else
-                listener_->connected();
+            engines_.on_links([&] {
+                if (engines_.is_broken_)
+                    fail("cannot be reached", client::Failure::passing);
+                else
+                    listener_->connected();
+            });
             return true;
         }
         if (!to_hall_.empty()) {
@@ -68,8 +72,8 @@ public:
         if (!session_.text.empty() && reads_ && !is_paused_)
             for (auto const& [sequence, notification] : reads_->read(after_, 1)) {
                 after_ = sequence;
-                listener_->document(std::string{xml::notification_head(notification->body)} + std::to_string(sequence) +
-                                    xml::notification_tail(notification->body));
+                inject(std::string{xml::notification_head(notification->body)} + std::to_string(sequence) +
+                       xml::notification_tail(notification->body));
                 return true;
             }
         return false;
@@ -88,7 +92,7 @@ private:
     void answer(std::string const& id, TestedOperation const& operation) {
         if (auto const* refusal = std::get_if<Refusal>(&*operation.said)) {
             Fault fault{*refusal == Refusal::no_session ? FaultCode::no_session : FaultCode::too_many, "refused", {}, id};
-            return listener_->document(xml::encode(fault));
+            return inject(xml::encode(fault));
         }
         auto const& reply = std::get<Reply>(*operation.said);
         if (auto const* connected = std::get_if<Connect::Reply>(&reply); connected != nullptr && session_.text.empty())
@@ -99,7 +103,7 @@ private:
         if (std::holds_alternative<Disconnect::Reply>(reply)) session_ = {};
         auto told = reply;
         engines_.falsify(told);
-        listener_->document(xml::encode(told, id));
+        inject(xml::encode(told, id));
     }
 
     void join(SessionId const& session, std::uint64_t after) {
@@ -156,7 +160,7 @@ public:
         } else {
             next = std::move(alarms_.extract(alarms_.begin()).mapped());
         }
-        next();
+        engines_.on_links(next);
         return true;
     }
     void drop() {

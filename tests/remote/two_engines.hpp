@@ -67,6 +67,8 @@ public:
     // Sends the main engine a document, as if from the hall.
     void inject(std::string const& document);
     void inject(Notification const&);  // with the next sequence
+    // Calls what runs on the thread of the links.
+    std::function<void(std::function<void()> const&)> on_links = [](auto const& what) { what(); };
     // The clock of the main engine stands still.
     bool main_is_alive = true;
     // Changes the instances that a profile may not have.

@@ -148,6 +148,21 @@ TEST(Answer, HasTheShortFormOfTheContract) {
         R"(<component_ref rois:code="a"/></bind_any_response>)");
 }
 
+TEST(Answer, OfAQueryMayHaveSeveralRows) {
+    auto const row = [](std::string const& number) { return Results{{{"number", {"int", {}, {}, {}}, {number}}}, {}}; };
+    auto reply = std::get<rois::Query::Reply>(query_reply(component, row("1")));
+    reply.other_rows = {row("2"), row("3")};
+    auto const text = encode(Reply{reply}, "7");
+    EXPECT_EQ(problem("answer", text), "") << text;
+    auto const read = AnswerReader{}.read(text);
+    ASSERT_TRUE(read) << text;
+    auto const again = std::get<rois::Query::Reply>(std::get<Answered>(*read).reply);
+    EXPECT_EQ(again.results.parameters, row("1").parameters);
+    ASSERT_EQ(again.other_rows.size(), 2u);
+    EXPECT_EQ(again.other_rows[0].parameters, row("2").parameters);
+    EXPECT_EQ(again.other_rows[1].parameters, row("3").parameters);
+}
+
 TEST(Answer, ValuesRoundTrip) {
     std::string const carried = "<&>\"'\t\n\r ]]> \xC3\xA4\xF0\x9F\x98\x80  ";
     auto const reply = query_reply({carried, carried, {}, {}}, {{{carried, {carried, {}, {}, {}}, {carried, "", " "}}}, {}});
@@ -334,6 +349,13 @@ TEST(ProfileDocument, IsValidAndHasAnXmlDeclaration) {
         EXPECT_THAT(text, testing::StartsWith("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"));
         EXPECT_EQ(problem("profile", text), "") << text;
     }
+}
+
+TEST(EngineProfile, MayHaveNeitherComponentsNorSubEngines) {
+    auto profile = engine_profile();
+    profile.components.clear();
+    profile.sub_profiles.clear();
+    EXPECT_EQ(problem("profile", encode(profile, "engine.main")), "");
 }
 
 TEST(ProfileDocument, OfAComponentRoundTrips) {

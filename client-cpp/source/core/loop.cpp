@@ -2,6 +2,12 @@
 
 namespace rois::client {
 
+namespace {
+
+constexpr auto until_recovery = std::chrono::milliseconds{10};  // the system may have memory again
+
+}  // namespace
+
 Loop::Loop() : work_{asio::make_work_guard(io_)}, timer_{io_} {}
 
 Loop::Ticket Loop::at(Steady time, std::function<void()> ring) {
@@ -38,10 +44,10 @@ void Loop::arm() {
     });
 }
 
-void Loop::start(std::shared_ptr<void> owner) {
-    thread_ = std::thread{[this, owner = std::move(owner)] {
+void Loop::start(std::shared_ptr<void> owner, std::function<void()> recover) {
+    thread_ = std::thread{[this, owner = std::move(owner), recover = std::move(recover)] {
         own_id_ = std::this_thread::get_id();
-        io_.run();  // until it is stopped by `finish`
+        run(recover);  // until it is stopped by `finish`
         io_.restart();
         while (io_.poll() > 0) {  // runs the handlers of cancelled operations
         }
@@ -49,6 +55,24 @@ void Loop::start(std::shared_ptr<void> owner) {
         io_.run();
         end();
     }};
+}
+
+void Loop::run(std::function<void()> const& recover) {
+    bool is_interrupted = false;
+    while (true) {
+        try {
+            if (std::exchange(is_interrupted, false)) {
+                arm();
+                recover();
+            }
+            io_.run();
+            return;
+        } catch (std::exception const&) {
+            if (!recover) throw;
+            is_interrupted = true;
+            std::this_thread::sleep_for(until_recovery);
+        }
+    }
 }
 
 // Functions that were posted before over_ was set still run.

@@ -67,8 +67,9 @@ public:
     Ticket in(std::chrono::milliseconds time, std::function<void()> ring) { return at(from_now(time), std::move(ring)); }
     void cancel(Ticket);
 
-    // Starts the thread. The thread keeps `owner` alive. It runs until `finish` was called and no handler is left.
-    void start(std::shared_ptr<void> owner);
+    // Starts the thread. The thread keeps `owner` alive. It runs until `finish` was called and no handler is left. If an
+    // exception leaves a handler, `recover` is called soon afterwards; without a `recover`, the exception ends the program.
+    void start(std::shared_ptr<void> owner, std::function<void()> recover = {});
     // On the client's thread: cancels all alarms, and lets the thread end.
     void finish();
     // Waits until the thread has ended. Detaches it instead on the client's thread, and while a host name is looked up, which may
@@ -77,6 +78,7 @@ public:
 
 private:
     void arm();
+    void run(std::function<void()> const& recover);
     void end();
 
     asio::io_context io_{1};

@@ -40,6 +40,17 @@ bool read(Node node, R& reply) {
     return complete;
 }
 
+bool read(Node node, Query::Reply& reply) {
+    std::vector<Results> rows;
+    for (auto const child : node.children())
+        if (child.name() == "results") rows.push_back(decode_results(child));
+    if (rows.empty() || !read_ref(node, reply.component_ref)) return false;
+    reply.results = std::move(rows.front());
+    rows.erase(rows.begin());
+    reply.other_rows = std::move(rows);
+    return true;
+}
+
 bool read(Node node, Connect::Reply& reply) {
     reply.session.text = node.child_text("session");
     if (auto const window = node.attribute("window")) reply.window = std::chrono::milliseconds{decode_unsigned(*window)};

@@ -84,6 +84,7 @@ void write(Writer& out, Execute::Reply const& reply) { write_sequence(out, reply
 void write(Writer& out, Query::Reply const& reply) {
     write_identifier(out, "component_ref", reply.component_ref);
     write_results(out, reply.results);
+    for (auto const& row : reply.other_rows) write_results(out, row);
 }
 
 void write(Writer& out, Subscribe::Reply const& reply) { out.element("subscribe_id", reply.subscribe_id.text); }

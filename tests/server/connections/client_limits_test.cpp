@@ -18,6 +18,7 @@
 #include "gateway/access/addresses.hpp"
 #include "gateway/access/admission.hpp"
 #include "gateway/access/session_quota.hpp"
+#include "kit/profile_folder.hpp"
 #include "server/websocket_client.hpp"
 
 namespace rois::test {
@@ -286,6 +287,18 @@ TEST(Admission, CountsEachAddressForAsLongAsItsConnectionsLive) {
     EXPECT_EQ(enter(there, Limits::all), "full");
     places.pop_front();
     EXPECT_EQ(enter(here, Limits::all), "in");
+}
+
+// Only the loopback proves that the engine is on this machine.
+TEST_F(ClientLimits, LetEnginesJoinFromTheLoopbackOnly) {
+    kit::ProfileFolder const folder;
+    folder.put("engines.json", R"({"engines": [{"name": "robot1", "joins": "robot1"}]})");
+    start({"--robots", "none", "--engines", folder.name() + "/engines.json"});
+    auto const from_outside = http(), from_here = http(true);
+    auto const refused = kit::shake_hands(*from_outside, {}, "/rois/engines");
+    EXPECT_EQ(refused.status, 403);
+    EXPECT_THAT(refused.reason(), HasSubstr("expected a connection from this machine"));
+    EXPECT_EQ(kit::shake_hands(*from_here, {}, "/rois/engines").status, 101);
 }
 
 TEST(SessionQuota, CountsSessionsUntilTheyEnd) {

@@ -101,6 +101,15 @@ TEST(Joining, IsNotAllowedWithoutAnEnginesFile) {
     EXPECT_EQ(kit::shake_hands(http, {}, "/rois/engines").status, 403);
 }
 
+TEST(Engines, ThatAreAllAbsentLeaveAProfileWithoutComponents) {
+    Main main;
+    HttpClient http{main};
+    auto const profile = http.get("/rois/profile").body;
+    EXPECT_THAT(profile, HasSubstr("<rois:HRIEngineProfile"));
+    EXPECT_THAT(profile, Not(HasSubstr("HRIComponent")));
+    EXPECT_THAT(profile, Not(HasSubstr("SubProfile")));
+}
+
 TEST(Engines, AreListedWithTheirStates) {
     Main main;
     HttpClient http{main};
