@@ -1,8 +1,10 @@
 #include "engine/questions.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
+#include "engine/attempts.hpp"
 #include "engine/registry.hpp"
 
 namespace rois {
@@ -48,24 +50,32 @@ bool Questions::answered(Ticket ticket, ComponentAnswer&& answer, Instant now) {
     if (found == open_.end() || found->ticket != ticket) return false;
     auto const open = std::move(*found);
     open_.erase(found);
-    open.round->take(open.place, std::move(answer));
-    if (--open.round->unanswered_ == 0) open.round->end(now);
+    Attempts attempts;
+    end(open, std::move(answer), now, attempts);
+    attempts.rethrow();
     return true;
+}
+
+// A round ends even if it fails to take an answer.
+void Questions::end(Open const& question, std::optional<ComponentAnswer>&& answer, Instant now, Attempts& attempts) {
+    auto& round = *question.round;
+    attempts([&] { round.take(question.place, std::move(answer)); });
+    if (--round.unanswered_ == 0) attempts([&] { round.end(now); });
 }
 
 bool Questions::is_open(Ticket ticket) const { return std::ranges::binary_search(open_, ticket, {}, &Open::ticket); }
 
 void Questions::expire(Instant now) {
-    std::vector<std::shared_ptr<Round>> over;
-    std::erase_if(open_, [&](Open const& open) {
-        auto const& round = open.round;
-        if (now.steady < round->due_) return false;
-        open.component->report_silence(open.what);
-        round->take(open.place, {});
-        if (--round->unanswered_ == 0) over.push_back(round);
-        return true;
-    });
-    for (auto const& round : over) round->end(now);
+    auto const late =
+        std::ranges::stable_partition(open_, [&](Open const& open) { return now.steady < open.round->due_; });
+    std::vector<Open> const over{std::move_iterator{late.begin()}, std::move_iterator{late.end()}};
+    open_.erase(late.begin(), late.end());
+    Attempts attempts;
+    for (auto const& question : over) {
+        attempts([&] { question.component->report_silence(question.what); });
+        end(question, {}, now, attempts);
+    }
+    attempts.rethrow();
 }
 
 void Questions::fail_all(RegisteredComponent const& component, Instant now) {

@@ -12,6 +12,7 @@
 
 namespace rois {
 
+class Attempts;
 class RegisteredComponent;
 
 class Questions {
@@ -70,6 +71,8 @@ private:
         std::shared_ptr<RegisteredComponent> component;
         char const* what = nullptr;
     };
+
+    static void end(Open const&, std::optional<ComponentAnswer>&&, Instant now, Attempts&);
 
     std::vector<Open> open_;  // by ticket, ascending
     std::uint64_t last_ = 0;

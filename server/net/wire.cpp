@@ -52,8 +52,9 @@ Task<Wire::Outcome> Wire::receive(Steady until, std::size_t expected) {
     auto const size = co_await socket_.async_read_some(asio::buffer(input_.data() + before, input_.size() - before), into(error));
     input_due_ = Steady::max();
     input_.resize(before + size);
-    if (bool const interrupted = std::exchange(interrupted_, false); !error || interrupted) co_return Outcome::done;
-    co_return std::exchange(input_late_, false) ? Outcome::late : Outcome::closed;
+    bool const interrupted = std::exchange(interrupted_, false), late = std::exchange(input_late_, false);
+    if (!error || interrupted) co_return Outcome::done;
+    co_return late ? Outcome::late : Outcome::closed;
 }
 
 void Wire::interrupt() {
@@ -82,10 +83,14 @@ Task<Wire::Outcome> Wire::send(std::string_view text) {
 
 Wire::Watch Wire::watch(std::function<void()> closed, std::function<bool(Steady now)> is_proof) {
     watching_ = std::make_shared<Watching>(Watching{std::move(closed), std::move(is_proof)});
+    await_close();
+    return Watch{*this};
+}
+
+void Wire::await_close() {
     socket_.async_wait(Socket::wait_read, [this, watched = std::weak_ptr{watching_}](boost::system::error_code error) {
         if (!error && watched.lock()) check_for_close();
     });
-    return Watch{*this};
 }
 
 // No other operation waits for the socket, so this cancels only the watch.
@@ -100,6 +105,7 @@ void Wire::check_for_close() {
     boost::system::error_code error;
     socket_.receive(asio::buffer(&byte, 1), asio::socket_base::message_peek, error);
     if (!error) return;
+    if (error == asio::error::would_block) return await_close();  // the system woke us without a reason
     watching_->gone = true;
     watching_->closed();
 }

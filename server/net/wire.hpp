@@ -1,6 +1,7 @@
 // The socket of a connection, with its unread input. Belongs to one thread. All input and output of a connection goes through it:
-// for TLS, an ssl::stream takes the place of the socket in `receive`, `send_now` and `send`; `watch` and `probe` use the socket
-// below it; `release` is only for connections without TLS.
+// for TLS, an ssl::stream takes the place of the socket in `receive` and `send`. `send_now` then writes nothing, because
+// an ssl::stream cannot write without waiting. `watch` and `probe` use the socket below it; `release` is only for connections
+// without TLS.
 #pragma once
 
 #include <functional>
@@ -87,6 +88,7 @@ private:
         bool gone = false;
     };
 
+    void await_close();
     void check_for_close();
     void probe(bool on);
 

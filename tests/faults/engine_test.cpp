@@ -4,6 +4,7 @@
 #include <new>
 #include <random>
 
+#include "engine/slow_component.hpp"
 #include "engine/world.hpp"
 #include "faults/driving_component.hpp"
 #include "faults/faults.hpp"
@@ -251,6 +252,25 @@ TEST(MotionAfterAPauseOfTheEngine, IsHeldByTheNextTickIfMemoryIsMissing) {
         failed = faults::stop();
         hall.tick_quietly(50ms);
         EXPECT_FALSE(hall.base->drives) << n;
+    }
+}
+
+// Three rounds end in the same tick: each operation has an answer, whichever of the allocations fails.
+TEST(QuestionsThatAreNotAnswered, EndAlsoIfMemoryIsMissing) {
+    bool failed = true;
+    for (std::uint64_t n = 1; failed && !testing::Test::HasFailure(); ++n) {
+        World world{speech};
+        world.engine->add(std::make_unique<SlowComponent>(navigation));
+        auto desk = world.connect();
+        std::vector<std::shared_ptr<TestedOperation>> asked;
+        for (int i = 0; i < 3; ++i) asked.push_back(world.begin_to_say(desk.session, Query{"route", {}}));
+        world.advance(950ms);
+        std::vector<std::function<void()>> const tick{[&] { world.advance(50ms); }};
+        faults::fail_at(faults::Of::memory, n);
+        Hall::play(tick);
+        failed = faults::stop();
+        for (int i = 0; i < 4; ++i) Hall::play(tick);
+        for (auto const& each : asked) EXPECT_TRUE(each->said) << n;
     }
 }
 
