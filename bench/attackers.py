@@ -204,9 +204,11 @@ def websocket(port):
     key = base64.b64encode(os.urandom(16)).decode()
     one.sendall(
         f"GET /rois HTTP/1.1\r\nHost: {HOST}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-        f"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: {key}\r\n\r\n".encode()
+        f"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: {key}\r\nSec-WebSocket-Protocol: rois.xml.v1\r\n\r\n".encode()
     )
-    one.recv(4_096)
+    answer = one.recv(4_096)
+    if not answer.startswith(b"HTTP/1.1 101 "):
+        raise OSError(f"no WebSocket: {answer[:100]!r}")
     return one
 
 

@@ -19,10 +19,7 @@ namespace rois::command {
 
 namespace {
 
-bool coloured(Options const& options) {
-    if (options.form != Form::human) return false;
-    return options.colour == "always" || (options.colour == "auto" && shows_colours(STDOUT_FILENO));
-}
+bool coloured(Options const& options) { return options.form == Form::human && shows_colours(options.colour, STDOUT_FILENO); }
 
 }  // namespace
 

@@ -1,8 +1,13 @@
-#include "command/listening.hpp"
-
+// The commands subscribe, watch and record.
 #include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <optional>
 #include <pugixml.hpp>
+#include <string>
+#include <vector>
 
+#include "command/context.hpp"
 #include "command/http.hpp"
 #include "command/sequences.hpp"
 #include "types/text/listing.hpp"
@@ -17,6 +22,56 @@ void check_known(Context& context, std::vector<std::string> const& wanted, std::
         if (std::ranges::find(known, type) == known.end())
             context.refuse<Subscribe>(ReturnCode::unsupported,
                                       "no component has an event " + rois::quoted(type) + "; there are " + listed(known));
+}
+
+// Binds and starts the components of --start.
+void start_components(Context& context) {
+    auto const& starts = context.options().starts;
+    if (starts.empty()) return;
+    CommandUnitSequence sequence;
+    for (auto const& ref : starts) {
+        Identifier const component{ref, {}, {}, {}};
+        context.bound(component);
+        sequence.command_unit_list.push_back({{}, CommandMessage{component, "start", fresh_command_id(), {}}});
+    }
+    context.ok(Execute{std::move(sequence)});
+}
+
+// Subscribes to these event types, or to all of the engine's components if none is given, with inline results.
+std::vector<SubscribeId> subscribe_to(Context& context, std::vector<std::string> const& event_types,
+                                      QueryExpression const& condition) {
+    auto const known = message_names(context.ok(GetProfile{}).components, MessageKind::event);
+    check_known(context, event_types, known);
+    bool const all = event_types.empty();
+    std::vector<SubscribeId> ids;
+    for (auto const& type : all ? known : event_types) {
+        // The condition may name results that only some events have. Without EVENT, skips the events that do not have them.
+        auto answer = context.session().request(Subscribe{type, condition, true});
+        auto const* const reply = std::get_if<Reply>(&answer);
+        auto const* const subscribed = reply != nullptr ? std::get_if<Subscribe::Reply>(reply) : nullptr;
+        bool const ok = subscribed != nullptr && subscribed->return_code == ReturnCode::ok;
+        if (ok) ids.push_back(subscribed->subscribe_id);
+        if (!ok && !all) context.ok(Subscribe{type, condition, true});
+    }
+    if (ids.empty()) context.refuse<Subscribe>(ReturnCode::unsupported, "no event can meet the condition");
+    return ids;
+}
+
+// Selects the updates of a command. In a shared session, the command also receives older notifications and events of other
+// subscriptions.
+struct Wanted {
+    std::uint64_t after = 0;            // only notifications after this sequence
+    std::vector<SubscribeId> events{};  // only events of these subscriptions; empty: all
+
+    bool operator()(Update const&) const;
+};
+
+bool Wanted::operator()(Update const& update) const {
+    auto const* const news = std::get_if<News>(&update);
+    if (news == nullptr) return true;
+    auto const* const event = std::get_if<ReceiveEvent>(&news->notification);
+    bool const is_chosen = event == nullptr || events.empty() || std::ranges::find(events, event->subscribe_id) != events.end();
+    return news->sequence > after && is_chosen;
 }
 
 bool is_new_session(Update const& update) {
@@ -53,49 +108,6 @@ void show(Printer& printer, Update const& update) {
     printer.gap(std::get<Gap>(update));
 }
 
-}  // namespace
-
-void start_components(Context& context) {
-    auto const& starts = context.options().starts;
-    if (starts.empty()) return;
-    CommandUnitSequence sequence;
-    for (auto const& ref : starts) {
-        Identifier const component{ref, {}, {}, {}};
-        context.bound(component);
-        sequence.command_unit_list.push_back({{}, CommandMessage{component, "start", fresh_command_id(), {}}});
-    }
-    context.ok(Execute{std::move(sequence)});
-}
-
-std::vector<SubscribeId> subscribe_to(Context& context, std::vector<std::string> const& event_types,
-                                      QueryExpression const& condition) {
-    auto const known = message_names(context.ok(GetProfile{}).components, MessageKind::event);
-    check_known(context, event_types, known);
-    bool const all = event_types.empty();
-    std::vector<SubscribeId> ids;
-    for (auto const& type : all ? known : event_types) {
-        // The condition may name results that only some events have. Without EVENT, skips the events that do not have them.
-        auto answer = context.session().request(Subscribe{type, condition, true});
-        auto const* const reply = std::get_if<Reply>(&answer);
-        auto const* const subscribed = reply != nullptr ? std::get_if<Subscribe::Reply>(reply) : nullptr;
-        bool const ok = subscribed != nullptr && subscribed->return_code == ReturnCode::ok;
-        if (ok) ids.push_back(subscribed->subscribe_id);
-        if (!ok && !all) context.ok(Subscribe{type, condition, true});
-    }
-    if (ids.empty()) context.refuse<Subscribe>(ReturnCode::unsupported, "no event can meet the condition");
-    return ids;
-}
-
-bool Wanted::operator()(Update const& update) const {
-    auto const* const news = std::get_if<News>(&update);
-    if (news == nullptr) return true;
-    auto const* const event = std::get_if<ReceiveEvent>(&news->notification);
-    bool const is_chosen = event == nullptr || events.empty() || std::ranges::find(events, event->subscribe_id) != events.end();
-    return news->sequence > after && is_chosen;
-}
-
-namespace {
-
 // Ends the time of --for: throws Trouble if --count asked for more events, and remarks if none arrived.
 void end_in_time(Options const& options, std::size_t events) {
     if (options.count)
@@ -129,9 +141,9 @@ Wanted wanted_by(Context& context, std::function<std::vector<SubscribeId>()> con
     return wanted;
 }
 
-}  // namespace
-
-void listen(Context& context, std::function<void(Update const&)> const& handle, Wanted const& wanted) {
+// Calls `handle` with each wanted update until --count events have arrived, --for is over, or a signal arrives. Throws Trouble if
+// the connection closes.
+void listen(Context& context, std::function<void(Update const&)> const& handle, Wanted const& wanted = {}) {
     auto& session = context.session();
     auto const& options = context.options();
     auto const until = end_of(options);
@@ -152,6 +164,8 @@ void listen(Context& context, std::function<void(Update const&)> const& handle, 
         restarting.take(*update);
     }
 }
+
+}  // namespace
 
 void subscribe(Context& context) {
     auto const& options = context.options();

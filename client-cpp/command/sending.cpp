@@ -1,4 +1,6 @@
 // The command send.
+#include <unistd.h>
+
 #include <variant>
 
 #include "command/context.hpp"
@@ -24,7 +26,7 @@ void report_fault(Context& context, Fault const& fault, std::string const& sent,
     std::string text = context.options().file + ":";
     if (fault.place) text += std::to_string(fault.place->line) + ":" + std::to_string(fault.place->column) + ":";
     text += " " + std::string{to_text(fault.code)} + ": " + harmless(fault.reason);
-    bool const coloured = context.options().colour == "always" || (context.options().colour == "auto" && shows_colours(2));
+    bool const coloured = shows_colours(context.options().colour, STDERR_FILENO);
     if (fault.place) text += "\n" + underlined(sent, *fault.place, coloured);
     if (text.ends_with('\n')) text.pop_back();
     throw Trouble{Exit::fault, text};

@@ -94,11 +94,6 @@ Key choice(std::string name, std::string help, Member<T> const& member, std::vec
     return key;
 }
 
-std::string show_address(std::string const& host, std::uint16_t port) {
-    bool const ipv6 = host.find(':') != std::string::npos;
-    return (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
-}
-
 bool set_listen(GatewaySettings& settings, std::string const& text) {
     auto const read = read_host_and_port(text);
     if (!read) return false;
@@ -107,7 +102,7 @@ bool set_listen(GatewaySettings& settings, std::string const& text) {
     return true;
 }
 
-std::string show_listen(GatewaySettings const& settings) { return show_address(settings.net.host, settings.net.port); }
+std::string show_listen(GatewaySettings const& settings) { return host_and_port(settings.net.host, settings.net.port); }
 
 bool set_media(GatewaySettings& settings, std::string const& text) {
     auto const read = text.empty() ? std::optional{HostAndPort{}} : read_host_and_port(text);
@@ -118,7 +113,7 @@ bool set_media(GatewaySettings& settings, std::string const& text) {
 }
 
 std::string show_media(GatewaySettings const& settings) {
-    return settings.media.host.empty() ? "" : show_address(settings.media.host, settings.media.port);
+    return settings.media.host.empty() ? "" : host_and_port(settings.media.host, settings.media.port);
 }
 
 // URL at which a reverse proxy serves the media. The paths of streams are appended to it.

@@ -15,17 +15,13 @@
 #include "gateway/shutdown.hpp"
 #include "net/listener.hpp"
 #include "net/loop.hpp"
+#include "types/text/address.hpp"
 
 namespace rois::net {
 
 namespace {
 
 using Signals = asio::basic_signal_set<Executor>;
-
-std::string text_of(std::string const& host, std::uint16_t port) {
-    bool const ipv6 = host.find(':') != std::string::npos;
-    return (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
-}
 
 }  // namespace
 
@@ -48,7 +44,7 @@ public:
         signals_.add(SIGINT);
     }
 
-    std::string url() const { return "http://" + text_of(shared_.settings.host, port_); }
+    std::string url() const { return "http://" + host_and_port(shared_.settings.host, port_); }
 
     void on_hang_up(std::function<void()> what) {
         on_hang_up_ = std::move(what);
@@ -89,7 +85,8 @@ private:
             for (auto& listener : listeners_) listener.listen();
             port_ = first.endpoint().port();
         } catch (boost::system::system_error const& error) {
-            throw std::runtime_error{"cannot listen on " + text_of(settings.host, settings.port) + ": " + error.code().message()};
+            throw std::runtime_error{"cannot listen on " + host_and_port(settings.host, settings.port) + ": " +
+                                     error.code().message()};
         }
     }
 

@@ -8,6 +8,8 @@
 #include <boost/asio/write.hpp>
 #include <utility>
 
+#include "types/text/address.hpp"
+
 namespace rois::net {
 
 namespace {
@@ -30,8 +32,7 @@ std::string Wire::peer() const {
     boost::system::error_code error;
     auto const endpoint = socket_.remote_endpoint(error);
     if (error) return "a closed connection";
-    auto const address = endpoint.address().to_string();
-    return (endpoint.address().is_v6() ? "[" + address + "]" : address) + ":" + std::to_string(endpoint.port());
+    return host_and_port(endpoint.address().to_string(), endpoint.port());
 }
 
 void Wire::use(std::size_t bytes) {

@@ -82,7 +82,7 @@ std::vector<Layer> const layers{
     {"client-cpp/include/", {"rois/", "types/"}, {}, Time::passed_in},
     {"client-cpp/source/", {"", "rois/", "types/", "xml/codec/"}, {boost, openssl}, Time::read},
     {"client-cpp/command/",
-     {"command/", "rois/", "types/", "xml/codec/codec.hpp", "xml/codec/decoding.hpp", "xml/profiles/document.hpp",
+     {"command/", "rois/", "links/byte_stream.hpp", "links/target.hpp", "types/", "xml/codec/codec.hpp", "xml/codec/decoding.hpp", "xml/profiles/document.hpp",
       "xml/codec/encoding.hpp", "xml/codec/names.hpp", "xml/validation/schemas.hpp", "files/"},
      {boost, cli11, json, pugixml, posix},
      Time::read},

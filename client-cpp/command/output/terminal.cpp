@@ -43,7 +43,8 @@ std::size_t columns_of(char32_t character) {
 
 }  // namespace
 
-bool shows_colours(int file_descriptor) {
+bool shows_colours(std::string_view choice, int file_descriptor) {
+    if (choice != "auto") return choice == "always";
     auto const* const refused = std::getenv("NO_COLOR");
     auto const* const terminal = std::getenv("TERM");
     if ((refused != nullptr && *refused != '\0') || terminal == nullptr || std::string_view{terminal} == "dumb") return false;

@@ -11,8 +11,9 @@ namespace rois::command {
 
 enum class Colour : std::uint8_t { none, good, bad, name, quiet, value };
 
-// Returns whether the file is a terminal that shows colours (NO_COLOR unset, TERM not dumb).
-bool shows_colours(int file_descriptor);
+// Returns whether to write colours to the file. `choice`: always, never, or auto, which means that the file is a terminal that
+// shows colours (NO_COLOR unset, TERM not dumb).
+bool shows_colours(std::string_view choice, int file_descriptor);
 
 // Returns the harmless text, in this colour if `coloured` is true.
 std::string painted(std::string_view text, Colour, bool coloured);

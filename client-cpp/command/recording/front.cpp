@@ -10,6 +10,7 @@ namespace rois::command {
 namespace {
 
 constexpr auto between_sweeps = std::chrono::seconds{5};
+constexpr auto pause_when_full = std::chrono::milliseconds{50};
 
 HostAndPort address_of(std::string const& text) {
     if (auto read = read_host_and_port(text)) return *std::move(read);
@@ -23,7 +24,7 @@ asio::ip::tcp::acceptor listening(asio::io_context& io, HostAndPort const& addre
         return asio::ip::tcp::acceptor{io, found.begin()->endpoint()};
     } catch (boost::system::system_error const& error) {
         throw Trouble{Exit::error,
-                      "cannot listen on " + address.host + ":" + std::to_string(address.port) + ": " + error.code().message()};
+                      "cannot listen on " + host_and_port(address.host, address.port) + ": " + error.code().message()};
     }
 }
 
@@ -32,8 +33,7 @@ asio::ip::tcp::acceptor listening(asio::io_context& io, HostAndPort const& addre
 Front::Front(Host& host, std::shared_ptr<xml::Schemas const> schemas, std::string const& listen)
     : host_{host}, schemas_{std::move(schemas)}, acceptor_{listening(host.io(), address_of(listen))}, sweeping_{host.io()} {
     auto const at = acceptor_.local_endpoint();
-    auto const ip = at.address().to_string();
-    url_ = "http://" + (at.address().is_v6() ? "[" + ip + "]" : ip) + ":" + std::to_string(at.port());
+    url_ = "http://" + host_and_port(at.address().to_string(), at.port());
 }
 
 Front::~Front() = default;
@@ -56,7 +56,11 @@ asio::awaitable<void> Front::accept() {
         Failure failure;
         auto socket = co_await acceptor_.async_accept(into(failure));
         if (failure == asio::error::operation_aborted) co_return;
-        if (failure) continue;
+        if (failure) {  // for example, too many open files
+            asio::steady_timer pause{host_.io(), pause_when_full};
+            co_await pause.async_wait(into(failure));
+            continue;
+        }
         auto const connection = std::make_shared<Connection>(*this, std::move(socket));
         asio::co_spawn(
             host_.io(), [connection] { return connection->run(); }, asio::detached);

@@ -2,10 +2,10 @@
 
 #include <boost/asio/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
-#include <charconv>
 #include <optional>
 
 #include "types/text/texts.hpp"
+#include "types/text/to_number.hpp"
 
 namespace rois::command {
 
@@ -20,21 +20,14 @@ std::string header(HttpMessage const& message, std::string_view name) {
     return {value.data(), value.size()};
 }
 
-// Returns a whole number, or nothing if the text is not one.
-std::optional<std::uint64_t> number_of(std::string_view text) {
-    std::uint64_t number = 0;
-    auto const read = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (read.ec != std::errc{} || read.ptr != text.data() + text.size()) return std::nullopt;
-    return number;
-}
-
 // Returns a parameter of the target: 0 if it is missing, nothing if it is not a whole number.
 std::optional<std::uint64_t> parameter(std::string_view target, std::string_view name) {
     auto rest = target.substr(std::min(target.size(), target.find('?')));
     while (!rest.empty()) {
         rest.remove_prefix(1);
         auto const one = rest.substr(0, rest.find('&'));
-        if (one.starts_with(name) && one.substr(name.size(), 1) == "=") return number_of(one.substr(name.size() + 1));
+        if (one.starts_with(name) && one.substr(name.size(), 1) == "=")
+            return to_number<std::uint64_t>(one.substr(name.size() + 1));
         rest.remove_prefix(one.size());
     }
     return 0;
@@ -176,7 +169,7 @@ asio::awaitable<Front::Connection::Then> Front::Connection::answer_notifications
     auto const target = std::string_view{message.target().data(), message.target().size()};
     if (header(message, "Accept").find("text/event-stream") != std::string::npos) {
         auto const last = header(message, "Last-Event-ID");
-        auto const after = last.empty() ? std::optional<std::uint64_t>{0} : number_of(last);
+        auto const after = last.empty() ? std::optional<std::uint64_t>{0} : to_number<std::uint64_t>(last);
         if (!after) co_return co_await refuse(message, FaultCode::not_well_formed, "Last-Event-ID must be a whole number");
         co_await stream(session, *after);
         co_return Then::over;

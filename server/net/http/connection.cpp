@@ -198,7 +198,7 @@ Task<Connection::Then> Connection::receive() {
 
 // An answer that comes later, or after one that comes later, waits for its turn.
 Connection::Then Connection::take(PendingAnswer&& answer) {
-    if (waiting_.empty() && answer.has_come()) return reply(made_of(answer.take()));
+    if (waiting_.empty() && answer.has_come()) return reply(http_answer(answer.take()));
     bool const close = !head_.keep_alive() || loop_.draining();
     waiting_.push_back({std::move(answer), {Framing::Body::sent, close}});
     return close ? Then::linger : Then::next;
@@ -209,7 +209,7 @@ bool Connection::take_answers() {
         auto& [answer, framing] = waiting_.front();
         auto* pending = std::get_if<PendingAnswer>(&answer);
         if (pending != nullptr && !pending->has_come()) return false;
-        append(out_, pending != nullptr ? made_of(pending->take()) : std::get<HttpAnswer>(answer), framing);
+        append(out_, pending != nullptr ? http_answer(pending->take()) : std::get<HttpAnswer>(answer), framing);
     }
     return true;
 }
@@ -230,11 +230,10 @@ Task<> Connection::await_answers() {
     }
 }
 
-HttpAnswer Connection::made_of(Answer&& answer) {
+HttpAnswer Connection::http_answer(Answer&& answer) {
     HttpAnswer http{.body = std::move(answer.document)};
     if (answer.fault) {
-        http.status = http::int_to_status(static_cast<unsigned>(http_status_of(answer.fault->code)));
-        if (answer.fault->code == FaultCode::too_many) http.fields.set(http::field::retry_after, "1");
+        set_status(http, answer.fault->code);
         log(*answer.fault, "POST /rois");
     }
     if (answer.turn == Answer::Turn::connected) http.fields.set("RoIS-Session", answer.session.text);

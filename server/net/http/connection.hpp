@@ -52,7 +52,7 @@ private:
     // These functions queue the answer, and `flush` sends it. `last`: the connection ends behind it.
     enum class Framed : std::uint8_t { as_asked, last };
     Then reply(HttpAnswer, Framed = Framed::as_asked);
-    HttpAnswer made_of(Answer&&);
+    HttpAnswer http_answer(Answer&&);
     Then take(PendingAnswer&&);
     // Answers in the order of the requests, as far as they have come. Returns false if a component still lets us wait.
     bool take_answers();

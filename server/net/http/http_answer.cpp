@@ -40,10 +40,14 @@ bool may_have_body(http::status status) {
 
 }  // namespace
 
+void set_status(HttpAnswer& answer, FaultCode code) {
+    answer.status = http::int_to_status(static_cast<unsigned>(http_status_of(code)));
+    if (code == FaultCode::too_many) answer.fields.set(http::field::retry_after, "1");
+}
+
 HttpAnswer answer_of(Fault const& fault) {
-    HttpAnswer answer{.status = http::int_to_status(static_cast<unsigned>(http_status_of(fault.code))),
-                      .body = xml::encode(fault)};
-    if (fault.code == FaultCode::too_many) answer.fields.set(http::field::retry_after, "1");
+    HttpAnswer answer{.body = xml::encode(fault)};
+    set_status(answer, fault.code);
     answer.fault = fault;
     return answer;
 }

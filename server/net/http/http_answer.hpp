@@ -24,6 +24,8 @@ struct HttpAnswer {
 };
 
 HttpAnswer answer_of(Fault const&);
+// Sets the status of an answer with this fault, and when the client may try again.
+void set_status(HttpAnswer&, FaultCode);
 // The client already has the document: its fields, without its body.
 HttpAnswer not_modified(HttpAnswer);
 

@@ -17,4 +17,9 @@ std::optional<HostAndPort> read_host_and_port(std::string_view text) {
     return HostAndPort{std::string{host}, *port};
 }
 
+std::string host_and_port(std::string const& host, std::uint16_t port) {
+    bool const ipv6 = host.find(':') != std::string::npos;
+    return (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
+}
+
 }  // namespace rois
