@@ -1,7 +1,6 @@
 // rois-gsoap PORT: the same query served by gSOAP with its strictest checks, HTTP keep-alive and one thread for each connection,
 // as in its manual.
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <thread>
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <pugixml.hpp>
 #include <string>
 #include <vector>

@@ -14,6 +14,7 @@
 #include "command/session/session_file.hpp"
 #include "rois/settings.hpp"
 #include "types/text/texts.hpp"
+#include "types/text/to_number.hpp"
 
 namespace rois::command {
 
@@ -46,8 +47,8 @@ struct Raw {
 // CLI::Range accepts nan.
 CLI::Validator within(double least, double most) {
     return CLI::Validator{[least, most](std::string& text) -> std::string {
-                              double value = 0;
-                              if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most) return {};
+                              auto const value = to_number<double>(text);
+                              if (value && *value >= least && *value <= most) return {};
                               std::ostringstream expected;
                               expected.precision(10);
                               expected << rois::quoted(text) << " is not a number from " << least << " to " << most;

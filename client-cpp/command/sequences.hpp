@@ -1,7 +1,6 @@
 // Runs command sequences.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 

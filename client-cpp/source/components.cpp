@@ -1,6 +1,5 @@
 #include "rois/components.hpp"
 
-#include <array>
 #include <cmath>
 
 #include "reading.hpp"

@@ -1,7 +1,6 @@
 // Reads and writes typed values of results and parameters, by name. A missing or invalid value is read as empty.
 #pragma once
 
-#include <chrono>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -1,8 +1,6 @@
 #include "engine/engine.hpp"
 
 #include <algorithm>
-#include <exception>
-#include <stdexcept>
 #include <utility>
 
 #include "engine/core.hpp"

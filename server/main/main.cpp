@@ -1,5 +1,6 @@
 // The main program of rois-gateway: makes all parts and connects them.
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -16,7 +17,6 @@
 #include "gateway/access/secrets.hpp"
 #include "gateway/gateway.hpp"
 #include "gateway/process/memory.hpp"
-#include "gateway/process/open_files.hpp"
 #include "main/command_line.hpp"
 #include "main/configuration_file.hpp"
 #include "main/engines_file.hpp"
@@ -108,6 +108,18 @@ ClientLimits client_limits(net::Settings const& settings) {
     return {.sessions_per_connection = settings.max_sessions_per_connection,
             .sessions_per_address = settings.max_sessions_per_address,
             .streams_per_session = settings.max_streams_per_session};
+}
+
+// Raises the limit of open files to `wanted` if it is lower, as far as the system allows. Returns the limit that is then in
+// force.
+std::size_t raise_open_files(std::size_t wanted) {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return 0;
+    if (limit.rlim_cur >= wanted) return limit.rlim_cur;
+    rlimit const privileged{wanted, std::max<rlim_t>(limit.rlim_max, wanted)};
+    if (::setrlimit(RLIMIT_NOFILE, &privileged) == 0) return wanted;
+    rlimit const allowed{std::min<rlim_t>(limit.rlim_max, wanted), limit.rlim_max};
+    return ::setrlimit(RLIMIT_NOFILE, &allowed) == 0 ? allowed.rlim_cur : limit.rlim_cur;
 }
 
 // Raises the limit of open files to the number that all connections need. If the system refuses, accepts fewer connections.

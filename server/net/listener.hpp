@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boost/asio/basic_socket_acceptor.hpp>
+#include <optional>
 
 #include "gateway/access/admission.hpp"
 #include "net/asio.hpp"

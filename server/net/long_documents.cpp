@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "net/signal.hpp"
+#include "net/wake_up.hpp"
 
 namespace rois::net {
 
@@ -16,7 +16,7 @@ LongDocuments::LongDocuments(std::shared_ptr<xml::Schemas const> schemas, xml::D
 Task<PendingAnswer> LongDocuments::answer(Gateway& gateway, SessionId const& session, std::string_view text, Via via,
                                           std::weak_ptr<Reader> waits, std::shared_ptr<Opener> const& opener, Wakes& wakes) {
     Executor const executor = co_await asio::this_coro::executor;
-    auto const done = std::make_shared<Signal>(executor, wakes);
+    auto const done = std::make_shared<WakeUp>(executor, wakes);
     PendingAnswer answer;
     std::exception_ptr failed;
     asio::post(thread_, [&] {

@@ -7,7 +7,6 @@
 #include <exception>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "net/http/connection.hpp"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <utility>
 
 #include "types/identifier_length.hpp"
 #include "types/instant.hpp"

@@ -96,11 +96,6 @@ std::vector<ComponentProfile const*> find_profiles(std::vector<ComponentProfile>
     return found;
 }
 
-ComponentProfile const* find_profile(std::vector<ComponentProfile> const& known, std::string_view urn_or_name) {
-    auto const found = find_profiles(known, urn_or_name);
-    return found.empty() ? nullptr : found.front();
-}
-
 std::vector<ComponentProfile const*> find_parts(std::vector<ComponentProfile> const& known, ComponentProfile const& whole,
                                                 std::string_view urn_or_name) {
     auto found = find_profiles(known, urn_or_name);

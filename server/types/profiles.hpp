@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -89,11 +88,8 @@ struct ComponentTraits {
 // Throws std::runtime_error with the URN if a sub component is unknown or includes itself.
 ComponentProfile flattened(ComponentProfile const&, std::vector<ComponentProfile> const& known);
 
-// Finds a profile by its URN, ignoring case. A text without colons may also be the profile's name or the last part of its URN;
-// then case and underscores are ignored. Returns the first match, or null.
-ComponentProfile const* find_profile(std::vector<ComponentProfile> const& known, std::string_view urn_or_name);
-
-// Returns all matches of find_profile, in the order of `known`.
+// Returns the profile with this URN, ignoring case. A text without colons may also be the name of profiles or the last part of
+// their URN; then case and underscores are ignored. Several matches are in the order of `known`.
 std::vector<ComponentProfile const*> find_profiles(std::vector<ComponentProfile> const& known, std::string_view urn_or_name);
 
 // Returns all profiles that match the name of a sub component of `whole`. Returns `whole` itself only if no other profile

@@ -6,11 +6,9 @@
 #include <cstdint>
 #include <list>
 #include <mutex>
-#include <optional>
 #include <random>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "kit/socket.hpp"
 

@@ -1,6 +1,5 @@
 // A hundred random cuts during 10,000 events and 500 commands: no notification is lost or repeated without a report.
 #include <map>
-#include <set>
 
 #include "client_cpp/rig.hpp"
 

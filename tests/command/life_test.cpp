@@ -6,7 +6,6 @@
 
 #include <chrono>
 #include <optional>
-#include <thread>
 
 #include "client_cpp/rig.hpp"
 #include "command/rois_fixture.hpp"

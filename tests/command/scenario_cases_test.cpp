@@ -5,7 +5,6 @@
 #include <csignal>
 #include <fstream>
 #include <future>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>

@@ -2,9 +2,6 @@
 // these rules is kept.
 #pragma once
 
-#include <map>
-#include <memory>
-#include <set>
 #include <string>
 #include <vector>
 

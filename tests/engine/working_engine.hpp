@@ -5,10 +5,8 @@
 #include <mutex>
 #include <optional>
 #include <stdexcept>
-#include <string>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include "engine/attempts.hpp"
 #include "engine/engine.hpp"

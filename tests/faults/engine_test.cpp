@@ -1,7 +1,6 @@
 // A scripted history of the engine in which each call in turn has no memory: the clock goes on, and moving components halt.
 
 #include <algorithm>
-#include <new>
 #include <random>
 
 #include "engine/slow_component.hpp"

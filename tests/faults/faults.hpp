@@ -2,7 +2,6 @@
 // exempt.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 
 namespace rois::faults {

@@ -1,6 +1,5 @@
 #include "fuzz/change.hpp"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 

@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "xml/codec/codec.hpp"
 #include "xml/tables/acceptor.hpp"

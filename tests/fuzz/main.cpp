@@ -1,5 +1,4 @@
 // fuzz-validator: changes documents at random, and fails on the first one that the tables accept and xerces-c does not.
-#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cstdint>

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 #include "house/rules.hpp"
+#include "house/text.hpp"
 
 namespace rois::house {
 
@@ -41,6 +43,10 @@ TEST_F(House, NamesWhatItAwaitsWith) { EXPECT_EQ(list(against_braces_in_awaits(t
 TEST_F(House, HasShortFiles) { EXPECT_EQ(list(against_short_files(tree)), ""); }
 TEST_F(House, HasNoBrokenLinks) { EXPECT_EQ(list(against_links(tree)), ""); }
 TEST_F(House, ProvesWhatItClaims) { EXPECT_EQ(list(against_proof(tree)), ""); }
+TEST_F(House, UsesOnlyPublicNamesOfBoostInTheNetwork) {
+    for (auto const& [file, text] : tree)
+        if (file.starts_with("server/net/")) EXPECT_EQ(code_alone(text).find("detail::"), std::string::npos) << file;
+}
 TEST_F(House, NamesItsDependencies) { EXPECT_EQ(list(against_named_dependencies(tree)), ""); }
 
 }  // namespace rois::house

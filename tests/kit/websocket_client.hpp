@@ -1,7 +1,6 @@
 // A WebSocket client that can send invalid frames. Throws LineEnded if the server violates RFC 6455.
 #pragma once
 
-#include <optional>
 #include <pugixml.hpp>
 #include <string>
 #include <string_view>

@@ -5,10 +5,8 @@
 
 #include <atomic>
 #include <chrono>
-#include <memory>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "kit/received_media.hpp"
 #include "media/server.hpp"

@@ -1,6 +1,5 @@
 #include "model/difference.hpp"
 
-#include <algorithm>
 
 #include "model/subject.hpp"
 

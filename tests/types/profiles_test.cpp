@@ -9,6 +9,7 @@ namespace rois {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::ThrowsMessage;
 
 namespace {
@@ -126,12 +127,14 @@ TEST(Profile, IsFoundByUrnOrName) {
     std::vector known{profile({"urn:x-rois:def:component:OMG::RoISCommon"}), profile({"urn:x-rois:def:component:ATR::Lamp"}),
                       profile({"urn:a"})};
     known[1].object.name = "desk_lamp";
-    EXPECT_EQ(find_profile(known, " URN:X-ROIS:DEF:Component:omg::roiscommon "), &known[0]);
-    for (auto const* name : {"RoISCommon", "RoIS_Common", "roiscommon"}) EXPECT_EQ(find_profile(known, name), &known[0]) << name;
-    for (auto const* name : {"Lamp", "DeskLamp", "desk_lamp"}) EXPECT_EQ(find_profile(known, name), &known[1]) << name;
-    EXPECT_EQ(find_profile(known, "urn:x-rois:def:component:OMG::Lamp"), nullptr) << "the authority differs";
-    EXPECT_EQ(find_profile(known, ""), nullptr);
-    EXPECT_EQ(find_profile(known, "a"), &known[2]);
+    EXPECT_THAT(find_profiles(known, " URN:X-ROIS:DEF:Component:omg::roiscommon "), ElementsAre(&known[0]));
+    for (auto const* name : {"RoISCommon", "RoIS_Common", "roiscommon"})
+        EXPECT_THAT(find_profiles(known, name), ElementsAre(&known[0])) << name;
+    for (auto const* name : {"Lamp", "DeskLamp", "desk_lamp"})
+        EXPECT_THAT(find_profiles(known, name), ElementsAre(&known[1])) << name;
+    EXPECT_THAT(find_profiles(known, "urn:x-rois:def:component:OMG::Lamp"), IsEmpty()) << "the authority differs";
+    EXPECT_THAT(find_profiles(known, ""), IsEmpty());
+    EXPECT_THAT(find_profiles(known, "a"), ElementsAre(&known[2]));
 }
 
 TEST(Messages, AreFoundByKindAndName) {

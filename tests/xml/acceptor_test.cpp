@@ -1,5 +1,4 @@
 // The acceptor: which documents it accepts, and that its answers are those of the full validation.
-#include <algorithm>
 #include <map>
 #include <set>
 

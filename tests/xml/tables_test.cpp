@@ -1,6 +1,5 @@
 // Content models, attributes and elements of the tables, with small schemas: what the tables accept, what they leave to xerces-c,
 // and that they never accept what xerces-c rejects.
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <random>

@@ -1,7 +1,6 @@
 #include "command/input/condition_text.hpp"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <utility>
 #include <vector>

@@ -1,7 +1,6 @@
 #include "command/recording/player.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "command/sequences.hpp"

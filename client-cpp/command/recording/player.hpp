@@ -1,11 +1,9 @@
 // Answers the requests of a session from a recording.
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 
 #include "command/recording/host.hpp"

@@ -4,7 +4,6 @@
 #include <deque>
 #include <list>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 #include "command/exit.hpp"

@@ -1,7 +1,6 @@
 // A component of any type: the functions of RoIS_Common (7.6, table 33), and general commands, queries and events.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>

@@ -3,9 +3,7 @@
 // empty.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -4,8 +4,6 @@
 #include <concepts>
 #include <coroutine>
 #include <exception>
-#include <optional>
-#include <type_traits>
 #include <utility>
 #include <variant>
 

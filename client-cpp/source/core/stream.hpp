@@ -4,7 +4,7 @@
 #include <atomic>
 #include <deque>
 #include <functional>
-#include <memory>
+#include <optional>
 #include <variant>
 
 #include "core/flag.hpp"

@@ -11,7 +11,6 @@
 #include <boost/beast/core/stream_traits.hpp>
 #include <boost/beast/http.hpp>
 #include <deque>
-#include <optional>
 
 #include "core/loop.hpp"
 #include "links/event_source.hpp"

@@ -1,6 +1,5 @@
 #include "links/target.hpp"
 
-#include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
 

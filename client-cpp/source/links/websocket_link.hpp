@@ -10,7 +10,6 @@
 #include <boost/beast/websocket.hpp>
 #include <boost/beast/websocket/ssl.hpp>
 #include <deque>
-#include <optional>
 
 #include "core/loop.hpp"
 #include "links/link.hpp"

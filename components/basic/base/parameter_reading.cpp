@@ -1,6 +1,5 @@
 #include "basic/base/parameter_reading.hpp"
 
-#include <limits>
 #include <string>
 
 #include "types/text/listing.hpp"

@@ -1,7 +1,6 @@
 // Person, face and sound localization (7.6.3, 7.6.6, 7.6.8): reports positions when somebody is new or has moved.
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <span>
 
 #include "basic/base/codebooks.hpp"

@@ -1,7 +1,6 @@
 #include "simulation/plan/floor_plan.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "simulation/world/person.hpp"

@@ -1,7 +1,6 @@
 // The hall seen from above, as a picture.
 #pragma once
 
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>

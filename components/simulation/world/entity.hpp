@@ -1,7 +1,6 @@
 // Ids of people and robots in the hall.
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <variant>
 

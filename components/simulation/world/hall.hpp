@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "simulation/plan/floor_plan.hpp"
 #include "simulation/robot/robot.hpp"

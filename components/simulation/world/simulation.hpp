@@ -1,7 +1,6 @@
 // The hall as a device of the engine: advances the world as real time passes.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>

@@ -1,6 +1,5 @@
 #include "engine/commands/sequence_check.hpp"
 
-#include <array>
 #include <utility>
 
 #include "engine/commands/parameters.hpp"

@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 #include <variant>
-#include <vector>
 
 #include "engine/frames/places.hpp"
 #include "types/profiles.hpp"

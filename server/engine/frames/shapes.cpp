@@ -10,7 +10,6 @@
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
 #include <boost/geometry/strategies/strategies.hpp>
-#include <cmath>
 #include <string_view>
 #include <variant>
 

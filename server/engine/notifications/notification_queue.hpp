@@ -42,7 +42,7 @@ struct Numbered {
 // Holds a session's notifications: those that are waiting (never read), and those that were sent (read once), for reading again.
 // Any number of readers, each with its own position. Reading marks notifications as sent.
 //
-// `session`, `last_sequence`, `read`, `next`, `has_after`, `release`, `closed`, `waiting` and `wants_signs_of_life` are
+// `session`, `last_sequence`, `read`, `next`, `release`, `closed`, `waiting` and `wants_signs_of_life` are
 // thread-safe: the queue's own mutex guards them, so readers never wait for a call to the engine. All other functions need the
 // lock that serializes the calls to the engine.
 class NotificationQueue {
@@ -89,7 +89,6 @@ public:
     // there. Returns the state after the last entry.
     Next read(std::uint64_t after, std::size_t most, std::vector<Numbered>& into);
     std::vector<Numbered> read(std::uint64_t after, std::size_t most);
-    bool has_after(std::uint64_t after) const { return next(after) == Next::more; }
 
     // Begins a hold, and makes it the current one. Holds may overlap. Release each one once.
     Hold hold();

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <memory>
 #include <string>
-#include <string_view>
 
 #include "engine/component.hpp"
 #include "engine/providers/provider.hpp"

@@ -5,7 +5,6 @@
 #include <exception>
 #include <functional>
 #include <mutex>
-#include <string_view>
 
 #include "gateway/process/telemetry.hpp"
 #include "types/instant.hpp"

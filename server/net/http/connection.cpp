@@ -219,14 +219,14 @@ void Connection::answers_came() {
     if (wire_.waits_for_reader()) return;  // `flush` goes on with them
     take_answers();
     if (!flush_at_once()) wire_.interrupt();
-    if (answers_signal_) answers_signal_->raise();
+    if (answers_wake_up_) answers_wake_up_->raise();
 }
 
 Task<> Connection::await_answers() {
     while (!take_answers()) {
-        answers_signal_ = std::make_shared<Signal>(loop_.executor(), loop_.wakes());
-        co_await answers_signal_->wait_until(Steady::max());
-        answers_signal_.reset();
+        answers_wake_up_ = std::make_shared<WakeUp>(loop_.executor(), loop_.wakes());
+        co_await answers_wake_up_->wait_until(Steady::max());
+        answers_wake_up_.reset();
     }
 }
 

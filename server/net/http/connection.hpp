@@ -89,11 +89,11 @@ private:
         Framing framing;
     };
     class Waker;
-    std::shared_ptr<Waker> waker_;            // is woken when an answer has come
-    std::shared_ptr<Signal> answers_signal_;  // raised when an answer has come; null if nothing waits for that
-    std::list<Waiting> waiting_;              // in the order of their requests; the first one has not come yet
-    std::string out_;                         // answers for the next write
-    std::vector<Hold> holds_;                 // keep notifications behind these answers
+    std::shared_ptr<Waker> waker_;             // is woken when an answer has come
+    std::shared_ptr<WakeUp> answers_wake_up_;  // raised when an answer has come; null if nothing waits for that
+    std::list<Waiting> waiting_;               // in the order of their requests; the first one has not come yet
+    std::string out_;                          // answers for the next write
+    std::vector<Hold> holds_;                  // keep notifications behind these answers
     std::weak_ptr<WebSocket> websocket_;
 };
 

@@ -1,7 +1,6 @@
 // The documents that clients read without a session: profiles, schemas, the floor map, health, metrics and the page at "/".
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "gateway/gateway.hpp"

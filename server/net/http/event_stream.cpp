@@ -1,7 +1,7 @@
 #include "net/http/event_stream.hpp"
 
 #include "net/loop.hpp"
-#include "net/signal.hpp"
+#include "net/wake_up.hpp"
 #include "types/text/texts.hpp"
 #include "types/text/to_number.hpp"
 
@@ -58,16 +58,16 @@ std::variant<NotificationsWanted, Fault> read_wanted(RequestHead const& head) {
 
 Task<HttpAnswer> poll(Wire& wire, Loop& loop, SessionId const& session, NotificationsWanted const& wanted) {
     auto const until = std::chrono::steady_clock::now() + wanted.wait;
-    auto const signal = std::make_shared<Signal>(wire.executor(), loop.wakes());
-    auto read = loop.shared().gateway.read(session, LinkKind::stream, wanted.after, *signal, Readers::Until::answered);
+    auto const wake_up = std::make_shared<WakeUp>(wire.executor(), loop.wakes());
+    auto read = loop.shared().gateway.read(session, LinkKind::stream, wanted.after, *wake_up, Readers::Until::answered);
     if (auto const* fault = std::get_if<Fault>(&read)) co_return answer_of(*fault);
     auto const reading = std::get<std::unique_ptr<Reading>>(std::move(read));
     auto taken = reading->take(most_a_poll);
     auto const watch =
-        wire.watch([signal] { signal->raise(); }, [&reading](Steady now) { return reading->wants_signs_of_life(now); });
+        wire.watch([wake_up] { wake_up->raise(); }, [&reading](Steady now) { return reading->wants_signs_of_life(now); });
     while (taken.notifications.empty() && taken.then == Reading::Then::wait && wanted.wait.count() > 0 && !watch.gone()) {
-        auto const woken = co_await signal->wait_until(until);
-        if (woken == Signal::Woken::time_passed) break;
+        auto const woken = co_await wake_up->wait_until(until);
+        if (woken == WakeUp::Woken::time_passed) break;
         taken = reading->take(most_a_poll);
     }
     std::string document{xml::notifications_begin()};
@@ -80,14 +80,14 @@ Task<HttpAnswer> poll(Wire& wire, Loop& loop, SessionId const& session, Notifica
 
 Task<std::optional<HttpAnswer>> stream(Wire& wire, Loop& loop, SessionId const& session, NotificationsWanted const& wanted) {
     auto const& shared = loop.shared();
-    auto const signal = std::make_shared<Signal>(wire.executor(), loop.wakes());
-    auto read = shared.gateway.read(session, LinkKind::stream, wanted.after, *signal);
+    auto const wake_up = std::make_shared<WakeUp>(wire.executor(), loop.wakes());
+    auto read = shared.gateway.read(session, LinkKind::stream, wanted.after, *wake_up);
     if (auto const* fault = std::get_if<Fault>(&read)) co_return answer_of(*fault);
     auto const reading = std::get<std::unique_ptr<Reading>>(std::move(read));
     std::string out;
     append(out, HttpAnswer{.content_type = "text/event-stream"}, {Framing::Body::endless, true});
     auto const watch =
-        wire.watch([signal] { signal->raise(); }, [&reading](Steady now) { return reading->wants_signs_of_life(now); });
+        wire.watch([wake_up] { wake_up->raise(); }, [&reading](Steady now) { return reading->wants_signs_of_life(now); });
     while (!watch.gone()) {
         auto const taken = reading->take(most_at_once);
         for (auto const& numbered : taken.notifications) append_event(out, numbered);
@@ -101,19 +101,19 @@ Task<std::optional<HttpAnswer>> stream(Wire& wire, Loop& loop, SessionId const& 
         if (taken.then == Reading::Then::more) continue;
         if (taken.then != Reading::Then::wait) break;
         auto const next_sign_of_life = std::chrono::steady_clock::now() + shared.settings.ping_interval;
-        auto const woken = co_await signal->wait_until(next_sign_of_life);
-        if (woken == Signal::Woken::time_passed) out = ":\n\n";
+        auto const woken = co_await wake_up->wait_until(next_sign_of_life);
+        if (woken == WakeUp::Woken::time_passed) out = ":\n\n";
     }
     co_return std::nullopt;
 }
 
 Task<> wait_for_other_readers(Gateway& gateway, SessionId const& session, Executor const& executor, Wakes& wakes) {
     auto const until = std::chrono::steady_clock::now() + std::chrono::seconds{1};
-    auto const signal = std::make_shared<Signal>(executor, wakes);
-    Farewell const farewell{gateway, session, *signal};
+    auto const wake_up = std::make_shared<WakeUp>(executor, wakes);
+    Farewell const farewell{gateway, session, *wake_up};
     while (!farewell.alone()) {
-        auto const woken = co_await signal->wait_until(until);
-        if (woken == Signal::Woken::time_passed) break;
+        auto const woken = co_await wake_up->wait_until(until);
+        if (woken == WakeUp::Woken::time_passed) break;
     }
 }
 

@@ -1,6 +1,9 @@
 // GET /rois/notifications: server-sent events and long polls (docs/clients.md).
 #pragma once
 
+#include <optional>
+#include <variant>
+
 #include "gateway/gateway.hpp"
 #include "net/http/http_answer.hpp"
 #include "net/http/http_head.hpp"

@@ -1,9 +1,7 @@
 #include "net/http/http_answer.hpp"
 
-#include <algorithm>
 #include <array>
 #include <ctime>
-#include <utility>
 
 #include "xml/codec/codec.hpp"
 

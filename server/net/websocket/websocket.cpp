@@ -207,7 +207,7 @@ Task<> WebSocket::wait_for_room() {
 }
 
 Task<> WebSocket::something_written() {
-    room_ = std::make_shared<Signal>(wire_->executor(), wakes());
+    room_ = std::make_shared<WakeUp>(wire_->executor(), wakes());
     co_await room_->wait_until(Steady::max());
     room_.reset();
 }

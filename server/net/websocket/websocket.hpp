@@ -8,7 +8,7 @@
 #include <string>
 
 #include "gateway/gateway.hpp"
-#include "net/signal.hpp"
+#include "net/wake_up.hpp"
 #include "net/websocket/websocket_frames.hpp"
 #include "net/wire.hpp"
 
@@ -77,7 +77,7 @@ private:
     std::string answers_;               // frames for the next write
     std::size_t answers_waiting_ = 0;   // number of answers and pongs among them
     std::size_t answers_in_out_ = 0;    // number of answers and pongs that are being written
-    std::shared_ptr<Signal> room_;      // raised after a write; null if nothing waits for that
+    std::shared_ptr<WakeUp> room_;      // raised after a write; null if nothing waits for that
     bool session_over_ = false;         // `reading_` has returned its last notification
     bool ping_due_ = false;
     bool writing_ = false;                // `drain` runs

@@ -1,7 +1,6 @@
 // Functions on texts: case, white space, numbers, characters and quoting.
 #pragma once
 
-#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -1,4 +1,3 @@
-#include <charconv>
 #include <xercesc/util/XMLChar.hpp>
 
 #include "types/text/texts.hpp"

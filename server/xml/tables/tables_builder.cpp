@@ -1,6 +1,5 @@
 #include "xml/tables/tables_builder.hpp"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 #include <xercesc/framework/psvi/XSAttributeDeclaration.hpp>

@@ -6,7 +6,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 #include <xercesc/framework/XMLGrammarPool.hpp>
 #include <xercesc/util/QName.hpp>

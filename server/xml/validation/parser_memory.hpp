@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
 #include <xercesc/framework/MemoryManager.hpp>
 
 namespace rois::xml {

@@ -1,7 +1,6 @@
 #include "xml/validation/schemas.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <mutex>
 #include <pugixml.hpp>
 #include <set>

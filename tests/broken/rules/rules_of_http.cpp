@@ -1,5 +1,4 @@
 // Rules that are observable over HTTP only.
-#include <algorithm>
 
 #include "broken/breaking.hpp"
 #include "broken/rules.hpp"

@@ -1,5 +1,4 @@
 // How commands end (7.4.2, figure 10; tables 8, 20, 32; decisions 8, 9, 12 and 17).
-#include <algorithm>
 
 #include "conformance/stage.hpp"
 

@@ -1,5 +1,4 @@
 // Streams (RoIS 2.0, audio and video streaming): connected, held and closed in messages, and served where the answer says.
-#include <algorithm>
 
 #include "conformance/stage.hpp"
 #include "kit/received_media.hpp"

@@ -1,7 +1,6 @@
 // Short functions that make conditions: `less("count", "10")`, `within("location", box(0, 0, 5, 5))`.
 #pragma once
 
-#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>

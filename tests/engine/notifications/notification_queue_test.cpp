@@ -47,13 +47,13 @@ struct LongMemory : Queue {
 }  // namespace
 
 TEST_F(Queue, NumbersFromOneWithoutGaps) {
-    EXPECT_FALSE(queue.has_after(0));
+    EXPECT_EQ(queue.next(0), NotificationQueue::Next::wait);
     EXPECT_EQ(queue.last_sequence(), 0U);
     events(2);
     completed(1);
-    EXPECT_TRUE(queue.has_after(0));
+    EXPECT_EQ(queue.next(0), NotificationQueue::Next::more);
     EXPECT_THAT(read(0), ElementsAre("1 e", "2 e", "3 c"));
-    EXPECT_FALSE(queue.has_after(3));
+    EXPECT_EQ(queue.next(3), NotificationQueue::Next::wait);
     EXPECT_EQ(queue.last_sequence(), 3U);
 }
 

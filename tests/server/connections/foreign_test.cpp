@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <map>
 
 #include "server/websocket_client.hpp"
 

@@ -2,7 +2,6 @@
 // listen to the answer, bow, say goodbye, return to the start.
 #pragma once
 
-#include <array>
 #include <map>
 #include <string>
 #include <vector>

@@ -1,7 +1,5 @@
 // Figure 1 of the specification: over HTTP, over a WebSocket, and by docs/examples/reception.sh.
 #include <algorithm>
-#include <cstdio>
-#include <set>
 
 #include "server/conversation.hpp"
 #include "server/hall/reception.hpp"

@@ -1,7 +1,6 @@
 // Move in the C++ PSM (sections 7.6.15 and 7.7).
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "RoIS_Common.hpp"

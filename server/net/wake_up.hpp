@@ -11,9 +11,9 @@
 namespace rois::net {
 
 // Always held by a shared_ptr. One coroutine may wait at a time. If none waits, the next one returns at once.
-class Signal : public Reader {
+class WakeUp : public Reader {
 public:
-    Signal(Executor const& executor, Wakes& wakes) : Reader{wakes}, timer_{executor} {}
+    WakeUp(Executor const& executor, Wakes& wakes) : Reader{wakes}, timer_{executor} {}
 
     // Call these functions on the loop's thread.
     void raise() {
