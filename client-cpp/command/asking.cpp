@@ -1,5 +1,6 @@
 // The commands profile, search, query, get and health.
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "command/context.hpp"
 #include "command/http.hpp"

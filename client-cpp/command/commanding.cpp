@@ -1,6 +1,7 @@
 // The commands bind, release, set, start, stop, resume and execute.
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 

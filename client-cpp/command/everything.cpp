@@ -1,6 +1,7 @@
 // Stop for everything, and its end: `stop-all` and `clear`. They need no session.
 #include <algorithm>
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 #include <vector>

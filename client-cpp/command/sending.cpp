@@ -1,6 +1,7 @@
 // The command send.
 #include <unistd.h>
 
+#include <nlohmann/json.hpp>
 #include <variant>
 
 #include "command/context.hpp"

@@ -1,5 +1,6 @@
 #include "command/output/json.hpp"
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <variant>

@@ -1,4 +1,6 @@
 // The commands replay and record --listen: this program serves as an engine.
+#include <nlohmann/json.hpp>
+
 #include "command/context.hpp"
 #include "command/http.hpp"
 #include "command/output/terminal.hpp"

@@ -1,5 +1,6 @@
 // The command scenario: runs the state machine of a robot scenario.
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <ranges>
 #include <set>
