@@ -40,9 +40,9 @@ void send(Context& context) {
     auto const answer = context.session().send(sent);
     context.keep_recording();
     auto& printer = context.printer();
-    auto const heard = xml::AnswerReader{}.read(answer);
-    if (heard && std::holds_alternative<Fault>(*heard)) report_fault(context, std::get<Fault>(*heard), sent, answer);
-    auto const* const answered = heard ? std::get_if<xml::Answered>(&*heard) : nullptr;
+    auto const received = xml::AnswerReader{}.read(answer);
+    if (received && std::holds_alternative<Fault>(*received)) report_fault(context, std::get<Fault>(*received), sent, answer);
+    auto const* const answered = received ? std::get_if<xml::Answered>(&*received) : nullptr;
     if (printer.form() == Form::json && answered != nullptr) {
         printer.text(line_of(to_json(answered->reply, xml::operation_names()[answered->reply.index()])));
     } else {

@@ -84,7 +84,7 @@ Task<> receive(Client& robot, int visitors) {
         ++count;
     }
     co_await navigation.go_to(start);
-    std::printf("received %d visitors\n", visitors);
+    std::printf("visitors received: %d\n", visitors);
 }
 
 int main(int argc, char** argv) try {

@@ -33,9 +33,9 @@ ReturnCode_t SystemIF::get_profile(Condition_t condition, HRI_Engine_Profile& pr
 }
 
 ReturnCode_t SystemIF::get_error_detail(std::string error_id, Condition_t condition, ResultList& results) {
-    rois::Results told;
-    auto const code = Session::instance().get_error_detail(error_id, condition, told);
-    if (code == OK) results = entries_of<Result>(told.parameters);
+    rois::Results read;
+    auto const code = Session::instance().get_error_detail(error_id, condition, read);
+    if (code == OK) results = entries_of<Result>(read.parameters);
     return code;
 }
 

@@ -215,9 +215,9 @@ Task<Answer> Session::exchange(std::shared_ptr<Client> client, std::string docum
     auto given = co_await client->send(std::move(document));
     if (auto* const none = std::get_if<NoAnswer>(&given)) co_return Answer{std::move(*none)};
     response = std::get<std::string>(std::move(given));
-    auto heard = xml::AnswerReader{}.read(response);
-    if (auto* const fault = heard ? std::get_if<Fault>(&*heard) : nullptr) co_return Answer{std::move(*fault)};
-    if (auto* const answered = heard ? std::get_if<xml::Answered>(&*heard) : nullptr) {
+    auto received = xml::AnswerReader{}.read(response);
+    if (auto* const fault = received ? std::get_if<Fault>(&*received) : nullptr) co_return Answer{std::move(*fault)};
+    if (auto* const answered = received ? std::get_if<xml::Answered>(&*received) : nullptr) {
         auto const ok = std::visit([](auto const& each) { return each.return_code == rois::ReturnCode::ok; }, answered->reply);
         if (ok) note(answered->reply);
         co_return Answer{std::move(answered->reply)};

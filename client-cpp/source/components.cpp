@@ -63,8 +63,8 @@ Task<EngineStatus> engine_status_of(Component component) {
     auto const results = co_await component.query("engine_status");
     Reading const read{results};
     auto const status = to_code<ComponentStatus>(read.text("status").value_or(""));
-    EngineStatus told{status.value_or(ComponentStatus::uninitialized), read.time("operable_time")};
-    co_return told;
+    EngineStatus engine_status{status.value_or(ComponentStatus::uninitialized), read.time("operable_time")};
+    co_return engine_status;
 }
 
 }  // namespace

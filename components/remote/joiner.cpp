@@ -8,7 +8,7 @@
 
 namespace rois::remote {
 
-// One of the two links. Both end at the first problem of one.
+// One of the two links. If one fails, both end.
 class Joiner::Side : public client::Link::Listener {
 public:
     Side(Joiner& of, client::Target const& target)
@@ -30,9 +30,9 @@ private:
     std::shared_ptr<client::Link> link_;
 };
 
-class Joiner::There final : public Side {
+class Joiner::MainEngineLink final : public Side {
 public:
-    explicit There(Joiner& of) : Side{of, target(of.joining_.url)} {}
+    explicit MainEngineLink(Joiner& of) : Side{of, target(of.joining_.url)} {}
 
 private:
     static client::Target target(std::string const& url) {
@@ -44,7 +44,7 @@ private:
     void connected() override { send(xml::encode(xml::Join{of_.joining_.name, of_.instance_})); }
 
     void document(std::string_view text) override {
-        if (of_.has_joined_) return of_.own_->send(text);
+        if (of_.has_joined_) return of_.own_gateway_->send(text);
         auto const response = xml::read_join_response(text);
         if (!response) return of_.give_up("unexpected answer to join: expected join_response, not " + quoted(text, 200));
         if (response->return_code != ReturnCode::ok) return of_.give_up("it refuses: " + response->reason);
@@ -54,18 +54,18 @@ private:
     }
 };
 
-class Joiner::Own final : public Side {
+class Joiner::OwnGatewayLink final : public Side {
 public:
-    explicit Own(Joiner& of) : Side{of, client::read_url(of.joining_.own_url)} {}
+    explicit OwnGatewayLink(Joiner& of) : Side{of, client::read_url(of.joining_.own_url)} {}
 
 private:
     void connected() override {
-        of_.there_ = std::make_shared<There>(of_);
-        of_.there_->open();
+        of_.main_engine_ = std::make_shared<MainEngineLink>(of_);
+        of_.main_engine_->open();
     }
 
     void document(std::string_view text) override {
-        if (of_.there_) of_.there_->send(text);
+        if (of_.main_engine_) of_.main_engine_->send(text);
     }
 };
 
@@ -76,10 +76,10 @@ Joiner::Joiner(client::Loop& loop, Joining joining, std::string instance, std::f
 
 void Joiner::attempt() {
     if (is_over_) return;
-    own_ = std::make_shared<Own>(*this);
-    own_->open();
+    own_gateway_ = std::make_shared<OwnGatewayLink>(*this);
+    own_gateway_->open();
     loop_.at(client::from_now(time_for_attempt), [self = shared_from_this(), era = era_] {
-        if (self->era_ == era && !self->has_joined_) self->give_up("it did not answer within 5 s");
+        if (self->era_ == era && !self->has_joined_) self->give_up("it did not answer within " + shown(time_for_attempt));
     });
 }
 
@@ -88,13 +88,13 @@ void Joiner::give_up(std::string const& reason) {
     auto const self = shared_from_this();
     ++era_;
     has_joined_ = false;
-    auto const there = std::exchange(there_, nullptr);
-    auto const own = std::exchange(own_, nullptr);
-    if (there) there->cut();
-    if (own) own->cut();
+    auto const main_engine = std::exchange(main_engine_, nullptr);
+    auto const own_gateway = std::exchange(own_gateway_, nullptr);
+    if (main_engine) main_engine->cut();
+    if (own_gateway) own_gateway->cut();
     if (is_over_) return;
     note(reason);
-    loop_.at(client::from_now(pause_after(failures_++)), [self, there, own, era = era_] {
+    loop_.at(client::from_now(pause_after(failures_++)), [self, main_engine, own_gateway, era = era_] {
         if (self->era_ == era) self->attempt();
     });
 }

@@ -27,8 +27,8 @@ public:
 
 private:
     class Side;
-    class There;  // the link to the other engine
-    class Own;    // the link to this engine's own gateway
+    class MainEngineLink;
+    class OwnGatewayLink;
 
     void attempt();
     void give_up(std::string const& reason);
@@ -39,11 +39,11 @@ private:
     std::string instance_;
     std::function<void(std::string const&)> report_;
     Settings settings_;
-    std::shared_ptr<Side> own_;    // null between attempts
-    std::shared_ptr<Side> there_;  // null until the own gateway is there
+    std::shared_ptr<Side> own_gateway_;  // null between attempts
+    std::shared_ptr<Side> main_engine_;  // null until the own gateway is connected
     std::string last_note_;
     std::uint64_t era_ = 0;  // counts attempts and lost links
-    unsigned failures_ = 0;  // in a row
+    unsigned failures_ = 0;  // failed attempts in a row
     bool has_joined_ = false;
     bool is_over_ = false;
 };

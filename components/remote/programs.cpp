@@ -60,7 +60,8 @@ Words environment(Programs::Wanted const& wanted) {
     return Words{std::move(all)};
 }
 
-// Becomes the program. Other threads existed before the fork, so only functions are called that need no lock of them.
+// Executes the program in the child process. Calls only functions that take no lock: other threads may have held locks at the
+// fork.
 [[noreturn]] void become(char const* folder, char* const* command, char* const* environment, int output, pid_t gateway) {
     ::setpgid(0, 0);                     // what it starts itself ends with it
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // when the gateway ends, also by SIGKILL
@@ -208,7 +209,9 @@ private:
         immediate_ends_ = ran < times_.immediately ? immediate_ends_ + 1 : 0;
         if (ran > times_.longest_pause) pause_ = times_.shortest_pause;
         if (immediate_ends_ == most_immediate_ends)
-            return listener_->happens(name_, what + ", for the fifth time at once after its start: it is not started again");
+            return listener_->happens(name_, what + ", " + std::to_string(most_immediate_ends) + " times in a row within " +
+                                                 seconds(times_.immediately) +
+                                                 " of its start: it is not started again until SIGHUP");
         auto const pause = std::exchange(pause_, std::min(2 * pause_, times_.longest_pause));
         listener_->happens(name_, what + ": it is started again in " + seconds(pause));
         start_after(pause);

@@ -11,8 +11,8 @@ namespace rois::remote {
 
 struct ProgramTimes {
     std::chrono::milliseconds shortest_pause{1'000};  // before a program is started again; doubled each time
-    std::chrono::milliseconds longest_pause{60'000};  // a program that has run for longer begins with the shortest again
-    std::chrono::milliseconds immediately{5'000};     // after five ends within this time of the start it is given up
+    std::chrono::milliseconds longest_pause{60'000};  // also: a program that has run longer restarts with the shortest
+    std::chrono::milliseconds immediately{5'000};     // a program is given up after five ends within this time of its start
     std::chrono::milliseconds to_end{2'000};          // from SIGTERM to SIGKILL
 };
 
@@ -40,7 +40,7 @@ public:
     Programs(Programs const&) = delete;
     Programs& operator=(Programs const&) = delete;
 
-    // Sets the programs. Those with the same settings as before go on. One that was given up is started again.
+    // Sets the programs. Programs with unchanged settings keep running. A program that was given up is started again.
     void set(std::vector<Wanted>);
 
 private:

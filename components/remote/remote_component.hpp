@@ -10,8 +10,8 @@ namespace rois::remote {
 
 class RemoteComponent final : public Component {
 public:
-    RemoteComponent(ComponentDescription, std::shared_ptr<Part>, std::shared_ptr<RemoteEngine>);
-    ~RemoteComponent() override { part_->detach(); }
+    RemoteComponent(ComponentDescription, std::shared_ptr<ComponentRecord>, std::shared_ptr<RemoteEngine>);
+    ~RemoteComponent() override { record_->detach(); }
 
     ComponentDescription const& description() const override { return description_; }
     void attach(ComponentPort&) override;
@@ -25,7 +25,7 @@ public:
 
 private:
     ComponentDescription description_;
-    std::shared_ptr<Part> part_;
+    std::shared_ptr<ComponentRecord> record_;
     std::shared_ptr<RemoteEngine> engine_;
 };
 

@@ -52,7 +52,7 @@ void check(ComponentEntry const& entry, std::string const& name) {
     if (!entry.profile || !entry.traits) refuse("lacks its profile or its traits (decision 41)");
 }
 
-// This engine names the place of the command in its own sequence.
+// Removes the place from a sub engine's reason: this engine adds the place in its own sequence.
 std::string without_place(std::string_view reason) {
     constexpr std::string_view place = "command_unit_list[1]: ";
     if (reason.starts_with(place)) reason.remove_prefix(place.size());
@@ -81,8 +81,8 @@ Outcome outcome_of(Reply const& reply) {
 
 }  // namespace
 
-RemoteEngine::RemoteEngine(SubEngine settings, std::shared_ptr<Surroundings> surroundings)
-    : settings_{std::move(settings)}, surroundings_{std::move(surroundings)} {
+RemoteEngine::RemoteEngine(SubEngine settings, std::shared_ptr<RemoteEngineHost> host)
+    : settings_{std::move(settings)}, host_{std::move(host)} {
     state_.name = settings_.name;
     state_.link = settings_.url.empty() ? "joins as " + settings_.joins : settings_.url;
 }
@@ -107,14 +107,14 @@ void RemoteEngine::take_profile(GetProfile::Reply const& reply) {
             throw std::runtime_error("get_profile failed: " + reply.reason);
         std::vector<std::string> instances;
         collect(*reply.profile, 2, instances);
-        if (auto const why = surroundings_->why_loop(settings_.name, instances)) throw std::runtime_error(*why);
+        if (auto const why = host_->why_loop(settings_.name, instances)) throw std::runtime_error(*why);
         enter(reply);
     } catch (std::exception const& problem) {
         leave(problem.what());
         session_ = {};
         return give_up_link(problem.what());
     }
-    if (lost_at_ && !last_error_.empty()) surroundings_->report(settings_.name, "present again");
+    if (lost_at_ && !last_error_.empty()) host_->report(settings_.name, "present again");
     lost_at_.reset();
     failures_ = 0;
     last_error_.clear();
@@ -140,54 +140,54 @@ void RemoteEngine::enter(GetProfile::Reply const& reply) {
                                             .covariance = covariance});
     }
     add_engines(profile, translation, change.belongings.engines);
-    Parts parts;
+    Records records;
     auto const is_taken = [&](std::string const& ref) {
         return settings_.components.empty() || std::ranges::find(settings_.components, ref) != settings_.components.end();
     };
     for (auto const& entry : reply.components) {
         if (!is_taken(entry.ref)) continue;
         check(entry, settings_.name);
-        if (parts.size() >= settings_.most_components)
+        if (records.size() >= settings_.most_components)
             throw std::runtime_error("it has more than " + std::to_string(settings_.most_components) + " components");
-        auto const known = part_of(entry.ref);
+        auto const known = record_of(entry.ref);
         bool const stays = known && *known->entry.profile == *entry.profile && *known->entry.traits == *entry.traits &&
                            known->entry.engine == entry.engine;
-        auto& part = parts[entry.ref];
-        if (part) throw std::runtime_error("it has two components with the ref " + quoted(entry.ref));
-        part = stays ? known : std::make_shared<Part>(entry, translation.component_here(entry.ref));
+        auto& record = records[entry.ref];
+        if (record) throw std::runtime_error("it has two components with the ref " + quoted(entry.ref));
+        record = stays ? known : std::make_shared<ComponentRecord>(entry, translation.component_here(entry.ref));
         if (stays) continue;
-        auto description = description_of(entry, *part, translation);
-        change.coming.push_back(std::make_unique<RemoteComponent>(std::move(description), part, shared_from_this()));
+        auto description = description_of(entry, *record, translation);
+        change.coming.push_back(std::make_unique<RemoteComponent>(std::move(description), record, shared_from_this()));
     }
-    for (auto const& [ref, part] : parts_) {
-        auto const found = parts.find(ref);
-        if (found != parts.end() && found->second == part) continue;
-        change.going.push_back(part->ref);
+    for (auto const& [ref, record] : records_) {
+        auto const found = records.find(ref);
+        if (found != records.end() && found->second == record) continue;
+        change.going.push_back(record->ref);
     }
     translation_ = translation;
-    auto const before = std::exchange(parts_, std::move(parts));
+    auto const before = std::exchange(records_, std::move(records));
     bool const changes = !change.going.empty() || !change.coming.empty();
     try {
-        if (changes || before.empty()) surroundings_->change(std::move(change));
+        if (changes || before.empty()) host_->change(std::move(change));
     } catch (...) {
-        parts_ = before;
+        records_ = before;
         throw;
     }
-    for (auto const& [ref, part] : before)
-        if (part_of(ref) != part && part->is_held) ask(Release{{.code = ref}}, [](Reply const*) {});
+    for (auto const& [ref, record] : before)
+        if (record_of(ref) != record && record->is_held) ask(Release{{.code = ref}}, [](Reply const*) {});
     if (changes)
-        surroundings_->report(settings_.name, "present with " + std::to_string(parts_.size()) +
-                                                  (parts_.size() == 1 ? " component" : " components"));
+        host_->report(settings_.name,
+                      "present with " + std::to_string(records_.size()) + (records_.size() == 1 ? " component" : " components"));
 }
 
-ComponentDescription RemoteEngine::description_of(ComponentEntry const& entry, Part const& part,
+ComponentDescription RemoteEngine::description_of(ComponentEntry const& entry, ComponentRecord const& record,
                                                   Translation const& translation) const {
     auto shown = *entry.profile;
     shown.sub_components.clear();  // their messages are in it
     translation.to_here(shown);
     ComponentDescription description;
     description.ref = {
-        .code = part.ref, .authority = shown.object.code_space, .codebook_ref = shown.object.identifier, .version = {}};
+        .code = record.ref, .authority = shown.object.code_space, .codebook_ref = shown.object.identifier, .version = {}};
     description.engine = translation.engine_here(entry.engine);
     description.profile = std::make_shared<ComponentProfile const>(std::move(shown));
     description.provider = settings_.name;
@@ -204,8 +204,8 @@ ComponentDescription RemoteEngine::description_of(ComponentEntry const& entry, P
 
 // All events, whether an application here wants them or not: so no subscription here has to wait for the sub engine.
 void RemoteEngine::subscribe() {
-    for (auto const& [ref, part] : parts_) {
-        for (auto const& message : part->entry.profile->messages) {
+    for (auto const& [ref, record] : records_) {
+        for (auto const& message : record->entry.profile->messages) {
             if (message.kind != MessageKind::event || !subscribed_.insert(message.name).second) continue;
             ask(Subscribe{.event_type = message.name, .condition = {}, .inline_results = true}, [](Reply const*) {});
         }
@@ -215,45 +215,45 @@ void RemoteEngine::subscribe() {
 // The components that applications here have bound are bound again: in a new session, and after each change of the profile,
 // because a component may have left and returned.
 void RemoteEngine::restore() {
-    for (auto const& [ref, part] : parts_)
-        if (part->is_wanted) bind_there(part, [](Reply const*) {});
+    for (auto const& [ref, record] : records_)
+        if (record->is_wanted) bind_there(record, [](Reply const*) {});
 }
 
-std::shared_ptr<Part> RemoteEngine::part_of(std::string_view ref) const {
-    auto const found = parts_.find(ref);
-    return found == parts_.end() ? nullptr : found->second;
+std::shared_ptr<ComponentRecord> RemoteEngine::record_of(std::string_view ref) const {
+    auto const found = records_.find(ref);
+    return found == records_.end() ? nullptr : found->second;
 }
 
 // --- What it reports ---
 
 void RemoteEngine::operator()(ReceiveEvent const& event) {
-    auto const part = part_of(event.component_ref.code);
-    if (!part || !event.results) return;
+    auto const record = record_of(event.component_ref.code);
+    if (!record || !event.results) return;
     auto results = *event.results;
     translation_.to_here(results);
-    part->report(EventOccurred{event.event_type, std::make_shared<Results const>(std::move(results))});
+    record->report(EventOccurred{event.event_type, std::make_shared<Results const>(std::move(results))});
 }
 
 void RemoteEngine::operator()(ReceiveError const& error) {
     auto const text = error.text.value_or("an error without a text");
-    auto const part = error.component_ref ? part_of(error.component_ref->code) : nullptr;
-    if (part) return part->report(ErrorOccurred{error.error_type, text});
+    auto const record = error.component_ref ? record_of(error.component_ref->code) : nullptr;
+    if (record) return record->report(ErrorOccurred{error.error_type, text});
     note(text);
 }
 
 void RemoteEngine::operator()(ComponentChanged const& changed) {
     auto const& known = states_[changed.component_ref.code] = changed;
-    if (auto const part = part_of(changed.component_ref.code)) report_state(*part, known);
+    if (auto const record = record_of(changed.component_ref.code)) report_state(*record, known);
 }
 
-void RemoteEngine::report_state(Part& part, ComponentChanged const& changed) const {
+void RemoteEngine::report_state(ComponentRecord& record, ComponentChanged const& changed) const {
     ComponentState state{.status = changed.status, .location = {}, .parameters = changed.results.parameters};
     if (!changed.results.located.empty()) {
         auto& location = state.location.emplace(changed.results.located.front());
         translation_.to_here(location);
         location.ref = translation_.engine_here(location.ref);
     }
-    part.report(std::make_shared<ComponentState const>(std::move(state)));
+    record.report(std::make_shared<ComponentState const>(std::move(state)));
 }
 
 void RemoteEngine::operator()(Completed const& completed) {
@@ -270,60 +270,61 @@ void RemoteEngine::operator()(Completed const& completed) {
 
 // --- What this engine asks ---
 
-void RemoteEngine::attach(std::shared_ptr<Part> const& part) {
-    auto const state = states_.find(part->entry.ref);
-    if (state != states_.end()) report_state(*part, state->second);
+void RemoteEngine::attach(std::shared_ptr<ComponentRecord> const& record) {
+    auto const state = states_.find(record->entry.ref);
+    if (state != states_.end()) report_state(*record, state->second);
 }
 
-void RemoteEngine::bind(std::shared_ptr<Part> const& part, Ticket ticket) {
-    part->is_wanted = true;
-    if (part->is_held && part->binds_asked == 0) return part->answer(ticket, Done{});
-    bind_there(part, [part, ticket](Reply const* reply) {
-        if (reply == nullptr) return part->answer(ticket, Failed{"its engine is lost"});
+void RemoteEngine::bind(std::shared_ptr<ComponentRecord> const& record, Ticket ticket) {
+    record->is_wanted = true;
+    if (record->is_held && record->binds_asked == 0) return record->answer(ticket, Done{});
+    bind_there(record, [record, ticket](Reply const* reply) {
+        if (reply == nullptr) return record->answer(ticket, Failed{"its engine is lost"});
         auto const outcome = outcome_of(*reply);
-        if (outcome.return_code == ReturnCode::ok) return part->answer(ticket, Done{});
-        if (outcome.return_code == ReturnCode::out_of_resources) return part->answer(ticket, Refused{outcome.reason});
-        part->answer(ticket, Failed{outcome.reason});
+        if (outcome.return_code == ReturnCode::ok) return record->answer(ticket, Done{});
+        if (outcome.return_code == ReturnCode::out_of_resources) return record->answer(ticket, Refused{outcome.reason});
+        record->answer(ticket, Failed{outcome.reason});
     });
 }
 
-void RemoteEngine::bind_there(std::shared_ptr<Part> const& part, Then const& then) {
-    ++part->binds_asked;
-    ask(Bind{{.code = part->entry.ref}}, [self = shared_from_this(), part, then](Reply const* reply) {
-        --part->binds_asked;
-        part->is_held = reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok;
+void RemoteEngine::bind_there(std::shared_ptr<ComponentRecord> const& record, Then const& then) {
+    ++record->binds_asked;
+    ask(Bind{{.code = record->entry.ref}}, [self = shared_from_this(), record, then](Reply const* reply) {
+        --record->binds_asked;
+        record->is_held = reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok;
         then(reply);
-        self->release_unwanted(part);
+        self->release_unwanted(record);
     });
 }
 
-void RemoteEngine::released(std::shared_ptr<Part> const& part) {
-    part->is_wanted = false;
-    release_unwanted(part);
+void RemoteEngine::released(std::shared_ptr<ComponentRecord> const& record) {
+    record->is_wanted = false;
+    release_unwanted(record);
 }
 
 // An answer may be late, and the binding then not wanted any more.
-void RemoteEngine::release_unwanted(std::shared_ptr<Part> const& part) {
-    if (part->is_wanted || part->binds_asked > 0 || !std::exchange(part->is_held, false)) return;
-    ask(Release{{.code = part->entry.ref}}, [](Reply const*) {});
+void RemoteEngine::release_unwanted(std::shared_ptr<ComponentRecord> const& record) {
+    if (record->is_wanted || record->binds_asked > 0 || !std::exchange(record->is_held, false)) return;
+    ask(Release{{.code = record->entry.ref}}, [](Reply const*) {});
 }
 
 // `start` takes the stored parameters as arguments: they may have been stored while the sub engine was lost.
-void RemoteEngine::prepare(std::shared_ptr<Part> const& part, Ticket ticket, std::string const& command_type,
+void RemoteEngine::prepare(std::shared_ptr<ComponentRecord> const& record, Ticket ticket, std::string const& command_type,
                            ParameterList const& parameters) {
-    auto unit = unit_of(part->entry.ref, command_type, {}, translation_.to_there(parameters));
+    auto unit = unit_of(record->entry.ref, command_type, {}, translation_.to_there(parameters));
     Execute check{.command_unit_list = {{std::move(unit)}}, .check_only = true};
-    ask(std::move(check), [self = shared_from_this(), part, ticket, command_type, parameters](Reply const* reply) {
-        if (reply == nullptr) return part->answer(ticket, Failed{"its engine is lost"});
+    ask(std::move(check), [self = shared_from_this(), record, ticket, command_type, parameters](Reply const* reply) {
+        if (reply == nullptr) return record->answer(ticket, Failed{"its engine is lost"});
         auto const outcome = outcome_of(*reply);
-        if (outcome.return_code == ReturnCode::bad_parameter) return part->answer(ticket, Refused{without_place(outcome.reason)});
-        if (outcome.return_code != ReturnCode::ok) return part->answer(ticket, Failed{outcome.reason});
-        part->answer(ticket, [self, part, command_type, parameters](CommandHandle command, Instant) {
+        if (outcome.return_code == ReturnCode::bad_parameter)
+            return record->answer(ticket, Refused{without_place(outcome.reason)});
+        if (outcome.return_code != ReturnCode::ok) return record->answer(ticket, Failed{outcome.reason});
+        record->answer(ticket, [self, record, command_type, parameters](CommandHandle command, Instant) {
             self->run([=](RemoteEngine& engine) {
                 try {
-                    engine.begin(part, command, command_type, parameters);
+                    engine.begin(record, command, command_type, parameters);
                 } catch (...) {
-                    part->report(CommandEnded{.command = command, .status = CompletedStatus::error});
+                    record->report(CommandEnded{.command = command, .status = CompletedStatus::error});
                     throw;
                 }
             });
@@ -331,66 +332,66 @@ void RemoteEngine::prepare(std::shared_ptr<Part> const& part, Ticket ticket, std
     });
 }
 
-void RemoteEngine::begin(std::shared_ptr<Part> const& part, CommandHandle command, std::string const& command_type,
+void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, CommandHandle command, std::string const& command_type,
                          ParameterList const& parameters) {
     auto const id = "c" + std::to_string(++last_command_);
-    auto end = [self = shared_from_this(), part, command](Completed const& completed) {
+    auto end = [self = shared_from_this(), record, command](Completed const& completed) {
         CommandEnded ended{
             .command = command, .status = completed.status, .results = {}, .afterwards = {}, .reason = completed.reason};
         if (completed.results) ended.results = *completed.results;
         self->translation_.to_here(ended.results);
         if (completed.active) ended.afterwards = *completed.active ? Afterwards::active : Afterwards::idle;
-        part->report(std::move(ended));
+        record->report(std::move(ended));
     };
     commands_.emplace(id, std::move(end));
-    auto unit = unit_of(part->entry.ref, command_type, id, translation_.to_there(parameters));
-    ++part->begins_asked;
+    auto unit = unit_of(record->entry.ref, command_type, id, translation_.to_there(parameters));
+    ++record->begins_asked;
     ask(Execute{{{std::move(unit)}}},
-        [self = shared_from_this(), part, command, id](Reply const* reply) {
-            if (--part->begins_asked == 0)
-                for (auto const& next : std::exchange(part->after_begins, {})) next();
+        [self = shared_from_this(), record, command, id](Reply const* reply) {
+            if (--record->begins_asked == 0)
+                for (auto const& next : std::exchange(record->after_begins, {})) next();
             bool const is_accepted = reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok;
             auto const known = self->commands_.find(id);
             if (known == self->commands_.end()) return;  // it has completed
-            if (is_accepted) return part->report(CommandStarted{command});
+            if (is_accepted) return record->report(CommandStarted{command});
             self->commands_.erase(known);
             auto const status = reply == nullptr ? CompletedStatus::abort : status_of_refusal(outcome_of(*reply).return_code);
             auto const reason = reply == nullptr ? "its engine is lost" : outcome_of(*reply).reason;
-            part->report(CommandEnded{.command = command, .status = status, .results = {}, .afterwards = {}, .reason = reason});
+            record->report(CommandEnded{.command = command, .status = status, .results = {}, .afterwards = {}, .reason = reason});
         },
         {id});
 }
 
 // Without a binding there, nothing runs for this engine.
-void RemoteEngine::halt(std::shared_ptr<Part> const& part, Ticket ticket) {
-    if (!part->is_held || session_.text.empty() || is_given_up_) return part->report(HaltConfirmed{ticket});
-    part->halts.push_back(ticket);
-    if (part->halts.size() > 1) return;
-    command(part, "stop", [part](CompletedStatus status, std::string const&) {
-        auto const tickets = std::exchange(part->halts, {});
-        if (status == CompletedStatus::ok && !tickets.empty()) part->report(HaltConfirmed{tickets.back()});
+void RemoteEngine::halt(std::shared_ptr<ComponentRecord> const& record, Ticket ticket) {
+    if (!record->is_held || session_.text.empty() || is_given_up_) return record->report(HaltConfirmed{ticket});
+    record->halts.push_back(ticket);
+    if (record->halts.size() > 1) return;
+    command(record, "stop", [record](CompletedStatus status, std::string const&) {
+        auto const tickets = std::exchange(record->halts, {});
+        if (status == CompletedStatus::ok && !tickets.empty()) record->report(HaltConfirmed{tickets.back()});
     });
 }
 
-void RemoteEngine::pause(std::shared_ptr<Part> const& part, Ticket ticket, std::string const& command_type) {
-    if (part->begins_asked > 0) {
-        part->after_begins.emplace_back([=, self = shared_from_this()] { self->pause(part, ticket, command_type); });
+void RemoteEngine::pause(std::shared_ptr<ComponentRecord> const& record, Ticket ticket, std::string const& command_type) {
+    if (record->begins_asked > 0) {
+        record->after_begins.emplace_back([=, self = shared_from_this()] { self->pause(record, ticket, command_type); });
         return;
     }
-    command(part, command_type, [part, ticket, command_type](CompletedStatus status, std::string const& reason) {
+    command(record, command_type, [record, ticket, command_type](CompletedStatus status, std::string const& reason) {
         if (status == CompletedStatus::ok)
-            part->answer(ticket, Done{});
+            record->answer(ticket, Done{});
         else
-            part->answer(ticket, Failed{command_type + ": " + std::string{to_text(status)} + ": " + reason});
+            record->answer(ticket, Failed{command_type + ": " + std::string{to_text(status)} + ": " + reason});
     });
 }
 
 // Runs a command without arguments. Calls `then` once, with the end.
-void RemoteEngine::command(std::shared_ptr<Part> const& part, std::string const& command_type,
+void RemoteEngine::command(std::shared_ptr<ComponentRecord> const& record, std::string const& command_type,
                            std::function<void(CompletedStatus, std::string const& reason)> const& then) {
     auto const id = "c" + std::to_string(++last_command_);
     commands_.emplace(id, [then](Completed const& completed) { then(completed.status, completed.reason); });
-    ask(Execute{{{unit_of(part->entry.ref, command_type, id, {})}}},
+    ask(Execute{{{unit_of(record->entry.ref, command_type, id, {})}}},
         [self = shared_from_this(), then, id](Reply const* reply) {
             if (reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok) return;
             if (self->commands_.erase(id) > 0)
@@ -399,16 +400,16 @@ void RemoteEngine::command(std::shared_ptr<Part> const& part, std::string const&
         {id});
 }
 
-void RemoteEngine::query(std::shared_ptr<Part> const& part, Ticket ticket, std::string const& query_type) {
+void RemoteEngine::query(std::shared_ptr<ComponentRecord> const& record, Ticket ticket, std::string const& query_type) {
     Query asked{.query_type = query_type, .condition = {}};
-    asked.condition.filter = only(part->entry.ref);
-    ask(std::move(asked), [self = shared_from_this(), part, ticket](Reply const* reply) {
+    asked.condition.filter = only(record->entry.ref);
+    ask(std::move(asked), [self = shared_from_this(), record, ticket](Reply const* reply) {
         auto const* answer = reply == nullptr ? nullptr : std::get_if<Query::Reply>(reply);
-        if (answer == nullptr || answer->return_code != ReturnCode::ok) return part->answer(ticket, std::vector<Results>{});
+        if (answer == nullptr || answer->return_code != ReturnCode::ok) return record->answer(ticket, std::vector<Results>{});
         std::vector<Results> rows{answer->results};
         rows.insert(rows.end(), answer->other_rows.begin(), answer->other_rows.end());
         for (auto& row : rows) self->translation_.to_here(row);
-        part->answer(ticket, std::move(rows));
+        record->answer(ticket, std::move(rows));
     });
 }
 

@@ -1,4 +1,4 @@
-// A sub engine (7.2): the link to its gateway, our session there, and its components, which it adds to this engine
+// A sub engine (7.2): the link to its gateway, the session on it, and its components, which are added to this engine
 // (docs/engines.md).
 #pragma once
 
@@ -14,7 +14,7 @@
 
 #include "engine/engine.hpp"
 #include "links/link.hpp"
-#include "remote/part.hpp"
+#include "remote/component_record.hpp"
 #include "remote/sub_engine.hpp"
 #include "remote/translation.hpp"
 #include "types/engine_state.hpp"
@@ -24,9 +24,9 @@
 namespace rois::remote {
 
 // What a sub engine needs. All functions are called on the thread of the links, except `post`.
-class Surroundings {
+class RemoteEngineHost {
 public:
-    virtual ~Surroundings() = default;
+    virtual ~RemoteEngineHost() = default;
 
     virtual Steady now() const = 0;
     // Calls `ring` once, at this time or soon afterwards.
@@ -51,7 +51,7 @@ public:
 // Used on the thread of the links, except `run`.
 class RemoteEngine final : public std::enable_shared_from_this<RemoteEngine>, private client::Link::Listener {
 public:
-    RemoteEngine(SubEngine, std::shared_ptr<Surroundings>);
+    RemoteEngine(SubEngine, std::shared_ptr<RemoteEngineHost>);
 
     SubEngine const& settings() const { return settings_; }
 
@@ -62,8 +62,8 @@ public:
     // and connects again. If this throws, call it again.
     void recover();
 
-    // A sub engine that joins is there, on an open link, which replaces an older one.
-    void joined(std::shared_ptr<client::Link>);
+    // Called when the sub engine has joined. `link` is open and replaces the previous one.
+    void joined(std::shared_ptr<client::Link> link);
     bool has_link() const { return link_ != nullptr; }
 
     // Reports a problem. If the same one is reported again and again, the log has it once.
@@ -73,22 +73,22 @@ public:
     void run(std::function<void(RemoteEngine&)>);
 
     // What the engine asks of a component.
-    void attach(std::shared_ptr<Part> const&);
-    void bind(std::shared_ptr<Part> const&, Ticket);
-    void released(std::shared_ptr<Part> const&);
-    void prepare(std::shared_ptr<Part> const&, Ticket, std::string const& command_type, ParameterList const&);
-    void begin(std::shared_ptr<Part> const&, CommandHandle, std::string const& command_type, ParameterList const&);
-    void halt(std::shared_ptr<Part> const&, Ticket);
-    void pause(std::shared_ptr<Part> const&, Ticket, std::string const& command_type);  // suspend or resume
-    void query(std::shared_ptr<Part> const&, Ticket, std::string const& query_type);
+    void attach(std::shared_ptr<ComponentRecord> const&);
+    void bind(std::shared_ptr<ComponentRecord> const&, Ticket);
+    void released(std::shared_ptr<ComponentRecord> const&);
+    void prepare(std::shared_ptr<ComponentRecord> const&, Ticket, std::string const& command_type, ParameterList const&);
+    void begin(std::shared_ptr<ComponentRecord> const&, CommandHandle, std::string const& command_type, ParameterList const&);
+    void halt(std::shared_ptr<ComponentRecord> const&, Ticket);
+    void pause(std::shared_ptr<ComponentRecord> const&, Ticket, std::string const& command_type);  // suspend or resume
+    void query(std::shared_ptr<ComponentRecord> const&, Ticket, std::string const& query_type);
 
 private:
-    // Called with the answer, or with null: the session has ended before it came.
+    // Called with the answer, or with null if the session ends before it arrives.
     using Then = std::function<void(Reply const*)>;
-    struct Open {
+    struct Unanswered {
         client::Link::Document document;
         Then then;
-        CommandId once;  // of an execute, which must not be performed twice
+        CommandId once;  // the command of an `execute`, which must not be performed twice; empty: may be sent again
     };
 
     // --- remote_session.cpp: the link and the session ---
@@ -113,24 +113,24 @@ private:
     void end_commands(std::string const& why);
     void leave(std::string const& reason);
     void await_next_attempt();
-    void give_signs_of_life(std::uint64_t session);
+    void give_signs_of_life(std::uint64_t era);
     void show();
     void ask(Operation, Then, CommandId once = {});
 
     // --- remote_engine.cpp: its profile and components ---
-    using Parts = std::map<std::string, std::shared_ptr<Part>, std::less<>>;  // by their refs there
-    void report_state(Part&, ComponentChanged const&) const;
-    void command(std::shared_ptr<Part> const&, std::string const& command_type,
+    using Records = std::map<std::string, std::shared_ptr<ComponentRecord>, std::less<>>;  // by their refs in the sub engine
+    void report_state(ComponentRecord&, ComponentChanged const&) const;
+    void command(std::shared_ptr<ComponentRecord> const&, std::string const& command_type,
                  std::function<void(CompletedStatus, std::string const& reason)> const& then);
     void ask_profile();
     void take_profile(GetProfile::Reply const&);
     void enter(GetProfile::Reply const&);
     void subscribe();
     void restore();
-    void bind_there(std::shared_ptr<Part> const&, Then const&);
-    void release_unwanted(std::shared_ptr<Part> const&);
-    ComponentDescription description_of(ComponentEntry const&, Part const&, Translation const&) const;
-    std::shared_ptr<Part> part_of(std::string_view ref) const;
+    void bind_there(std::shared_ptr<ComponentRecord> const&, Then const&);
+    void release_unwanted(std::shared_ptr<ComponentRecord> const&);
+    ComponentDescription description_of(ComponentEntry const&, ComponentRecord const&, Translation const&) const;
+    std::shared_ptr<ComponentRecord> record_of(std::string_view ref) const;
     void operator()(ReceiveEvent const&);
     void operator()(ReceiveError const&);
     void operator()(Completed const&);
@@ -139,33 +139,33 @@ private:
     void operator()(ComponentChanged const&);
 
     SubEngine settings_;
-    std::shared_ptr<Surroundings> surroundings_;
+    std::shared_ptr<RemoteEngineHost> host_;
     std::string last_error_;
     Translation translation_;
     xml::AnswerReader reader_;
-    Parts parts_;
-    std::map<std::string, ComponentChanged, std::less<>> states_;  // by refs there, also of components that are not here yet
-    std::map<std::string, std::function<void(Completed const&)>, std::less<>> commands_;  // whose end is expected, by id
-    std::set<std::string> subscribed_;                                                    // event types
+    Records records_;
+    std::map<std::string, ComponentChanged, std::less<>> states_;  // by refs in the sub engine; some have no record yet
+    std::map<std::string, std::function<void(Completed const&)>, std::less<>> commands_;  // commands that have not ended, by id
+    std::set<std::string> subscribed_;  // event types that `subscribe` was sent for
 
     std::shared_ptr<client::Link> link_;  // null between attempts
-    SessionId session_;                   // empty: none
+    SessionId session_;                   // empty: no session
     std::uint64_t last_sequence_ = 0;
-    bool is_open_ = false;  // requests can be sent
-    std::map<std::uint64_t, Open> open_;
+    bool is_open_ = false;                            // requests can be sent
+    std::map<std::uint64_t, Unanswered> unanswered_;  // requests, by their numbers
     std::uint64_t last_request_ = 0;
     std::uint64_t last_command_ = 0;
-    std::uint64_t documents_ = 0;           // received
-    std::uint64_t era_ = 0;                 // counts attempts and lost links: alarms of an earlier one are void
-    unsigned failures_ = 0;                 // in a row
-    bool is_present_ = false;               // its profile was read, and its components have not left
-    bool is_given_up_ = false;              // the session, which may still exist there
-    std::optional<Steady> lost_at_;         // when the session lost its link; until its components are there again
-    bool profile_asked_ = false;            // and not answered yet
-    bool profile_changed_ = false;          // since then
-    Steady last_sign_{};                    // of life
-    std::optional<Steady> asked_for_sign_;  // the first sign of life that is not answered yet
-    EngineState state_;                     // as it was shown last
+    std::uint64_t documents_ = 0;           // number of received documents
+    std::uint64_t era_ = 0;                 // counts attempts and lost links: alarms of an earlier era do nothing
+    unsigned failures_ = 0;                 // failed attempts in a row
+    bool is_present_ = false;               // the profile was read, and the components have not left
+    bool is_given_up_ = false;              // the session is given up; it may still exist in the sub engine
+    std::optional<Steady> lost_at_;         // when the session lost its link; empty once the components are present again
+    bool profile_asked_ = false;            // a `get_profile` is not answered yet
+    bool profile_changed_ = false;          // the profile changed after it was requested
+    Steady last_sign_{};                    // when the last sign of life was sent
+    std::optional<Steady> asked_for_sign_;  // when the first sign of life that is not answered yet was sent
+    EngineState state_;                     // the state that `show` passed on last
     bool is_over_ = false;
 };
 

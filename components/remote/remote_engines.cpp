@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/loop.hpp"
-#include "remote/door.hpp"
+#include "remote/join_acceptor.hpp"
 #include "remote/joiner.hpp"
 #include "remote/remote_engine.hpp"
 #include "remote/times.hpp"
@@ -33,7 +33,7 @@ private:
 }  // namespace
 
 // All members are used on the thread of the links, except `post`, `states`, and `pulse_` itself.
-class RemoteEngines::Links final : public Surroundings, public std::enable_shared_from_this<Links> {
+class RemoteEngines::Links final : public RemoteEngineHost, public std::enable_shared_from_this<Links> {
 public:
     explicit Links(Host host) : host_{std::move(host)} {}
 
@@ -43,7 +43,7 @@ public:
     void stop() {
         post([this] {
             set({});
-            door_->close();
+            acceptor_->close();
             if (joiner_) joiner_->end();
             loop_.finish();
         });
@@ -69,7 +69,7 @@ public:
         }
     }
 
-    void accept(int socket, std::string head) { door_->open(socket, std::move(head)); }
+    void accept(int socket, std::string head) { acceptor_->open(socket, std::move(head)); }
 
     void trouble(std::string const& name, std::string const& what) {
         auto const found = engines_.find(name);
@@ -128,7 +128,7 @@ private:
         return {};
     }
 
-    // A name belongs to one engine as long as its link stands; the same start of that engine may replace its link.
+    // An engine keeps its name while its link is open. Only the same instance may replace the link.
     std::variant<std::shared_ptr<RemoteEngine>, std::string> joining(xml::Join const& join) {
         auto const found =
             std::ranges::find_if(engines_, [&](auto const& each) { return each.second->settings().joins == join.name; });
@@ -143,7 +143,7 @@ private:
     // An exception has left a handler of this thread, for example because memory is missing. It may have interrupted any of them.
     void recover() {
         for (auto const& [name, engine] : engines_) engine->recover();
-        door_->close();
+        acceptor_->close();
         if (joiner_) joiner_->recover();
     }
 
@@ -162,8 +162,8 @@ private:
     std::map<std::string, Settings> settings_;  // of the links, which refer to them
     std::map<std::string, std::vector<std::string>> instances_;
     std::map<std::string, std::string> joined_;  // the instance that has joined last, by name
-    std::shared_ptr<Door> const door_ =
-        std::make_shared<Door>(loop_, host_.schemas, [this](xml::Join const& join) { return joining(join); });
+    std::shared_ptr<JoinAcceptor> const acceptor_ =
+        std::make_shared<JoinAcceptor>(loop_, host_.schemas, [this](xml::Join const& join) { return joining(join); });
     std::shared_ptr<Joiner> joiner_;  // null: this engine joins none
 };
 

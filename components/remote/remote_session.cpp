@@ -37,13 +37,13 @@ void RemoteEngine::begin() {
 }
 
 void RemoteEngine::run(std::function<void(RemoteEngine&)> what) {
-    surroundings_->post([self = shared_from_this(), what = std::move(what)] { what(*self); });
+    host_->post([self = shared_from_this(), what = std::move(what)] { what(*self); });
 }
 
 // Repeated attempts fail for the same reason: it is logged once.
 void RemoteEngine::note(std::string const& what) {
     if (std::exchange(last_error_, what) == what) return;
-    surroundings_->report(settings_.name, what);
+    host_->report(settings_.name, what);
     state_.last_error = what;
     show();
 }
@@ -56,15 +56,15 @@ void RemoteEngine::show() {
         state_.is = given_up;
     else
         state_.is = lost_at_ ? lost : present;
-    state_.components = parts_.size();
-    surroundings_->show(state_);
+    state_.components = records_.size();
+    host_->show(state_);
 }
 
 void RemoteEngine::attempt() {
     if (is_over_) return;
     ++era_;
     try {
-        link_ = surroundings_->link(settings_, *this);
+        link_ = host_->link(settings_, *this);
     } catch (std::exception const& problem) {
         return give_up_link(problem.what());
     }
@@ -83,8 +83,8 @@ void RemoteEngine::joined(std::shared_ptr<client::Link> link) {
 }
 
 void RemoteEngine::limit_attempt() {
-    surroundings_->at(surroundings_->now() + time_for_attempt, [self = shared_from_this(), era = era_] {
-        if (self->era_ == era && !self->is_open_) self->give_up_link("no session within 5 s");
+    host_->at(host_->now() + time_for_attempt, [self = shared_from_this(), era = era_] {
+        if (self->era_ == era && !self->is_open_) self->give_up_link("no session within " + shown(time_for_attempt));
     });
 }
 
@@ -110,12 +110,12 @@ void RemoteEngine::document(std::string_view text) {
 
 // All components have one provider.
 bool RemoteEngine::is_flooded() const {
-    return std::ranges::any_of(parts_, [](auto const& each) { return each.second->is_full(); });
+    return std::ranges::any_of(records_, [](auto const& each) { return each.second->is_full(); });
 }
 
 // A sub engine that reports more than this engine handles has to wait, and fills no memory here.
 void RemoteEngine::go_on_when_handled(std::uint64_t era) {
-    surroundings_->at(surroundings_->now() + until_next_look, [self = shared_from_this(), era] {
+    host_->at(host_->now() + until_next_look, [self = shared_from_this(), era] {
         if (self->era_ != era || !self->link_) return;
         if (self->is_flooded()) return self->go_on_when_handled(era);
         self->link_->go_on();
@@ -126,19 +126,19 @@ void RemoteEngine::take(Fault const& fault) {
     if (fault.code == FaultCode::no_session && !session_.text.empty()) return session_ended();
     if (!is_open_) return give_up_link("no session: " + fault.reason);
     auto const number = to_number<std::uint64_t>(fault.request_id);
-    auto const found = number ? open_.find(*number) : open_.end();
-    if (found == open_.end()) return;
-    auto const open = std::move(found->second);
-    open_.erase(found);
+    auto const found = number ? unanswered_.find(*number) : unanswered_.end();
+    if (found == unanswered_.end()) return;
+    auto const request = std::move(found->second);
+    unanswered_.erase(found);
     note("it refused a request: " + fault.reason);
-    open.then(nullptr);
+    request.then(nullptr);
 }
 
 // Ignores answers that were not asked for.
 void RemoteEngine::take(xml::Answered const& answered) {
     auto const& [reply, id] = answered;
     if (id == sign_of_life && asked_for_sign_) {
-        state_.round_trip = surroundings_->now() - *std::exchange(asked_for_sign_, std::nullopt);
+        state_.round_trip = host_->now() - *std::exchange(asked_for_sign_, std::nullopt);
         return show();
     }
     if (!is_open_) {
@@ -156,14 +156,14 @@ void RemoteEngine::take(xml::Answered const& answered) {
     }
     bool const asks = id.starts_with(was_performed);
     auto const number = to_number<std::uint64_t>(asks ? std::string_view{id}.substr(was_performed.size()) : id);
-    auto const found = number ? open_.find(*number) : open_.end();
-    if (found == open_.end()) return;  // late, twice, or never asked
+    auto const found = number ? unanswered_.find(*number) : unanswered_.end();
+    if (found == unanswered_.end()) return;  // late, twice, or never asked
     if (asks && !is_ok(reply)) return link_->send(found->second.document);
-    auto const open = std::move(found->second);
-    open_.erase(found);
-    if (!asks) return open.then(&reply);
+    auto const request = std::move(found->second);
+    unanswered_.erase(found);
+    if (!asks) return request.then(&reply);
     Reply const performed{Execute::Reply{}};
-    open.then(&performed);
+    request.then(&performed);
 }
 
 void RemoteEngine::take(xml::NumberedNotification const& notification) {
@@ -198,7 +198,7 @@ void RemoteEngine::resumed(ReturnCode code) {
     if (is_given_up_) return link_->send(client::document_of({Disconnect{}, std::string{opening}}));
     lost_at_.reset();
     failures_ = 0;
-    surroundings_->report(settings_.name, "the link is back, and nothing was lost");
+    host_->report(settings_.name, "the link is back, and nothing was lost");
     show();
     give_signs_of_life(era_);
     send_again();
@@ -206,12 +206,12 @@ void RemoteEngine::resumed(ReturnCode code) {
 
 // The answers to these requests may have been lost. All may be performed twice, except an execute.
 void RemoteEngine::send_again() {
-    for (auto const& [number, open] : open_) {
-        if (open.once.text.empty())
-            link_->send(open.document);
+    for (auto const& [number, request] : unanswered_) {
+        if (request.once.text.empty())
+            link_->send(request.document);
         else
             link_->send(
-                client::document_of({GetCommandResult{open.once, {}}, std::string{was_performed} + std::to_string(number)}));
+                client::document_of({GetCommandResult{request.once, {}}, std::string{was_performed} + std::to_string(number)}));
     }
 }
 
@@ -219,7 +219,7 @@ void RemoteEngine::ask(Operation operation, Then then, CommandId once) {
     if (session_.text.empty() || is_given_up_ || is_over_) return then(nullptr);
     auto const number = ++last_request_;
     auto const document = client::document_of({std::move(operation), std::to_string(number)});
-    open_.emplace(number, Open{document, std::move(then), std::move(once)});
+    unanswered_.emplace(number, Unanswered{document, std::move(then), std::move(once)});
     if (is_open_) link_->send(document);
 }
 
@@ -227,14 +227,14 @@ void RemoteEngine::ask(Operation operation, Then then, CommandId once) {
 // hangs.
 void RemoteEngine::give_signs_of_life(std::uint64_t era) {
     if (era != era_ || !is_open_) return;
-    bool const is_bound = std::ranges::any_of(parts_, [](auto const& each) { return each.second->is_held; });
-    auto const now = surroundings_->now();
-    if (surroundings_->is_alive() && (is_bound || now >= last_sign_ + between_signs_at_rest)) {
+    bool const is_bound = std::ranges::any_of(records_, [](auto const& each) { return each.second->is_held; });
+    auto const now = host_->now();
+    if (host_->is_alive() && (is_bound || now >= last_sign_ + between_signs_at_rest)) {
         link_->send(client::document_of({Connect{}, std::string{sign_of_life}}));
         last_sign_ = now;
         if (!asked_for_sign_) asked_for_sign_ = now;
     }
-    surroundings_->at(now + between_signs_of_life, [self = shared_from_this(), era] { self->give_signs_of_life(era); });
+    host_->at(now + between_signs_of_life, [self = shared_from_this(), era] { self->give_signs_of_life(era); });
 }
 
 void RemoteEngine::failed(std::string const& reason, client::Failure) { give_up_link(reason); }
@@ -249,11 +249,11 @@ void RemoteEngine::give_up_link(std::string const& reason) {
     if (is_over_) return;
     note(reason);
     if (is_present_ && !lost_at_) {
-        lost_at_ = surroundings_->now();
+        lost_at_ = host_->now();
         ++state_.losses;
         auto const when_still_lost = [&](std::chrono::milliseconds time, void (RemoteEngine::*then)(std::string const&),
                                          std::string what) {
-            surroundings_->at(*lost_at_ + time, [self = shared_from_this(), at = lost_at_, then, what = std::move(what)] {
+            host_->at(*lost_at_ + time, [self = shared_from_this(), at = lost_at_, then, what = std::move(what)] {
                 if (self->lost_at_ == at) ((*self).*then)(what);
             });
         };
@@ -275,18 +275,18 @@ void RemoteEngine::give_up(std::string const& reason) {
     show();
     end_commands(why);
     states_.clear();
-    for (auto const& [ref, part] : parts_) {
-        part->is_held = false;
-        part->report(std::make_shared<ComponentState const>(ComponentState{ComponentStatus::error, {}, {}}));
-        part->report(ErrorOccurred{ErrorType::component_not_responding, why, Report::once});
+    for (auto const& [ref, record] : records_) {
+        record->is_held = false;
+        record->report(std::make_shared<ComponentState const>(ComponentState{ComponentStatus::error, {}, {}}));
+        record->report(ErrorOccurred{ErrorType::component_not_responding, why, Report::once});
     }
 }
 
-// Each stays until its end has been reported: if that throws, the next call reports it.
+// Removes a command only after its end has been reported: if that throws, the next call reports it.
 void RemoteEngine::end_commands(std::string const& why) {
-    while (!open_.empty()) {
-        auto const open = open_.extract(open_.begin());
-        open.mapped().then(nullptr);
+    while (!unanswered_.empty()) {
+        auto const request = unanswered_.extract(unanswered_.begin());
+        request.mapped().then(nullptr);
     }
     Completed const aborted{.command_id = {}, .status = CompletedStatus::abort, .results = {}, .reason = why};
     while (!commands_.empty()) {
@@ -301,7 +301,7 @@ void RemoteEngine::recover() {
     give_up_link(why);
     give_up(why);
     end_commands(why);
-    for (auto const& [ref, part] : parts_) part->forget_questions();
+    for (auto const& [ref, record] : records_) record->forget_questions();
 }
 
 // Its components leave until it returns.
@@ -309,12 +309,12 @@ void RemoteEngine::leave(std::string const& reason) {
     give_up(reason);
     lost_at_.reset();
     ComponentChange change{.going = {}, .coming = {}, .belongings = {}, .provider = settings_.name};
-    for (auto const& [ref, part] : parts_) change.going.push_back(part->ref);
+    for (auto const& [ref, record] : records_) change.going.push_back(record->ref);
     try {
-        if (!parts_.empty()) surroundings_->change(std::move(change));
-        parts_.clear();
+        if (!records_.empty()) host_->change(std::move(change));
+        records_.clear();
         is_present_ = false;
-        surroundings_->why_loop(settings_.name, {});
+        host_->why_loop(settings_.name, {});
         show();
     } catch (std::exception const& problem) {
         note(problem.what());
@@ -329,7 +329,7 @@ void RemoteEngine::end() {
 }
 
 void RemoteEngine::await_next_attempt() {
-    surroundings_->at(surroundings_->now() + pause_after(failures_++), [self = shared_from_this(), era = era_] {
+    host_->at(host_->now() + pause_after(failures_++), [self = shared_from_this(), era = era_] {
         if (self->era_ == era) self->attempt();
     });
 }

@@ -20,20 +20,20 @@ struct Placement {
 };
 
 struct SubEngine {
-    std::string name;                     // in front of the names of its components, engines and frames
-    std::string url;                      // its gateway; empty: it joins
+    std::string name;                     // prefix of the names of its components, engines and frames
+    std::string url;                      // its gateway; empty: the sub engine joins
     std::string joins;                    // the name by which it joins
-    std::vector<std::string> command;     // the program that joins, with its arguments; empty: it is not started here
+    std::vector<std::string> command;     // the program that joins, with its arguments; empty: this gateway starts none
     std::string folder;                   // in which the program runs
-    std::vector<std::string> components;  // the refs there of the components that are taken; empty: all
-    // Without a placement, its positions are passed on unchanged: its frame has the same name here.
+    std::vector<std::string> components;  // refs, in the sub engine, of the components to use; empty: all
+    // Without a placement, positions are passed on unchanged, and the frame keeps its name.
     std::optional<Placement> placement{};
 
     // How long a lost link may be missing: after that, the sub engine and this engine give up the session.
     std::chrono::milliseconds window = std::chrono::seconds{3};
     // After that, its components leave.
     std::chrono::milliseconds resume_window = std::chrono::seconds{30};
-    // How long its robot moves on without a sign of life of this engine.
+    // How long its robot keeps moving without a sign of life from this engine.
     std::chrono::milliseconds motion_lease = std::chrono::seconds{1};
     std::size_t most_components = 1'000;
     std::size_t longest_document = 4'000'000;  // bytes
@@ -44,8 +44,8 @@ struct SubEngine {
 // Another engine, which this engine joins as a sub engine.
 struct Joining {
     std::string url;
-    std::string name;  // of this engine there
-    std::string own_url;
+    std::string name;     // of this engine in the other one
+    std::string own_url;  // of this engine's own gateway
 };
 
 }  // namespace rois::remote

@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string>
 
 namespace rois::remote {
 
 inline constexpr std::chrono::seconds ping_interval{1};     // two seconds of silence end a link
 inline constexpr std::chrono::seconds time_for_attempt{5};  // until there is a session, or the other engine has joined
+
+// "5 s"
+inline std::string shown(std::chrono::seconds time) { return std::to_string(time.count()) + " s"; }
 
 // The pause before the next attempt: 0.1 s, then twice as long each time, 30 s at most.
 inline std::chrono::milliseconds pause_after(unsigned failures) {

@@ -23,7 +23,7 @@ public:
     // The name of an engine in the profile of the sub engine.
     std::string engine_here(std::string_view engine) const;
 
-    // Change the name of the frame, and in results those of robots (the result robot_ref), which are those of their engines.
+    // Change the frame's name, and the robot names in the result `robot_ref`, which are engine names.
     void to_here(Results&) const;
     void to_here(Located&) const;
     void to_here(ParameterProfile&) const;

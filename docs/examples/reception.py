@@ -86,7 +86,7 @@ def receive(visitors):
             print(f'{visitor}: told "{message}"' + (f', heard "{heard}"' if heard else ""), flush=True)
             received += 1
     engine.run("navigation", target_position=["string[]", start])
-    print(f"received {visitors} visitors")
+    print(f"visitors received: {visitors}")
 
 
 given = sys.argv[1] if len(sys.argv) > 1 else "1"

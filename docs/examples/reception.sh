@@ -322,4 +322,4 @@ known_visitors=' '  # their permanent ids
 while [ "$received" -lt "$visitors" ]; do
     if receive; then received=$((received + 1)); fi
 done
-echo "received $received visitors"
+echo "visitors received: $received"

@@ -189,7 +189,7 @@ public:
 
     // Asks whether an application may bind the component now; only if the description has `confirms_binding`.
     virtual void bind(Ticket, Instant now);
-    // The binding has ended, or did not come about although `bind` was asked.
+    // The binding has ended, or was not made after `bind`.
     virtual void released(Instant) {}
 
     // Asks whether the component can carry out this command with these parameters. The answer is `Begin` or `Refused`, and must

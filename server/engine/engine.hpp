@@ -109,8 +109,8 @@ struct EngineStatistics {
 // NotificationQueue, which has a lock of its own, and components may report from any thread. The engine never reads a clock or
 // opens a file: the caller passes the time, and `steady` must not go back.
 //
-// No component is called within these calls, except by `work`, which releases the caller's lock meanwhile. Call it after each of
-// them that may command a component: handle, begin, tick, change, end, stop_everything, shut_down.
+// Only `work` calls components, with the caller's lock released. Call `work` after `handle`, `begin`, `tick`, `change`, `end`,
+// `stop_everything` and `shut_down`: each of them may command a component.
 class Engine {
 public:
     // Returns an unguessable text of at least 128 bits that is valid in an XML attribute.

@@ -40,7 +40,7 @@ public:
     // Returns a new ticket for a halt, which is not a question.
     Ticket fresh_ticket() { return Ticket{++last_}; }
 
-    // Begins a round, which may have ended before. A tick after `due` ends the questions that are not answered then.
+    // Begins a round. `Round` may be reused after its end. A tick after `due` ends the questions that are not answered then.
     static void begin(Round& round, Steady due) { round.due_ = due; }
     // A round that calls `then` with this number of answers, by the places of their questions, when it ends. A question that
     // could not be added, because memory was short, has no answer.

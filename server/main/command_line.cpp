@@ -124,7 +124,7 @@ CommandLine read_command_line(int argc, char const* const* argv) {
     } catch (CLI::CallForHelp const&) {
         return say(app.help());
     } catch (CLI::ParseError const& error) {
-        throw BadSettings{error.what()};
+        throw BadSettings{std::string{error.what()} + "; see rois-gateway --help"};
     }
     if (flags.version) return say("rois-gateway " ROIS_VERSION "\n");
     auto settings = gather(app, flags);

@@ -30,7 +30,7 @@ void set(GatewaySettings& settings, std::string const& name, json const& value, 
 }  // namespace
 
 std::string text_of_file(std::string const& file) {
-    if (std::filesystem::is_directory(file)) throw BadSettings{file + ": cannot be read: this is a directory"};
+    if (std::filesystem::is_directory(file)) throw BadSettings{file + ": cannot be read: this is a directory; name a file in it"};
     std::ifstream stream{file, std::ios::binary};
     std::string text{std::istreambuf_iterator<char>{stream}, {}};
     if (!stream.is_open() || stream.bad()) throw BadSettings{file + ": cannot be read: " + std::strerror(errno)};

@@ -89,7 +89,7 @@ bool is_program(std::filesystem::path const& file) {
     return std::filesystem::is_regular_file(file) && ::access(file.c_str(), X_OK) == 0;
 }
 
-// Returns whether the program can be run in this folder: as execvp(3) would look for it.
+// Returns whether execvp(3) would find the program in this folder.
 bool is_found(std::string const& program, std::filesystem::path const& folder) {
     if (program.find('/') != program.npos) return is_program(folder / program);
     auto const* const path = std::getenv("PATH");
@@ -97,6 +97,14 @@ bool is_found(std::string const& program, std::filesystem::path const& folder) {
     for (std::string place; std::getline(places, place, ':');)
         if (is_program(folder / place / program)) return true;
     return false;
+}
+
+// Why `is_found` returned false.
+std::string why_not_found(std::string const& program, std::filesystem::path const& folder) {
+    auto const named = "program " + rois::quoted(program);
+    if (program.find('/') == program.npos)
+        return named + " not found in PATH; the name of a program in the folder of this file begins with './'";
+    return named + ": " + rois::quoted((folder / program).lexically_normal().string()) + " is not an executable file";
 }
 
 std::vector<double> numbers_of(json const& value, std::vector<std::size_t> const& sizes, std::string const& expected) {
@@ -110,6 +118,9 @@ std::array<double, 3> triple_of(json const& value, std::string const& expected) 
     auto const numbers = numbers_of(value, {3}, expected);
     return {numbers[0], numbers[1], numbers[2]};
 }
+
+// "1.5 s"
+std::string shown(std::chrono::milliseconds time) { return json(std::chrono::duration<double>(time).count()).dump() + " s"; }
 
 std::chrono::milliseconds seconds_of(json const& value, double least, double most) {
     auto const seconds = value.is_number() ? value.get<double>() : -1;
@@ -181,14 +192,17 @@ SubEngine read(json const& entry, std::filesystem::path const& folder,
     if (!engine.command.empty()) {
         if (engine.url.empty() && engine.joins.empty()) engine.joins = engine.name;
         if (!is_found(engine.command.front(), folder))
-            throw BadSettings{where("command") + named() + "there is no program " + rois::quoted(engine.command.front())};
+            throw BadSettings{where("command") + named() + why_not_found(engine.command.front(), folder)};
         if (!engine.url.empty())
-            throw BadSettings{where("command") + named() + "a program that is started here joins: expected no 'url'"};
+            throw BadSettings{where("command") + named() + "'command' and 'url' exclude each other: a program joins"};
     }
     if (engine.url.empty() == engine.joins.empty())
-        throw BadSettings{where("name") + named() + "expected either 'url', to connect to it, or 'joins', if it connects"};
+        throw BadSettings{where("name") + named() +
+                          "needs either 'url' (this gateway connects) or 'joins' (the sub engine connects), and has " +
+                          (engine.url.empty() ? "neither" : "both")};
     if (engine.resume_window < engine.window)
-        throw BadSettings{where("resume_window") + named() + "resume_window must not be shorter than window"};
+        throw BadSettings{where("resume_window") + named() + "resume_window (" + shown(engine.resume_window) +
+                          ") must not be shorter than window (" + shown(engine.window) + ")"};
     if (engine.placement) {
         try {
             Frames const checked{"here",

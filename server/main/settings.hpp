@@ -33,8 +33,8 @@ struct GatewaySettings {
     std::string scenario;
     std::string profiles;  // a folder of component profiles; empty: none
     std::string engines;   // a file of sub engines; empty: none
-    std::string join;      // the URL of a gateway whose sub engine this engine becomes; empty: none
-    std::string join_as;   // the name by which it joins; empty: engine_name
+    std::string join;      // URL of the gateway to join as a sub engine; empty: none
+    std::string join_as;   // name used to join; empty: engine_name
     LogFormat log_format = LogFormat::text;
     LogLevel log_level = LogLevel::info;
 

@@ -19,7 +19,8 @@ public:
     // Reading a long document takes half a millisecond or more.
     static bool is_long(std::size_t bytes) { return bytes > std::size_t{32} * 1024; }
 
-    // As Gateway::answer, on that thread. Resumes the caller on its own thread. All arguments must live until then.
+    // Thread-safe. Calls Gateway::answer on the separate thread, and resumes the caller on the caller's thread. The caller owns
+    // all arguments, which must live until then.
     Task<PendingAnswer> answer(Gateway&, SessionId const&, std::string_view text, Via, std::weak_ptr<Reader> waits,
                                std::shared_ptr<Opener> const&, Wakes&);
 

@@ -12,6 +12,8 @@
 
 namespace rois::net {
 
+// Not thread-safe, except `url`: call all other functions on the thread that made the server. `run` blocks that thread, which is
+// then the first I/O thread; the server owns the others.
 class Server {
 public:
     // Starts to listen. Throws std::runtime_error with a message for the user if the port is not free. All arguments must outlive

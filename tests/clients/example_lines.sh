@@ -33,7 +33,7 @@ start() {
 }
 
 expected="$(head -n 1 "$data/three_visitors.txt")
-received 1 visitors"
+visitors received: 1"
 cd "$root"
 for line in "${lines[@]}"; do
     start
@@ -49,7 +49,7 @@ block=${block//\$PWD\/build\/release/$ROIS_BINARY_DIR}
 start
 env -i HOME="$work" PATH=/usr/bin:/bin ROIS_URL="$ROIS_URL" bash -ec "$block" >"$work/printed" 2>"$work/error" ||
     fail "the commands with rois failed: $(cat "$work/printed" "$work/error")"
-for expected in "^navigation *Navigation" "^position_data" "start speech_synthesis *OK" "received 2 visitors"; do
+for expected in "^navigation *Navigation" "^position_data" "start speech_synthesis *OK" "visitors received: 2"; do
     grep -q "$expected" "$work/printed" || fail "the commands with rois did not print '$expected' but: $(cat "$work/printed" "$work/error")"
 done
 assignment='PATH=$PWD/build/release/bin:$PATH'

@@ -102,7 +102,8 @@ TEST_F(Rois, RejectsAFolderInPlaceOfAFile) {
         auto const ended = run(arguments);
         EXPECT_EQ(ended.exit_code, 2) << arguments.front();
         EXPECT_EQ(ended.out, "") << arguments.front();
-        EXPECT_EQ(ended.error, "rois: " + folder + " cannot be read: this is a folder; name a file in it\n") << arguments.front();
+        EXPECT_EQ(ended.error, "rois: " + folder + " cannot be read: this is a directory; name a file in it\n")
+            << arguments.front();
     }
 }
 

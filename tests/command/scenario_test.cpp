@@ -28,7 +28,7 @@ TEST(TheReceptionAsAScenario, ReceivesThreeVisitorsAndIsReplayed) {
                 testing::UnorderedElementsAre("tanaka: told \"Mr. Tanaka, your meeting is in room 3.\"",
                                               "suzuki: told \"Ms. Suzuki, your taxi is waiting at the entrance.\"",
                                               "somebody: told \"Welcome. How can I help you?\", heard \"I have an appointment.\"",
-                                              "received 3 visitors"))
+                                              "visitors received: 3"))
         << live.out;
     RoisProcess engine{{"replay", file, "--listen", "127.0.0.1:0", "--json"}};
     auto const again = run_rois(scenario, {}, {{"ROIS_URL", json::parse(engine.line())["listening"]}});
@@ -65,7 +65,7 @@ TEST_F(Rois, ChecksAScenarioAndItsVariables) {
     expect(2, "robot_scenario", {"scenario", ROIS_SOURCE_DIR "/tests/server/data/one_visitor.xml"});
 }
 
-TEST_F(Rois, TellsWhyTheCommandsOfAScenarioFailed) {
+TEST_F(Rois, ReportsWhyTheCommandsOfAScenarioFailed) {
     auto const file = scenario_with(
         "<state name='a'><command component='move' type='resume'/><completed status='OK' to='b'/></state><end name='b'/>");
     expect(1, "ended with ERROR, and no trigger expects that: ", {"scenario", file});

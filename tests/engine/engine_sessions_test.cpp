@@ -127,7 +127,7 @@ TEST_F(AnEngine, GetsTheTextOfErrors) {
     EXPECT_EQ(application.last_heard<ReceiveError>().text, std::nullopt) << "of an application";
 }
 
-TEST_F(AnEngine, HearsAtConnectThatEverythingIsStopped) {
+TEST_F(AnEngine, ReceivesAtConnectThatEverythingIsStopped) {
     world.engine->stop_everything(world.now);
     auto another = world.connect(as_engine);
     another.heard(1);

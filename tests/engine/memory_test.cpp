@@ -130,7 +130,7 @@ TEST_F(InMemory, CommandsThatOnlyStopAreFewWithoutAnyIfTheyAreDelayed) {
     EXPECT_EQ(desk.execute(named("s", stop("navigation"))).return_code, ReturnCode::ok);
 }
 
-TEST_F(InMemory, WhatIsKeptForLaterIsDroppedWithoutAny) {
+TEST_F(InMemory, OldResultsAreDroppedWhenMemoryIsShort) {
     desk.bind("navigation");
     for (int i = 0; i < 200; ++i) desk.execute(named("s" + std::to_string(i), stop("navigation")));
     desk.heard();

@@ -55,7 +55,7 @@ Tree whole() {
         {"tests/conformance/traffic.cpp", "rules_{{\"documents_are_valid\", \"schemas\"},\n"}};
 }
 
-// The complaints about the proof with a change in one place.
+// Returns the complaints after replacing `what` by `by` in one file.
 Complaints with(std::string const& file, std::string const& what, std::string const& by) {
     auto tree = whole();
     tree[file] = replaced(tree[file], what, by);

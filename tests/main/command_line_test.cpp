@@ -46,7 +46,7 @@ private:
 };
 
 TEST(CommandLine, IsCheckedFlagByFlag) {
-    expect_complaint(complaint({"--nonsense"}), "--nonsense");
+    expect_complaint(complaint({"--nonsense"}), "The following argument was not expected: --nonsense; see rois-gateway --help");
     expect_complaint(complaint({"--sim-speed", "fast"}), "--sim-speed must be 0, or a number from 0.01 to 1000, not 'fast'");
     expect_complaint(complaint({"--sim-speed", "0.001"}), "--sim-speed must be 0, or a number from 0.01 to 1000");
     expect_complaint(complaint({"--steering", "maybe"}), "--steering must be one of off|on");

@@ -73,10 +73,12 @@ TEST(EnginesFile, NamesThePlaceOfEachMistake) {
     EXPECT_EQ(complaint("{\n\"robots\": []}"), R"(2:1: expected only "engines": [ ... ], a list of sub engines)");
     EXPECT_EQ(complaint(R"({"engines": ["hall"]})"), "1:2: each sub engine must be an object, { ... }");
     EXPECT_EQ(complaint(R"({"engines": [{"url": "ws://a"}]})"), "1:14: a sub engine has no 'name'");
-    EXPECT_EQ(complaint(R"({"engines": [{"name": "a"}]})"),
-              "1:15: sub engine 'a': expected either 'url', to connect to it, or 'joins', if it connects");
-    EXPECT_EQ(complaint(R"({"engines": [{"name": "a", "url": "ws://a", "joins": "a"}]})"),
-              "1:15: sub engine 'a': expected either 'url', to connect to it, or 'joins', if it connects");
+    EXPECT_EQ(
+        complaint(R"({"engines": [{"name": "a"}]})"),
+        "1:15: sub engine 'a': needs either 'url' (this gateway connects) or 'joins' (the sub engine connects), and has neither");
+    EXPECT_EQ(
+        complaint(R"({"engines": [{"name": "a", "url": "ws://a", "joins": "a"}]})"),
+        "1:15: sub engine 'a': needs either 'url' (this gateway connects) or 'joins' (the sub engine connects), and has both");
     EXPECT_EQ(complaint(R"({"engines": [{"name": "a", "joins": "x"}, {"name": "b", "joins": "x"}]})"),
               "1:57: two sub engines join as 'x'");
     std::string const good =
@@ -92,9 +94,13 @@ TEST(EnginesFile, NamesThePlaceOfEachMistake) {
     EXPECT_EQ(
         with(R"("command": ["sh", ""])"),
         R"(4:2: sub engine 'b': command must be a program and its arguments, such as ["python3", "lamp.py"], not '["sh",""]')");
-    EXPECT_EQ(with(R"("command": ["no-such-program"])"), "4:2: sub engine 'b': there is no program 'no-such-program'");
-    EXPECT_EQ(with(R"("command": ["./engines.json"])"), "4:2: sub engine 'b': there is no program './engines.json'");
-    EXPECT_EQ(with(R"("command": ["sh"])"), "4:2: sub engine 'b': a program that is started here joins: expected no 'url'");
+    EXPECT_EQ(with(R"("command": ["no-such-program"])"),
+              "4:2: sub engine 'b': program 'no-such-program' not found in PATH; the name of a program in the folder of this "
+              "file begins with './'");
+    EXPECT_THAT(
+        with(R"("command": ["./engines.json"])"),
+        testing::MatchesRegex("4:2: sub engine 'b': program './engines.json': '/.*/engines.json' is not an executable file"));
+    EXPECT_EQ(with(R"("command": ["sh"])"), "4:2: sub engine 'b': 'command' and 'url' exclude each other: a program joins");
     EXPECT_EQ(with(R"("window": 0)"), "4:2: sub engine 'b': window must be a number of seconds from 1.0 to 60.0, not '0'");
     EXPECT_EQ(
         with(R"("components": [])"),
@@ -102,7 +108,8 @@ TEST(EnginesFile, NamesThePlaceOfEachMistake) {
     EXPECT_EQ(with(R"("position": [1, 2])"), "4:2: sub engine 'b': position must be [x, y, z] in mm, not '[1,2]'");
     EXPECT_EQ(with(R"("most_components": 0)"),
               "4:2: sub engine 'b': most_components must be a whole number from 1 to 100000, not '0'");
-    EXPECT_EQ(with(R"("resume_window": 1)"), "4:2: sub engine 'b': resume_window must not be shorter than window");
+    EXPECT_EQ(with(R"("resume_window": 1)"),
+              "4:2: sub engine 'b': resume_window (1.0 s) must not be shorter than window (3.0 s)");
     EXPECT_THAT(with(R"("covariance": [1, 0, 0, 0, -1, 0, 0, 0, 1])"), testing::StartsWith("4:2: sub engine 'b': "));
     EXPECT_EQ(complaint("{\"engines\": [{\"name\": \"a b\", \"url\": \"ws://a\"}]}"),
               "1:15: name must be a name of letters, digits, '_' and '-', with at most 64 characters, not '\"a b\"'");

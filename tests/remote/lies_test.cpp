@@ -30,7 +30,7 @@ TEST_F(ALyingSubEngine, IsLeftIfItSendsNoDocument) {
     EXPECT_EQ(desk.status_of("hall.navigation"), "READY") << "the link is back";
 }
 
-TEST_F(ALyingSubEngine, IsNotHeardIfItAnswersWhatNobodyAsked) {
+TEST_F(ALyingSubEngine, UnrequestedAnswersAreIgnored) {
     engines.bind(desk, "hall.navigation");
     engines.asked();
     engines.inject(xml::encode(Reply{Disconnect::Reply{}}, "connect"));

@@ -83,14 +83,12 @@ TEST_F(TheProgram, MayWriteALineOfAnyLength) {
 
 TEST_F(TheProgram, IsStartedAgainUntilItEndsAtOnceFiveTimes) {
     run("exit 3");
-    EXPECT_THAT(
-        happened(5),
-        ElementsAre(
-            "lamps: its program ended with exit code 3: it is started again in 0 s",
-            "lamps: its program ended with exit code 3: it is started again in 0 s",
-            "lamps: its program ended with exit code 3: it is started again in 0 s",
-            "lamps: its program ended with exit code 3: it is started again in 0 s",
-            "lamps: its program ended with exit code 3, for the fifth time at once after its start: it is not started again"));
+    EXPECT_THAT(happened(5), ElementsAre("lamps: its program ended with exit code 3: it is started again in 0 s",
+                                         "lamps: its program ended with exit code 3: it is started again in 0 s",
+                                         "lamps: its program ended with exit code 3: it is started again in 0 s",
+                                         "lamps: its program ended with exit code 3: it is started again in 0 s",
+                                         "lamps: its program ended with exit code 3, 5 times in a row within 5 s of its start: "
+                                         "it is not started again until SIGHUP"));
     run("exit 3");
     EXPECT_EQ(happened(6).size(), 6U) << "the file was read again";
 }

@@ -131,9 +131,9 @@ private:
     std::shared_ptr<NotificationQueue> reads_;
 };
 
-class TwoEngines::Around final : public remote::Surroundings {
+class TwoEngines::Host final : public remote::RemoteEngineHost {
 public:
-    explicit Around(TwoEngines& engines) : engines_{engines} {}
+    explicit Host(TwoEngines& engines) : engines_{engines} {}
 
     Steady now() const override { return engines_.main.now.steady; }
     void at(Steady when, std::function<void()> ring) override { alarms_.emplace(when, std::move(ring)); }
@@ -182,8 +182,8 @@ remote::SubEngine TwoEngines::hall_settings() {
 }
 
 TwoEngines::TwoEngines(std::vector<Part> const& parts, remote::SubEngine settings, std::string const& crs_of_hall)
-    : main{std::vector<Part>{}, {}}, hall{parts, {}}, around_{std::make_shared<Around>(*this)} {
-    remote_ = std::make_shared<remote::RemoteEngine>(std::move(settings), around_);
+    : main{std::vector<Part>{}, {}}, hall{parts, {}}, host_{std::make_shared<Host>(*this)} {
+    remote_ = std::make_shared<remote::RemoteEngine>(std::move(settings), host_);
     if (!crs_of_hall.empty()) {
         main.engine->describe({.frames = {"here"}, .all = {}});
         hall.engine->describe({.frames = {crs_of_hall}, .all = {}});
@@ -193,7 +193,7 @@ TwoEngines::TwoEngines(std::vector<Part> const& parts, remote::SubEngine setting
 }
 
 TwoEngines::~TwoEngines() {
-    around_->drop();
+    host_->drop();
     if (wire_) wire_->cut();
 }
 
@@ -204,7 +204,7 @@ std::shared_ptr<client::Link> TwoEngines::link_for(client::Link::Listener& liste
 bool TwoEngines::is_paused() const { return wire_ && wire_->is_paused(); }
 
 void TwoEngines::receive_without_main() {
-    while (around_->run() || deliver()) {
+    while (host_->run() || deliver()) {
     }
 }
 
@@ -212,7 +212,7 @@ void TwoEngines::settle() {
     auto const work = [](World& world) { world.engine->and_work([] {}, world.now); };
     bool goes_on = true;
     while (goes_on) {
-        goes_on = around_->run() || deliver();
+        goes_on = host_->run() || deliver();
         work(main);
         work(hall);
     }

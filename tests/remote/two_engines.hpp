@@ -35,9 +35,9 @@ public:
     void advance(std::chrono::milliseconds);
     // Delivers documents until none is under way.
     void settle();
-    // Delivers them, while the main engine does not handle any.
+    // Delivers documents, but the main engine handles none.
     void receive_without_main();
-    // The main engine's link reads nothing more.
+    // Returns whether the main engine has stopped reading.
     bool is_paused() const;
 
     // Performs an operation at the main engine, and delivers its documents.
@@ -60,7 +60,7 @@ public:
     bool is_cut() const { return is_broken_; }
     // Breaks the link after this number of further documents.
     void cut_after(int documents) { until_cut_ = documents; }
-    // The hall's answers and notifications are kept back.
+    // If `yes`, keeps back the hall's answers and notifications.
     void hold_back(bool yes) { is_held_back_ = yes; }
     // Changes the answers of the hall.
     std::function<void(Reply&)> falsify = [](Reply&) {};
@@ -84,11 +84,11 @@ public:
 
 private:
     class Wire;
-    class Around;
+    class Host;
 
     bool deliver();
 
-    std::shared_ptr<Around> around_;
+    std::shared_ptr<Host> host_;
     std::shared_ptr<remote::RemoteEngine> remote_;
     std::shared_ptr<Wire> wire_;
     bool is_broken_ = false;

@@ -51,7 +51,7 @@ play() {
     wait_for 'present with' "$work/gateway.log"
     expect 'false' "$bin/rois" query light
     expect 'OK' "$bin/rois" execute lamps.lamp blink times=1
-    expect 'times must be a number from 1 to 100' "$bin/rois" execute lamps.lamp blink times=101
+    expect 'times must be a number from 1 to 100, not 101' "$bin/rois" execute lamps.lamp blink times=101
     expect 'is_on=true' timeout 2 "$bin/rois" watch switched --start lamps.lamp
     # It goes out and joins again after application and gateway were killed, and ends cleanly.
     "$bin/rois" watch --start lamps.lamp >"$work/watch.log" 2>&1 &

@@ -13,7 +13,7 @@ namespace rois::command {
 std::ifstream open_file(std::string const& file) {
     std::error_code unknown;
     if (std::filesystem::is_directory(file, unknown))  // an ifstream would open it and fail later
-        throw Trouble{Exit::usage, file + " cannot be read: this is a folder; name a file in it"};
+        throw Trouble{Exit::usage, file + " cannot be read: this is a directory; name a file in it"};
     std::ifstream in{file, std::ios::binary};
     if (!in) throw Trouble{Exit::usage, file + " cannot be read: " + std::strerror(errno)};
     return in;

@@ -9,9 +9,9 @@ namespace rois::command {
 
 namespace {
 
-Observers observers(std::function<void(Notification)> told, std::shared_ptr<RecordingWriter> recorded, std::string session) {
+Observers observers(std::function<void(Notification)> take, std::shared_ptr<RecordingWriter> recorded, std::string session) {
     Observers observers;
-    observers.notification = [told = std::move(told)](Notification const& notification, std::uint64_t) { told(notification); };
+    observers.notification = [take = std::move(take)](Notification const& notification, std::uint64_t) { take(notification); };
     observers.tap = [recorded = std::move(recorded), session = std::move(session)](Direction direction,
                                                                                    std::string_view document) {
         recorded->add(direction, document, session);

@@ -25,9 +25,9 @@ public:
 
     void add(RecordedDocument const& document) {
         if (document.direction == Direction::out) {
-            ask(document);
+            add_sent(document);
         } else {
-            hear(document);
+            add_received(document);
         }
     }
 
@@ -47,7 +47,7 @@ private:
         std::string request_id;
     };
 
-    void ask(RecordedDocument const& document) {
+    void add_sent(RecordedDocument const& document) {
         auto read = requests_.read(document.text);
         auto* const request = std::get_if<Request>(&read);
         if (request == nullptr) return;
@@ -57,7 +57,7 @@ private:
         if (!again) asked_.push_back({document.at, std::move(request->operation), std::move(request->request_id)});
     }
 
-    void hear(RecordedDocument const& document) {
+    void add_received(RecordedDocument const& document) {
         auto read = answers_.read(document.text);
         if (!read) return;
         std::visit(Overloaded{[&](xml::Answered& answered) {
@@ -68,7 +68,7 @@ private:
                                   auto const id = fault.request_id;
                                   answer(std::move(fault), id, document.at);
                               },
-                              [&](xml::NumberedNotification& told) { tell(std::move(told.notification), document.at); }},
+                              [&](xml::NumberedNotification& numbered) { add(std::move(numbered.notification), document.at); }},
                    *read);
     }
 
@@ -97,7 +97,7 @@ private:
         }
     }
 
-    void tell(Notification notification, std::chrono::microseconds at) {
+    void add(Notification notification, std::chrono::microseconds at) {
         if (std::holds_alternative<Lost>(notification)) return;  // concerns only the recorded link
         auto const cause = cause_of(notification);
         if (!cause) return;

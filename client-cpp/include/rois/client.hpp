@@ -5,6 +5,8 @@
 //         auto navigation = co_await robot.bind_any<rois::Navigation>();
 //         co_await navigation.go_to("desk");
 //     }(client));
+//
+// Threads: as connection.hpp says, any thread may call the functions, and coroutines continue on the client's thread.
 #pragma once
 
 #include <string>
@@ -25,7 +27,8 @@
 namespace rois {
 
 // A connection with one function for each operation of an application. The functions throw Error if the engine refuses the
-// operation; Connection::call returns the return code instead.
+// operation; Connection::call returns the return code instead. The client owns its connection and closes it when it is destroyed.
+// Handles (Component, Command, EventStream) may outlive it.
 class Client : public Connection {
 public:
     using Connection::Connection;

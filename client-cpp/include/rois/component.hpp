@@ -1,4 +1,7 @@
 // A component of any type: the functions of RoIS_Common (7.6, table 33), and general commands, queries and events.
+//
+// Threads: any thread may call the functions, also of the same handle at the same time. Coroutines continue on the client's
+// thread (connection.hpp).
 #pragma once
 
 #include <memory>

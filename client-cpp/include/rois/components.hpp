@@ -1,6 +1,8 @@
 // The 15 basic components (7.6, tables 34 to 46 and Move) and the two streaming components (version 2.0), with the names of the
 // specification and types with units. Their parameters are in parameters.hpp. A result that is missing in an event is zero or
 // empty.
+//
+// All classes are handles like Component, with the same rules for threads (component.hpp); the structs are plain values.
 #pragma once
 
 #include <cstdint>

@@ -152,10 +152,10 @@ void Core::end_late_calls() {
 }
 
 // Answers arrive in the order of the requests. The request_id is only checked: raw documents may have any request_id.
-void Core::take_answer(std::string_view document, std::optional<xml::EngineMessage>& heard) {
+void Core::take_answer(std::string_view document, std::optional<xml::EngineMessage>& received) {
     auto const first = std::ranges::find_if(calls_, [](auto const& call) { return call->sent; });
     if (first == calls_.end()) {
-        if (!heard) give_up_misunderstood();
+        if (!received) give_up_misunderstood();
         return;
     }
     auto const call = *first;  // NOLINT(performance-unnecessary-copy-initialization): calls_ lets go of it below
@@ -168,10 +168,10 @@ void Core::take_answer(std::string_view document, std::optional<xml::EngineMessa
         call->give(std::string{document});
         return;
     }
-    auto* const answered = heard ? std::get_if<xml::Answered>(&*heard) : nullptr;
-    auto* const fault = heard ? std::get_if<Fault>(&*heard) : nullptr;
+    auto* const answered = received ? std::get_if<xml::Answered>(&*received) : nullptr;
+    auto* const fault = received ? std::get_if<Fault>(&*received) : nullptr;
     auto const& id = answered != nullptr ? answered->request_id : fault != nullptr ? fault->request_id : call->id;
-    if (!heard || (!id.empty() && id != call->id)) {
+    if (!received || (!id.empty() && id != call->id)) {
         give_up_misunderstood();
     } else if (answered != nullptr) {
         take_first();

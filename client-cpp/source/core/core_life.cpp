@@ -37,7 +37,7 @@ bool Core::wants_signs_of_life() const {
     return may_move || !watches_.empty() || std::chrono::steady_clock::now() < pinged_at_ + after_ping;
 }
 
-// While a robot may move, gives one sign after the other, until the application gives signs itself.
+// While a robot may move, gives one sign of life after the other, until the application gives signs itself.
 void Core::expect_signs_of_life() {
     if (life_ != 0 || application_gives_signs_ || !wants_signs_of_life()) return;
     life_ = loop_.in(between_signs_of_life(), [this] {
@@ -47,7 +47,7 @@ void Core::expect_signs_of_life() {
     });
 }
 
-// Sends nothing if another document was sent just now: it is a sign, too.
+// Sends nothing if another document was sent just now: that document is a sign of life, too.
 void Core::give_sign_of_life() {
     if (proving_ || !wants_signs_of_life()) return;
     if (std::chrono::steady_clock::now() < last_sent_at_ + between_signs_of_life() / 2) return;

@@ -6,17 +6,17 @@
 namespace rois::detail {
 
 // Updates last_sequence_ at once, also for a notification that is held back: the link may break at any time.
-void Core::take(xml::NumberedNotification told) {
-    if (told.sequence <= last_sequence_) return;
+void Core::take(xml::NumberedNotification numbered) {
+    if (numbered.sequence <= last_sequence_) return;
     failures_ = 0;
-    auto const missing = told.sequence - last_sequence_ - 1;
-    last_sequence_ = told.sequence;
-    if (auto* const lost = std::get_if<Lost>(&told.notification)) {
+    auto const missing = numbered.sequence - last_sequence_ - 1;
+    last_sequence_ = numbered.sequence;
+    if (auto* const lost = std::get_if<Lost>(&numbered.notification)) {
         lost->count = std::max(lost->count, missing + 1);
     } else if (missing > 0) {
-        held_.push_back({told.sequence - 1, Lost{missing}});
+        held_.push_back({numbered.sequence - 1, Lost{missing}});
     }
-    held_.push_back(std::move(told));
+    held_.push_back(std::move(numbered));
     deliver_held();
 }
 
@@ -25,22 +25,22 @@ void Core::deliver_held() {
 }
 
 void Core::deliver_first_held() {
-    auto told = std::move(held_.front());
+    auto numbered = std::move(held_.front());
     held_.pop_front();
-    deliver(std::move(told));
+    deliver(std::move(numbered));
 }
 
-void Core::deliver(xml::NumberedNotification told) {
+void Core::deliver(xml::NumberedNotification numbered) {
     client::Subscriptions::Receivers receivers;
-    auto* const event = std::get_if<ReceiveEvent>(&told.notification);
+    auto* const event = std::get_if<ReceiveEvent>(&numbered.notification);
     if (event != nullptr) receivers = subscriptions_.receivers_of(*event);
-    if (auto const* const lost = std::get_if<Lost>(&told.notification)) report_gap({Gap::Why::dropped, lost->count, {}});
-    if (observers_.notification && !muted_) observers_.notification(told.notification, told.sequence);
+    if (auto const* const lost = std::get_if<Lost>(&numbered.notification)) report_gap({Gap::Why::dropped, lost->count, {}});
+    if (observers_.notification && !muted_) observers_.notification(numbered.notification, numbered.sequence);
     for (auto const& [id, stream] : receivers) {
         event->subscribe_id = id;
         stream->take(*event);
     }
-    if (auto const* const completed = std::get_if<Completed>(&told.notification))
+    if (auto const* const completed = std::get_if<Completed>(&numbered.notification))
         complete(completed->command_id, completed->status);
 }
 

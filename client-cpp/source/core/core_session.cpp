@@ -11,9 +11,9 @@ using client::Failure;
 namespace {
 
 // Returns whether this is the answer to `disconnect`, or the fault that the session has ended.
-bool is_farewell(xml::EngineMessage const& heard) {
-    if (std::holds_alternative<Fault>(heard)) return std::get<Fault>(heard).code == FaultCode::no_session;
-    auto const* const answered = std::get_if<xml::Answered>(&heard);
+bool is_farewell(xml::EngineMessage const& received) {
+    if (std::holds_alternative<Fault>(received)) return std::get<Fault>(received).code == FaultCode::no_session;
+    auto const* const answered = std::get_if<xml::Answered>(&received);
     return answered != nullptr && std::holds_alternative<Disconnect::Reply>(answered->reply);
 }
 
@@ -66,27 +66,27 @@ void Core::send_on_link(client::Link::Document document) {
 void Core::document(std::string_view text) {
     auto const self = shared_from_this();
     if (observers_.tap && !muted_) observers_.tap(Direction::in, text);
-    auto heard = reader_.read(text);
-    if (heard && std::holds_alternative<xml::NumberedNotification>(*heard)) {
-        take(std::get<xml::NumberedNotification>(*std::move(heard)));
+    auto received = reader_.read(text);
+    if (received && std::holds_alternative<xml::NumberedNotification>(*received)) {
+        take(std::get<xml::NumberedNotification>(*std::move(received)));
     } else if (phase_ == Phase::closing) {
         // Over HTTP, waits for the end of the event stream: it may still bring `completed` for commands that the session ended.
-        if (heard && is_farewell(*heard) && settings_.way == Way::websocket) finish();
+        if (received && is_farewell(*received) && settings_.way == Way::websocket) finish();
     } else if (is_open()) {
-        take_answer(text, heard);
-    } else if (!heard) {
+        take_answer(text, received);
+    } else if (!received) {
         give_up_misunderstood();
     } else if (phase_ == Phase::attaching) {
-        take_opening(*std::move(heard));
+        take_opening(*std::move(received));
     } else {
-        if (auto const* const answered = std::get_if<xml::Answered>(&*heard)) take_restored(*answered);
-        if (auto const* const fault = std::get_if<Fault>(&*heard)) take_restored(*fault);
+        if (auto const* const answered = std::get_if<xml::Answered>(&*received)) take_restored(*answered);
+        if (auto const* const fault = std::get_if<Fault>(&*received)) take_restored(*fault);
     }
 }
 
 // Takes the answer to `connect` or `resume`.
-void Core::take_opening(xml::EngineMessage heard) {
-    if (auto const* const fault = std::get_if<Fault>(&heard)) {
+void Core::take_opening(xml::EngineMessage received) {
+    if (auto const* const fault = std::get_if<Fault>(&received)) {
         if (fault->code == FaultCode::no_session && !session_.text.empty()) {
             session_gone();
             return;
@@ -94,7 +94,7 @@ void Core::take_opening(xml::EngineMessage heard) {
         give_up_link("no session: " + fault->reason, is_lasting(fault->code) ? Failure::lasting : Failure::passing);
         return;
     }
-    auto const& reply = std::get<xml::Answered>(heard).reply;
+    auto const& reply = std::get<xml::Answered>(received).reply;
     if (auto const* const resumed = std::get_if<Resume::Reply>(&reply)) {
         if (resumed->return_code == ReturnCode::ok) {
             attached();

@@ -39,7 +39,8 @@ Context with_motion(Context);
 Context make_context(std::shared_ptr<Body>, std::shared_ptr<media::Media>, std::string ref,
                      std::shared_ptr<ComponentProfile const>);
 
-// Observes its body. Its status is UNINITIALIZED before the first observation.
+// Observes its body, which it shares with the robot's other components. Its status is UNINITIALIZED before the first observation.
+// Not thread-safe: the engine, which owns the component, and the body call it one at a time, but not always on the same thread.
 class RobotComponent : public LocalComponent, private Observer {
 public:
     explicit RobotComponent(Context);

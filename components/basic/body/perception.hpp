@@ -56,6 +56,8 @@ struct SpeechEvent {
     std::optional<Sighting> source{};  // of `began`: the measured source, if the robot can locate it
 };
 
+// A part of the body, which owns it. Not thread-safe: its functions are called one at a time with all others of the body (Body).
+//
 // The measurements are the same for all calls between two notifications of the body's observers. Speech and gestures are kept for
 // some time. Each component reads them at its own pace: it remembers last_sequence(), and asks later for newer
 // speech and gestures.

@@ -25,7 +25,8 @@ enum class SpeechState : std::uint8_t {
     broken   // over: broken off before the last word
 };
 
-// Speaks one utterance at a time.
+// Speaks one utterance at a time. A part of the body, which owns it. Not thread-safe: its functions are called one at a time with
+// all others of the body (Body).
 class SpeechOutput {
 public:
     virtual ~SpeechOutput() = default;

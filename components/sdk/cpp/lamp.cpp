@@ -22,8 +22,10 @@ class Lamp final : public rois::LocalComponent {
     rois::ComponentStatus status() const override { return rois::ComponentStatus::ready; }
     rois::Prepared prepare(std::string_view command, rois::ParameterList const& arguments) override {
         auto const* given = rois::find(arguments, "times");
-        auto const times = given == nullptr ? 0 : rois::to_double(given->values.front()).value_or(0);
-        if (command == "blink" && (times < 1 || times > 100)) return rois::Refused{"times must be a number from 1 to 100"};
+        auto const text = given == nullptr ? "0" : given->values.front();
+        auto const times = rois::to_double(text).value_or(0);
+        if (command == "blink" && (times < 1 || times > 100))
+            return rois::Refused{"times must be a number from 1 to 100, not " + text};
         bool const lights = command == "start";
         return [=, this](rois::CommandHandle id, rois::Instant) {
             for (int i = 0; i < 2 * times; ++i) light(!is_on_);

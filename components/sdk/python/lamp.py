@@ -25,7 +25,7 @@ class Lamp(rois.Component):
 
     def check(self, command, arguments):
         if command == "blink" and not 1 <= arguments.get("times", 0) <= 100:
-            raise rois.Refused("times must be a number from 1 to 100")
+            raise rois.Refused(f"times must be a number from 1 to 100, not {arguments.get('times', 0)}")
 
     async def start(self, arguments):
         self.switch(True)

@@ -33,7 +33,7 @@ class Component:
     profile. Arguments and results are dictionaries of int, float, bool, str, or lists of them."""
 
     profile = ""  # the profile document, or the name of its file
-    moves = False  # whether a command of it may move something among people: then it is halted when no sign of life arrives within the motion lease
+    moves = False  # whether commands may move the component among people; if so, it is halted when no sign of life arrives within the motion lease
     continuous = False  # `start` begins a function that goes on until it is stopped; otherwise an action that ends by itself
 
     def __init__(self, ref):
@@ -134,7 +134,7 @@ class WebSocket:
     """The client's side of a WebSocket (RFC 6455)."""
 
     def __init__(self, reader, writer):
-        self.reader, self.writer, self.last_heard = reader, writer, time.monotonic()
+        self.reader, self.writer, self.last_received = reader, writer, time.monotonic()
 
     @classmethod
     async def open(cls, url):
@@ -173,7 +173,7 @@ class WebSocket:
             if size > 16_000_000:
                 raise ConnectionError("a message is too long")
             payload = await self.reader.readexactly(size)
-            self.last_heard = time.monotonic()
+            self.last_received = time.monotonic()
             opcode = first & 0x0F
             if opcode == 8:
                 raise ConnectionError("closed by the engine: " + payload[2:].decode("utf-8", "replace"))
@@ -186,7 +186,7 @@ class WebSocket:
 
 
 class Service:
-    """Answers what the engine asks, in one session, which outlives its link by the window."""
+    """Answers the engine's requests. The session survives a lost link for `window` seconds."""
 
     def __init__(self, name, components):
         self.name, self.instance = name, uuid.uuid4().hex
@@ -438,8 +438,8 @@ class Service:
         while True:
             await asyncio.sleep(0.1)
             silence = time.monotonic() - self.last_request
-            heard = self.socket.last_heard if self.socket else self.last_request
-            if self.session and time.monotonic() - heard > 2 + self.window:
+            last_sign = self.socket.last_received if self.socket else self.last_request
+            if self.session and time.monotonic() - last_sign > 2 + self.window:
                 log.warning("the engine is lost: everything is halted")
                 await self.end_session()
             if self.lease and silence > self.lease:

@@ -28,7 +28,7 @@ public:
 
 private:
     std::vector<std::shared_ptr<Provider>> providers_;
-    std::size_t taken_ = 0;  // of providers_
+    std::size_t taken_ = 0;  // number of entries of providers_ that are already taken
 };
 
 // A provider of components: a device with its components, a driver, or a link to another engine. Its components are called one at
@@ -104,7 +104,7 @@ private:
     std::condition_variable arrived_;
     std::vector<std::shared_ptr<HostedComponent>> components_;
     std::vector<Call> calls_;
-    std::size_t begun_ = 0;  // of calls_
+    std::size_t begun_ = 0;  // number of entries of calls_ that have already begun
     bool is_running_ = false;
     bool has_thread_ = false;
     bool closed_ = false;

@@ -62,7 +62,7 @@ void EngineLog::halted_at_last(std::string const& ref) { spdlog::warn("{} has co
 
 void EngineLog::refused(std::uint64_t session, Operation const& operation, Outcome const& outcome) {
     if (!is_debugging()) return;
-    spdlog::debug("session {} is refused {} with {}: {}", session, operation_name(operation), to_text(outcome.return_code),
+    spdlog::debug("session {}: {} refused with {}: {}", session, operation_name(operation), to_text(outcome.return_code),
                   clean(outcome.reason));
 }
 

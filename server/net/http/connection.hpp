@@ -54,7 +54,7 @@ private:
     Then reply(HttpAnswer, Framed = Framed::as_asked);
     HttpAnswer http_answer(Answer&&);
     Then take(PendingAnswer&&);
-    // Answers in the order of the requests, as far as they have come. Returns false if a component still lets us wait.
+    // Queues the ready answers, in the order of the requests. Returns false if an answer still waits for a component.
     bool take_answers();
     void answers_came();
     Task<> await_answers();

@@ -73,7 +73,7 @@ private:
     Shared& shared_;
     std::unique_ptr<Reading> reading_;  // of the session, until its last notification was written
     std::list<PendingAnswer> pending_;  // in the order of their requests; the first one has not come yet
-    bool session_changes_ = false;      // by one of them: no more frames are handled meanwhile
+    bool session_changes_ = false;      // a pending answer may change the session; until then no frames are handled
     std::string answers_;               // frames for the next write
     std::size_t answers_waiting_ = 0;   // number of answers and pongs among them
     std::size_t answers_in_out_ = 0;    // number of answers and pongs that are being written

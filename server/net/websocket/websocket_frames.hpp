@@ -37,7 +37,8 @@ class Pings {
 public:
     using Payload = std::array<char, sizeof(std::uint64_t)>;
 
-    // `start`: a large number that differs between connections, so that no peer can guess the payloads.
+    // `start`: a large number that differs between connections, so that pongs made in advance do not count. A peer can compute
+    // the payloads that follow its first ping, but a pong counts only after its ping was sent.
     explicit Pings(std::uint64_t start) : sent_{start}, answered_{start} {}
 
     // Returns the payload of the next ping, which counts as sent.

@@ -19,9 +19,9 @@ class AnswerReader::Impl {
 public:
     std::optional<EngineMessage> read(std::string_view document) {
         if (!parse(document)) return std::nullopt;
-        auto heard = decode_engine_message(message_);
-        if (heard && !add_profiles(*heard, document)) return std::nullopt;
-        return heard;
+        auto message = decode_engine_message(message_);
+        if (message && !add_profiles(*message, document)) return std::nullopt;
+        return message;
     }
 
     std::optional<StopState> read_stop_state(std::string_view document) {
@@ -43,8 +43,8 @@ private:
     }
 
     // Adds the profiles of get_profile's reply, in the order of its components. Returns false if one cannot be decoded.
-    bool add_profiles(EngineMessage& heard, std::string_view document) {
-        auto* const answered = std::get_if<Answered>(&heard);
+    bool add_profiles(EngineMessage& message, std::string_view document) {
+        auto* const answered = std::get_if<Answered>(&message);
         auto* const reply = answered != nullptr ? std::get_if<GetProfile::Reply>(&answered->reply) : nullptr;
         if (reply == nullptr || reply->return_code != ReturnCode::ok) return true;
         try {

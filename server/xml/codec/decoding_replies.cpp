@@ -117,19 +117,19 @@ bool read(Node node, Subscribe::Reply& reply) {
 
 template <class R>
 std::optional<EngineMessage> read_reply(Node root) {
-    std::optional<EngineMessage> heard;
+    std::optional<EngineMessage> message;
     auto const code = to_code<ReturnCode>(root.attribute("return_code").value_or(""));
-    if (!code) return heard;
-    auto& answered = std::get<Answered>(heard.emplace());
+    if (!code) return message;
+    auto& answered = std::get<Answered>(message.emplace());
     answered.request_id = root.attribute_text("request_id");
     auto& reply = answered.reply.emplace<R>();
     reply.return_code = *code;
     if (*code != ReturnCode::ok) {
         reply.reason = root.child_text("reason");
     } else if (!read(root, reply)) {
-        heard.reset();
+        message.reset();
     }
-    return heard;
+    return message;
 }
 
 using ReadReply = std::optional<EngineMessage> (*)(Node);
@@ -243,9 +243,9 @@ std::optional<EngineMessage> decode_engine_message(MessageTree const& message) {
         return reply_readers.at(static_cast<std::size_t>(found - names.begin()))(root);
     }
     auto const sequence = root.attribute("sequence");
-    auto told = read_notification(root);
-    if (!sequence || !told) return std::nullopt;
-    return NumberedNotification{decode_unsigned(*sequence), *std::move(told)};
+    auto notification = read_notification(root);
+    if (!sequence || !notification) return std::nullopt;
+    return NumberedNotification{decode_unsigned(*sequence), *std::move(notification)};
 }
 
 std::optional<std::vector<EngineState>> decode_engines(MessageTree const& message) {

@@ -92,7 +92,7 @@ try {
   if (!/^[1-9]\d{0,5}$/.test(visitors)) throw new Error(`VISITORS is a whole number, 1 to 999999, not '${visitors}'`);
   const client = await connect(process.env['ROIS_URL'], { on_state: ({ state, reason }) => /connecting|lost/.test(state) && console.error(`reception: ${reason}`) });
   await receive(client, Number(visitors)).finally(() => client.close());
-  console.log(`received ${visitors} visitors`);
+  console.log(`visitors received: ${visitors}`);
 } catch (problem) {
   console.error(`reception: ${(problem as Error).message}`);
   process.exitCode = 1;

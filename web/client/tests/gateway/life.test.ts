@@ -172,6 +172,6 @@ test('the components that have not confirmed are named', async (t) => {
   assert.deepEqual(await clear_everything(gateway.url), { stopped: false, not_halted: ['navigation'] });
 });
 
-test('that nobody answers is told', async () => {
+test('a stop of an unreachable gateway is reported as unreachable', async () => {
   await assert.rejects(stop_everything('http://127.0.0.1:1'), { name: 'RoisError', failure: 'unreachable' });
 });

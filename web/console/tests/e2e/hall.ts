@@ -105,7 +105,7 @@ export class Hall {
     return this.client.close();
   }
 
-  // In steps of half a second, until it is done.
+  // Lets time pass in steps of 0.5 s until the command has completed.
   private async done(what: string, named: Parameters<typeof command>[2], within: number): Promise<void> {
     let status: CompletedStatus | undefined;
     const execution = await this.client.execute([command(component, what, named)]);

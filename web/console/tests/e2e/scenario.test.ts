@@ -66,7 +66,7 @@ describe('the reception of figure 1', () => {
         await page.getByText('Running', { exact: true }).waitFor();
         await hall.pass_until(page, page.locator('.scenario-printed'), 500, an_hour);
         await picture(page, 'scenario-wide-dark-running');
-        await hall.pass_until(page, page.getByText('received 3 visitors', { exact: true }), 500, an_hour);
+        await hall.pass_until(page, page.getByText('visitors received: 3', { exact: true }), 500, an_hour);
         expect(await page.locator('.scenario-printed').allTextContents()).toEqual(history);
         await page.getByText('Ended in “all received”', { exact: true }).waitFor();
         expect(await in_diagram(page, 'all_received').getAttribute('aria-current')).toBe('step');

@@ -167,7 +167,7 @@ test.each(looks)('is accessible: %s, %s, %s', (size, look, language) =>
     { ...sizes[size], look, language, touch: size !== 'wide' },
   ));
 
-test('tells of a hold, with a button to go on', () =>
+test('shows a hold, with a button to go on', () =>
   stage.page(async (page) => {
     await connected(page);
     await walk(page);

@@ -116,7 +116,7 @@ test('figure 1 runs, and the tablet shows it in Japanese', async () => {
       await page.getByRole('button', { name: 'Start', exact: true }).click();
       await world.pass_until(page, page.locator('[data-state="tell"][aria-current]'), 100, 120_000);
       await shown(page, 'scenario');
-      await world.pass_until(page, page.getByText('received 1 visitors'), 500, 120_000);
+      await world.pass_until(page, page.getByText('visitors received: 1'), 500, 120_000);
     },
     { ...size, look: 'light', motion: 'no-preference' },
     '/#scenario',

@@ -164,8 +164,8 @@ test('a robot receives a visitor who was let in: a browser is enough to try it',
         await pass_until(page, row(page, 'tanaka').getByText(at_desk));
         await page.getByRole('tab', { name: 'Scenario' }).click();
         await page.getByRole('button', { name: 'Start', exact: true }).click();
-        await pass_until(page, page.getByText('received 1 visitors'));
-        expect(await page.locator('.scenario-printed').allTextContents()).toEqual(['tanaka: told "Mr. Tanaka, your meeting is in room 3."', 'received 1 visitors']);
+        await pass_until(page, page.getByText('visitors received: 1'));
+        expect(await page.locator('.scenario-printed').allTextContents()).toEqual(['tanaka: told "Mr. Tanaka, your meeting is in room 3."', 'visitors received: 1']);
         await picture(page, 'visitors-received');
       },
       { width: 1600, height: 1000 },

@@ -82,7 +82,7 @@ test('an answer that was under way does not count after a clear', async () => {
   expect(everything.view.value.stopped).toBe(false);
 });
 
-test('a stop by somebody else is known from the metrics, as soon as an error is told', async () => {
+test('a stop by somebody else is known from the metrics, as soon as an error is reported', async () => {
   const { world, everything } = await begun();
   world.pages.set('/metrics', metrics(1, 0));
   await world.passes(2000);

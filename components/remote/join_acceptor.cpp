@@ -1,4 +1,4 @@
-#include "remote/door.hpp"
+#include "remote/join_acceptor.hpp"
 
 #include <unistd.h>
 
@@ -12,15 +12,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t most_guests = 100;
+constexpr std::size_t most_pending_joins = 100;
 constexpr auto time_to_read_refusal = 1s;
 
 }  // namespace
 
-class Door::Guest final : public client::Link::Listener, public std::enable_shared_from_this<Guest> {
+class JoinAcceptor::PendingJoin final : public client::Link::Listener, public std::enable_shared_from_this<PendingJoin> {
 public:
-    explicit Guest(std::weak_ptr<Door> at) : at_{std::move(at)} {}
-    virtual ~Guest() = default;
+    explicit PendingJoin(std::weak_ptr<JoinAcceptor> at) : at_{std::move(at)} {}
+    virtual ~PendingJoin() = default;
 
     void enter(std::shared_ptr<client::Link> link) {
         link_ = std::move(link);
@@ -30,7 +30,7 @@ public:
 
     void leave() {
         if (auto const link = std::exchange(link_, nullptr)) link->cut();
-        if (auto const door = at_.lock()) door->leave(shared_from_this());
+        if (auto const acceptor = at_.lock()) acceptor->leave(shared_from_this());
     }
 
 private:
@@ -41,11 +41,11 @@ private:
 
     void document(std::string_view text) override {
         auto const self = shared_from_this();
-        auto const door = at_.lock();
-        if (!door || !link_ || is_refused_) return;
-        auto const read = door->reader_.read(text);
+        auto const acceptor = at_.lock();
+        if (!acceptor || !link_ || is_refused_) return;
+        auto const read = acceptor->reader_.read(text);
         if (auto const* fault = std::get_if<Fault>(&read)) return refuse(xml::encode(*fault));
-        auto const found = door->find_(std::get<xml::Join>(read));
+        auto const found = acceptor->find_(std::get<xml::Join>(read));
         xml::JoinResponse response;
         if (auto const* reason = std::get_if<std::string>(&found)) {
             response.return_code = ReturnCode::bad_parameter;
@@ -66,43 +66,43 @@ private:
     }
 
     void leave_after(std::chrono::milliseconds time) {
-        auto const door = at_.lock();
-        if (!door) return;
-        door->loop_.at(client::from_now(time), [guest = weak_from_this()] {
-            if (auto const self = guest.lock()) self->leave();
+        auto const acceptor = at_.lock();
+        if (!acceptor) return;
+        acceptor->loop_.at(client::from_now(time), [pending = weak_from_this()] {
+            if (auto const self = pending.lock()) self->leave();
         });
     }
 
-    std::weak_ptr<Door> at_;
+    std::weak_ptr<JoinAcceptor> at_;
     std::shared_ptr<client::Link> link_;  // null: it has joined, or left
     bool is_refused_ = false;
 };
 
-Door::Door(client::Loop& loop, std::shared_ptr<xml::Schemas const> schemas, Find find)
+JoinAcceptor::JoinAcceptor(client::Loop& loop, std::shared_ptr<xml::Schemas const> schemas, Find find)
     : loop_{loop}, reader_{std::move(schemas)}, find_{std::move(find)} {
     settings_.ping_interval = ping_interval;
     settings_.longest_document = SubEngine{}.longest_document;
 }
 
-void Door::open(int socket, std::string head) {
-    if (guests_.size() >= most_guests) {
+void JoinAcceptor::open(int socket, std::string head) {
+    if (pending_.size() >= most_pending_joins) {
         ::close(socket);
         return;
     }
-    auto const guest = std::make_shared<Guest>(weak_from_this());
-    auto link = client::accepted_link(loop_, socket, std::move(head), settings_, *guest);
+    auto const pending = std::make_shared<PendingJoin>(weak_from_this());
+    auto link = client::accepted_link(loop_, socket, std::move(head), settings_, *pending);
     if (!link) {
         ::close(socket);
         return;
     }
-    guests_.insert(guest);
-    guest->enter(std::move(link));
+    pending_.insert(pending);
+    pending->enter(std::move(link));
 }
 
-void Door::close() {
-    for (auto const& guest : std::exchange(guests_, {})) guest->leave();
+void JoinAcceptor::close() {
+    for (auto const& pending : std::exchange(pending_, {})) pending->leave();
 }
 
-void Door::leave(std::shared_ptr<Guest> const& guest) { guests_.erase(guest); }
+void JoinAcceptor::leave(std::shared_ptr<PendingJoin> const& pending) { pending_.erase(pending); }
 
 }  // namespace rois::remote

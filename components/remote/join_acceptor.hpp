@@ -16,28 +16,28 @@
 namespace rois::remote {
 
 // Used on the thread of the links.
-class Door : public std::enable_shared_from_this<Door> {
+class JoinAcceptor : public std::enable_shared_from_this<JoinAcceptor> {
 public:
-    // Returns the sub engine that joins by this name, or why it may not.
+    // Returns the sub engine that joins by this name, or the reason why it may not join.
     using Find = std::function<std::variant<std::shared_ptr<RemoteEngine>, std::string>(xml::Join const&)>;
 
-    Door(client::Loop&, std::shared_ptr<xml::Schemas const>, Find);
+    JoinAcceptor(client::Loop&, std::shared_ptr<xml::Schemas const>, Find);
 
     // `socket` and `head` as in client::accepted_link. Closes the socket if too many engines wait.
     void open(int socket, std::string head);
-    // Closes the links of those that have not joined.
+    // Closes the links of engines that have not joined.
     void close();
 
 private:
-    class Guest;
+    class PendingJoin;  // a link whose engine has not joined yet
 
-    void leave(std::shared_ptr<Guest> const&);
+    void leave(std::shared_ptr<PendingJoin> const&);
 
     client::Loop& loop_;
     Settings settings_;
     xml::JoinReader reader_;
     Find find_;
-    std::set<std::shared_ptr<Guest>> guests_;
+    std::set<std::shared_ptr<PendingJoin>> pending_;
 };
 
 }  // namespace rois::remote

@@ -1,4 +1,4 @@
-// What a sub engine knows of one of its components. It outlives the component.
+// What a RemoteEngine knows of one component of its sub engine. The record outlives the RemoteComponent.
 #pragma once
 
 #include <functional>
@@ -14,21 +14,21 @@
 namespace rois::remote {
 
 // Used on the thread of the links, except `report`, `is_full`, `attach` and `detach`.
-class Part {
+class ComponentRecord {
 public:
-    Part(ComponentEntry entry_there, std::string ref_here) : entry{std::move(entry_there)}, ref{std::move(ref_here)} {}
+    ComponentRecord(ComponentEntry entry_there, std::string ref_here) : entry{std::move(entry_there)}, ref{std::move(ref_here)} {}
 
     ComponentEntry const entry;  // as the sub engine lists it
-    std::string const ref;       // here
+    std::string const ref;       // in this engine
 
-    // The binding there. `is_wanted`: an application here has bound the component, or asks for that.
+    // The binding in the sub engine. `is_wanted`: an application of this engine has bound the component, or asks for that.
     bool is_wanted = false;
-    bool is_held = false;
-    int binds_asked = 0;  // not answered yet
+    bool is_held = false;  // the sub engine has accepted `bind`
+    int binds_asked = 0;   // `bind` requests that are not answered yet
 
-    std::vector<Ticket> halts;                        // that wait for the end of one `stop`
-    int begins_asked = 0;                             // commands that its engine has not accepted yet
-    std::vector<std::function<void()>> after_begins;  // a suspend or resume, which would overtake them
+    std::vector<Ticket> halts;                        // halts that wait for the end of the same `stop`
+    int begins_asked = 0;                             // `execute` requests that are not answered yet
+    std::vector<std::function<void()>> after_begins;  // `suspend` or `resume`: sent once these are answered, to keep the order
 
     void forget_questions() {
         binds_asked = begins_asked = 0;
