@@ -87,6 +87,22 @@ std::string how_it_ended(int status) {
                                : "with exit code " + std::to_string(WEXITSTATUS(status));
 }
 
+class OpenFile {
+public:
+    explicit OpenFile(int number) : number_{number} {}
+    ~OpenFile() {
+        if (number_ >= 0) ::close(number_);
+    }
+    OpenFile(OpenFile const&) = delete;
+    OpenFile& operator=(OpenFile const&) = delete;
+
+    int number() const { return number_; }  // negative: none
+    void release() { number_ = -1; }        // it belongs to another object now
+
+private:
+    int number_;
+};
+
 // Used on the thread of the programs.
 class Program : public std::enable_shared_from_this<Program> {
 public:
@@ -119,7 +135,9 @@ private:
         is_replaced_ = false;
         try {
             launch();
-        } catch (std::system_error const& problem) {
+        } catch (std::exception const& problem) {
+            close();
+            if (pid_ != 0) kill_and_wait(std::exchange(pid_, 0));
             return start_again(std::string{"its program cannot be started: "} + problem.what());
         }
         read();
@@ -129,23 +147,27 @@ private:
     void launch() {
         std::array<int, 2> pipe{};
         if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw std::system_error{errno, std::system_category(), "pipe"};
-        output_.assign(pipe[0]);
+        OpenFile ours{pipe[0]}, its{pipe[1]};
         Words const command{wanted_->command}, variables{environment(*wanted_)};
         auto const gateway = ::getpid();
         auto const pid = ::fork();
-        if (pid == 0) become(wanted_->folder.c_str(), command.data(), variables.data(), pipe[1], gateway);
-        ::close(pipe[1]);
-        auto const end = pid < 0 ? -1L : ::syscall(SYS_pidfd_open, pid, 0);
-        if (end < 0) {
-            auto const error = errno;
-            output_.close();
-            if (pid > 0) kill_and_wait(pid);
-            throw std::system_error{error, std::system_category(), "a new process"};
-        }
+        if (pid == 0) become(wanted_->folder.c_str(), command.data(), variables.data(), its.number(), gateway);
+        if (pid < 0) throw std::system_error{errno, std::system_category(), "a new process"};
         pid_ = pid;
         ::setpgid(pid_, pid_);  // as the program does: from now on its group can be ended
-        end_.assign(static_cast<int>(end));
+        OpenFile end{static_cast<int>(::syscall(SYS_pidfd_open, pid, 0))};
+        if (end.number() < 0) throw std::system_error{errno, std::system_category(), "a new process"};
+        output_.assign(ours.number());
+        ours.release();
+        end_.assign(end.number());
+        end.release();
         output_.non_blocking(true);
+    }
+
+    void close() {
+        error_code ignored;
+        output_.close(ignored);
+        end_.close(ignored);
     }
 
     void read() {
@@ -178,21 +200,28 @@ private:
     }
 
     void ended() {
-        // Its last output, at most as much as a pipe holds: programs that it has started may still write.
-        error_code error;
-        for (std::size_t all = 0, size = 0; all < 64 * 1024 && !error; all += size) {
-            size = output_.read_some(asio::buffer(piece_), error);
-            if (!error) said(size);
+        try {
+            read_rest();
+        } catch (std::exception const&) {
+            line_.clear();  // no memory
         }
-        if (!line_.empty()) listener_->says(name_, std::exchange(line_, {}));
-        output_.close(error);
-        end_.close(error);
+        close();
         timer_.cancel();
         auto const status = kill_and_wait(std::exchange(pid_, 0));
         if (is_replaced_ && wanted_)
             start();
         else if (wanted_)
             start_again("its program ended " + how_it_ended(status));
+    }
+
+    // Its last output, at most as much as a pipe holds: programs that it has started may still write.
+    void read_rest() {
+        error_code error;
+        for (std::size_t all = 0, size = 0; all < 64 * 1024 && !error; all += size) {
+            size = output_.read_some(asio::buffer(piece_), error);
+            if (!error) said(size);
+        }
+        if (!line_.empty()) listener_->says(name_, std::exchange(line_, {}));
     }
 
     // Ends also what the program has started. Returns how the program ended.

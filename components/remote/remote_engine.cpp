@@ -2,7 +2,6 @@
 #include "remote/remote_engine.hpp"
 
 #include <algorithm>
-#include <set>
 #include <stdexcept>
 #include <utility>
 

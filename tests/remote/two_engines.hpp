@@ -5,9 +5,7 @@
 //     desk.bind("hall.navigation");
 #pragma once
 
-#include <deque>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
