@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The lamps of components/sdk, in Python and C++, in a gateway, as docs/component-programs.md shows them.
+# The lamps of components/sdk, in Python and C++, in a gateway, as docs/component-programs.md shows them. Then a robot in a program.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 bin=$ROIS_BINARY_DIR/bin
@@ -74,3 +74,14 @@ play() {
 }
 play python3 -B "$root/components/sdk/python/lamp.py"
 play "$bin/rois-lamp"
+
+start_gateway
+"$bin/rois-test-robot" --name lamps --url "$ROIS_URL" >"$work/robot.log" 2>&1 &
+robot=$!
+running+=("$robot")
+wait_for 'present with 15 components' "$work/gateway.log"
+expect '1001, 2000, 0' "$bin/rois" query robot_position
+expect 'OK' "$bin/rois" start lamps.navigation target_position=desk
+expect "'cellar'" "$bin/rois" start lamps.navigation target_position=cellar
+kill -TERM "$robot"
+wait "$robot" || fail "the robot ended with $?"

@@ -7,6 +7,7 @@
 #include <exception>
 #include <utility>
 
+#include "basic/adapters/robots.hpp"
 #include "engine/engine.hpp"
 #include "files/files.hpp"
 #include "gateway/access/secrets.hpp"
@@ -29,28 +30,44 @@ std::shared_ptr<xml::Schemas const> const& schemas() {
     return all;
 }
 
-EngineProfile profile_of_program(std::string const& name, std::string const& instance) {
+using Profiles = std::vector<ComponentProfile>;
+
+// What a program adds to its engine.
+struct Parts {
+    Components components;
+    std::shared_ptr<Device> device;  // null: none
+    std::string provider;            // of the device
+    std::string crs;                 // the engine's frame; empty: none
+};
+using Make = std::function<Parts(Profiles const& built_in)>;
+
+ParameterProfile text_parameter(std::string name, std::string value) {
+    return {.name = std::move(name),
+            .data_type_ref = {.code = "string", .authority = {}, .codebook_ref = {}, .version = {}},
+            .default_value = std::move(value),
+            .description = {}};
+}
+
+EngineProfile profile_of_program(std::string const& name, std::string const& instance, std::string const& crs) {
     EngineProfile profile;
     profile.object.identifier = "urn:x-rois:def:HRIEngine:program::" + name;
     profile.object.code_space = "urn:ietf:rfc:2141";
     profile.object.name = name;
-    profile.parameters = {{.name = "instance",
-                           .data_type_ref = {.code = "string", .authority = {}, .codebook_ref = {}, .version = {}},
-                           .default_value = instance,
-                           .description = {}}};
+    profile.parameters = {text_parameter("instance", instance)};
+    if (!crs.empty()) profile.parameters.push_back(text_parameter("crs", crs));
     return profile;
 }
 
 // The program is a small engine with a gateway on the loopback, which joins as a robot's gateway does.
-bool serve(std::string const& url, std::string const& name, Components components) {
+bool serve(std::string const& url, std::string const& name, Make const& make) {
     Readers readers;
     auto const instance = fresh_secret();
-    Engine engine{profile_of_program(name, instance),
-                  xml::read_component_profiles(schemas(), files::profiles()),
-                  {},
-                  readers,
-                  fresh_secret};
-    for (auto& component : components) engine.add(std::move(component));
+    auto const profiles = xml::read_component_profiles(schemas(), files::profiles());
+    auto parts = make(profiles);
+    Engine engine{profile_of_program(name, instance, parts.crs), profiles, {}, readers, fresh_secret};
+    if (!parts.crs.empty()) engine.describe({.frames = {parts.crs}, .all = {}});
+    if (parts.device) engine.add(parts.device, parts.provider);
+    for (auto& component : parts.components) engine.add(std::move(component));
     Telemetry telemetry;
     Gateway gateway{engine, readers, telemetry};
     net::Documents const documents{gateway, telemetry, *schemas(), {}};
@@ -66,6 +83,20 @@ bool serve(std::string const& url, std::string const& name, Components component
     return server.run();
 }
 
+int serve(int argc, char const* const* argv, std::string name, Make const& make) {
+    CLI::App program{"Components of a RoIS engine"};
+    std::string url = "ws://127.0.0.1:8080";
+    program.add_option("--url", url, "the gateway to join")->envname("ROIS_URL")->capture_default_str();
+    program.add_option("--name", name, "the name by which the program joins")->envname("ROIS_NAME")->capture_default_str();
+    CLI11_PARSE(program, argc, argv);
+    try {
+        return serve(url, name, make) ? 0 : not_halted;
+    } catch (std::exception const& error) {
+        std::fprintf(stderr, "%s: %s\n", argv[0], error.what());
+        return could_not_start;
+    }
+}
+
 }  // namespace
 
 ComponentDescription describe(std::string ref, std::string const& profile) {
@@ -78,17 +109,15 @@ ComponentDescription describe(std::string ref, std::string const& profile) {
 }
 
 int serve(int argc, char const* const* argv, std::string name, std::function<Components()> const& make) {
-    CLI::App program{"Components of a RoIS engine"};
-    std::string url = "ws://127.0.0.1:8080";
-    program.add_option("--url", url, "the gateway to join")->envname("ROIS_URL")->capture_default_str();
-    program.add_option("--name", name, "the name by which the program joins")->envname("ROIS_NAME")->capture_default_str();
-    CLI11_PARSE(program, argc, argv);
-    try {
-        return serve(url, name, make()) ? 0 : not_halted;
-    } catch (std::exception const& error) {
-        std::fprintf(stderr, "%s: %s\n", argv[0], error.what());
-        return could_not_start;
-    }
+    return serve(argc, argv, std::move(name), Make{[&](Profiles const&) { return Parts{make(), {}, {}, {}}; }});
+}
+
+int serve_robot(int argc, char const* const* argv, std::string name, std::function<Robot()> const& make) {
+    return serve(argc, argv, std::move(name), Make{[&](Profiles const& built_in) {
+                     auto const [body, device] = make();
+                     return Parts{basic::robot_components({.bodies = {body}, .media = nullptr}, built_in), device,
+                                  body->provider(), body->crs()};
+                 }});
 }
 
 }  // namespace rois::sdk

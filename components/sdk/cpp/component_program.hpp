@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "basic/body/body.hpp"
 #include "engine/local_component.hpp"
 
 namespace rois::sdk {
@@ -29,6 +30,25 @@ int serve(int argc, char const* const* argv, std::string name) {
         Components components;
         (components.push_back(std::make_unique<Each>()), ...);
         return components;
+    });
+}
+
+// A robot. In each tick, at least every 50 ms, `device` lets the time of the body pass: it reads the hardware, and notifies the
+// body's observers. Both may be one object.
+struct Robot {
+    std::shared_ptr<basic::Body> body;
+    std::shared_ptr<Device> device;
+};
+
+// The same for a robot: the program has the 15 basic components (7.6), which act on its body.
+int serve_robot(int argc, char const* const* argv, std::string name, std::function<Robot()> const& make);
+
+// The same for a class that is a basic::Body and a Device, and is constructed without arguments.
+template <class Each>
+int serve_robot(int argc, char const* const* argv, std::string name) {
+    return serve_robot(argc, argv, std::move(name), [] {
+        auto const robot = std::make_shared<Each>();
+        return Robot{robot, robot};
     });
 }
 
