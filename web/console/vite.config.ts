@@ -14,7 +14,7 @@ export default defineConfig({
     // A file for each panel, and one for their shared modules.
     rollupOptions: { output: { manualChunks: (id) => (/\/(ui|forms|state|shell|i18n|client|node_modules)\//.test(id) ? 'shared' : undefined) } },
   },
-  esbuild: { jsx: 'transform', jsxFactory: 'h', jsxFragment: 'Fragment', jsxInject: "import { Fragment, h } from 'preact'" },
+  esbuild: { jsx: 'automatic', jsxImportSource: 'preact' },
   // The included scenario is read from client-cpp/.
   server: { fs: { allow: ['../..'] }, proxy: { '/rois': { target: gateway, ws: true }, '/metrics': gateway, '/readyz': gateway } },
   test: {
