@@ -41,7 +41,8 @@ function Group({ id, label }: { id: Area | 'all'; label: string }) {
 // Loaded panels.
 const loaded = new Map<Panel, ComponentType>();
 
-// An error while loading is shown by the Boundary, whose button tries again.
+// An error while loading is shown by the Boundary, whose button tries again. Older browsers remember the error (whatwg/html#10327): there,
+// only reloading the page helps, as the Boundary's hint says.
 function Content({ panel }: { panel: Panel }) {
   const [failed, fail] = useState<{ why: unknown }>();
   const [, arrive] = useState(0);

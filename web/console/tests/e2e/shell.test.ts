@@ -42,7 +42,8 @@ describe('the page', () => {
         await page.route('**/assets/health-*.js', (route) => route.abort());
         await page.getByRole('tab', { name: 'Health' }).click();
         await page.getByRole('alert').getByText('Failed to fetch').waitFor();
-        await page.unroute('**/assets/panel-*.js');
+        await page.getByRole('alert').getByText('If it fails again, reload the page.').waitFor();
+        await page.unroute('**/assets/health-*.js');
         await page.getByRole('button', { name: 'Try again' }).click();
         await page.locator('.health-figures').waitFor();
       },
