@@ -3,7 +3,7 @@ import './forms.css';
 
 import type { Parameter } from 'rois-client';
 
-import { useConsole, useWatch } from '../shell/context';
+import { useConsole, useWatch } from '../context';
 import type { Console } from '../state/console';
 import type { ComponentView } from '../state/engine/profile_state';
 import { data_type, type Problem } from './data_type';

@@ -4,8 +4,8 @@ import './forms.css';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { parse_xml, type Operation, Results, results_of, RoisError } from 'rois-client';
 
+import { useConsole } from '../context';
 import { duration } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import type { Console } from '../state/console';
 import type { CommandEntry } from '../state/session/commands_state';
 import type { LoggedDocument } from '../state/session/document_log';

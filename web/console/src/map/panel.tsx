@@ -4,7 +4,7 @@ import './map.css';
 import { useSignal } from '@preact/signals';
 import { useLayoutEffect, useMemo, useRef } from 'preact/hooks';
 
-import { useConsole, useWatch } from '../shell/context';
+import { useConsole, useWatch } from '../context';
 import { Button, IconButton } from '../ui';
 import { Board } from './board';
 import { TargetCard, ThingCard, useSending } from './cards';

@@ -1,5 +1,5 @@
 // A form for an element: attributes, text and children.
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
 import { IconButton, SelectField, TextField } from '../ui';
 import type { Desk } from './desk';
 import { closed_choices, relation_of, relations, steps_for, suggestions, with_new, with_relation } from './editing';

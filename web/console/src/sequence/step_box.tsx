@@ -1,6 +1,6 @@
 // A step in the drawing, with its progress.
+import { useConsole } from '../context';
 import { duration } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import { Icon, joined, StatusBadge } from '../ui';
 import { is_unfinished } from './checking';
 import type { LaneContext } from './lane_context';

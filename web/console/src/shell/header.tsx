@@ -1,13 +1,13 @@
 import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 
+import { useConsole } from '../context';
 import { language, type Language, languages } from '../i18n/i18n';
 import { Button } from '../ui/button';
 import { Dialog } from '../ui/dialog';
 import { tried } from '../ui/error_text';
 import { StopButton } from '../ui/stop_button';
 import { Pop } from '../ui/pop';
-import { useConsole } from './context';
 import { is_narrow } from './navigation';
 import { LinkMark } from './link_status';
 import { NoticeArea } from './notices';

@@ -2,11 +2,11 @@
 import type { ComponentType } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 
+import { useConsole } from '../context';
 import { SplitPane } from '../ui/split_pane';
 import { Loading } from '../ui/states';
 import { Tabs } from '../ui/tabs';
 import { Boundary } from './boundary';
-import { useConsole } from './context';
 import { type Area, areas, in_front, is_wide, type Panel, panels_of, show_panel, shown } from './navigation';
 import * as texts from './texts';
 

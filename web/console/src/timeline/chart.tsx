@@ -2,7 +2,7 @@
 import { effect, untracked, useComputed, useSignal } from '@preact/signals';
 import { useCallback, useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
 import { shown_theme } from '../shell/theme';
 import { useDrawing } from '../ui/drawing/drawing';
 import { watch_size } from '../ui/use_width';

@@ -1,5 +1,5 @@
+import { useConsole } from '../context';
 import { clock_time, duration } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import * as panel_titles from '../shell/panel_titles';
 import { Button, Checkbox, IconButton, SelectField } from '../ui';
 import * as t from './texts';
