@@ -1,6 +1,7 @@
 // A request being written, the button that sends it, and its outcome.
 import './forms.css';
 
+import type { ComponentChildren } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { parse_xml, type Operation, Results, results_of, RoisError } from 'rois-client';
 
@@ -32,7 +33,7 @@ export interface ExchangeProps {
   label?: string;
   icon?: IconName;
   /** Additional buttons. */
-  children?: preact.ComponentChildren;
+  children?: ComponentChildren;
 }
 
 export interface Outcome {

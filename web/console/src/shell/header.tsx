@@ -50,7 +50,7 @@ export function Header() {
           </select>
         </label>
         {console.link.is_open && (
-          <Button small look="quiet" onClick={() => (is_at_work() ? (asks.value = true) : void console.close())}>
+          <Button small look="quiet" onClick={ask_or_disconnect}>
             {t.disconnect()}
           </Button>
         )}
@@ -71,8 +71,9 @@ export function Header() {
     </header>
   );
 
-  function is_at_work(): boolean {
-    return console.bindings.mine.value.size > 0 || console.commands.open().length > 0;
+  function ask_or_disconnect(): void {
+    if (console.bindings.mine.value.size > 0 || console.commands.open().length > 0) asks.value = true;
+    else void console.close();
   }
   function disconnect(): void {
     asks.value = false;

@@ -110,7 +110,8 @@ export function Chart({ view, opened, open }: ChartProps) {
       const { placed } = found(event);
       if (!placed) return;
       open(placed.thing);
-      pointer.current = hovered.value = undefined; // its tooltip would cover the details
+      pointer.current = undefined;
+      hovered.value = undefined; // its tooltip would cover the details
     },
   });
   const pointer = useRef<{ clientX: number; clientY: number }>();
@@ -132,7 +133,8 @@ export function Chart({ view, opened, open }: ChartProps) {
     pointer.current = event && { clientX: event.clientX, clientY: event.clientY };
     if (!event) {
       release();
-      return void (hovered.value = undefined);
+      hovered.value = undefined;
+      return;
     }
     const { placed, x, y } = found(event);
     const before = hovered.peek();
