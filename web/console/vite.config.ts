@@ -3,6 +3,13 @@ import { defineConfig } from 'vitest/config';
 // The gateway of `npm run dev`.
 const gateway = process.env['ROIS_URL'] ?? 'http://127.0.0.1:8080';
 
+/** A file for each panel, named after its folder, and one for their shared modules. */
+function chunk_of(id: string): string | undefined {
+  if (/\/web\/(client|node_modules)\//.test(id)) return 'shared';
+  const folder = /\/console\/src\/(\w+)\//.exec(id)?.[1];
+  return folder && ['ui', 'forms', 'state', 'shell', 'i18n'].includes(folder) ? 'shared' : folder;
+}
+
 export default defineConfig({
   // Writes only to dist/ and build/. Inlines nothing, because the page's security policy forbids it.
   cacheDir: 'build/vite',
@@ -11,10 +18,9 @@ export default defineConfig({
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
     reportCompressedSize: false,
-    // A file for each panel, and one for their shared modules.
-    rollupOptions: { output: { manualChunks: (id) => (/\/(ui|forms|state|shell|i18n|client|node_modules)\//.test(id) ? 'shared' : undefined) } },
+    rollupOptions: { output: { manualChunks: chunk_of } },
   },
-  esbuild: { jsx: 'transform', jsxFactory: 'h', jsxFragment: 'Fragment', jsxInject: "import { Fragment, h } from 'preact'" },
+  esbuild: { jsx: 'automatic', jsxImportSource: 'preact' },
   // The included scenario is read from client-cpp/.
   server: { fs: { allow: ['../..'] }, proxy: { '/rois': { target: gateway, ws: true }, '/metrics': gateway, '/readyz': gateway } },
   test: {

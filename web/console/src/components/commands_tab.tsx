@@ -2,9 +2,9 @@
 import { useState } from 'preact/hooks';
 import { command, request, sequence_xml } from 'rois-client';
 
+import { useConsole } from '../context';
 import { arguments_in, ArgumentFields, asked_by, CommandProgress, Exchange, type Inputs, last_outcome, misplaced, problems_in, useDraft } from '../forms';
 import { duration } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/engine/profile_state';
 import { Checkbox, Form } from '../ui';
 import { Pick } from './pick';

@@ -1,6 +1,6 @@
 // A component: status, owner and messages.
+import { useConsole } from '../context';
 import { shown_description, useDraft } from '../forms';
-import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/engine/profile_state';
 import { Button, StatusBadge, Tabs, tried } from '../ui';
 import { CommandsTab } from './commands_tab';

@@ -1,9 +1,9 @@
 // The Events tab: a form for each event of a component, its subscriptions and the latest events.
 import { component_ref, Condition, condition_xml, parse_xml, request, text_element } from 'rois-client';
 
+import { useConsole } from '../context';
 import { Exchange, useDraft } from '../forms';
 import { clock_time } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import { reason_of } from '../state/base/reason_of';
 import type { ComponentView, Offered } from '../state/engine/profile_state';
 import { Button, Checkbox, Form, TextArea, tried } from '../ui';

@@ -1,7 +1,7 @@
 // The Components panel: a tree of engines and components beside the selected component.
 import './components.css';
 
-import { useConsole, useWatch } from '../shell/context';
+import { useConsole, useWatch } from '../context';
 import { EmptyState, SplitPane, useIsWide } from '../ui';
 import { Detail } from './detail';
 import * as texts from './texts';

@@ -2,8 +2,8 @@
 import { useState } from 'preact/hooks';
 import { component_ref_xml, element, parameter_xml, request } from 'rois-client';
 
+import { useConsole, useWatch } from '../context';
 import { arguments_in, ArgumentFields, asked_by, Exchange, type Inputs, problems_in, ResultsTable, useDraft } from '../forms';
-import { useConsole, useWatch } from '../shell/context';
 import type { ComponentView } from '../state/engine/profile_state';
 import { Form } from '../ui';
 import { written } from './commands_tab';

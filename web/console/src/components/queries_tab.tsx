@@ -1,8 +1,8 @@
 // The Queries tab: a form for each query of a component.
 import { component_ref, condition_xml, request, text_element } from 'rois-client';
 
+import { useConsole } from '../context';
 import { Exchange, useDraft } from '../forms';
-import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/engine/profile_state';
 import { Form } from '../ui';
 import { Pick } from './pick';

@@ -1,8 +1,8 @@
 // The tree of engines and components, following the ARIA tree pattern: one Tab stop, arrow keys inside.
 import { useEffect, useRef, useState } from 'preact/hooks';
 
+import { useConsole } from '../context';
 import { shown_description } from '../forms';
-import { useConsole } from '../shell/context';
 import type { ComponentView, EngineView } from '../state/engine/profile_state';
 import { Icon, StatusBadge } from '../ui';
 import { holder_text } from './holder';

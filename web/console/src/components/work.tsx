@@ -1,5 +1,5 @@
 // Shows that this console has started a component. Its status is READY meanwhile (RoIS: ready to be used).
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
 import { Badge } from '../ui';
 import * as t from './texts';
 

@@ -1,6 +1,6 @@
 // An area: a place by name, a box by its corners, or a point; typed or picked on a map.
+import { useConsole } from '../context';
 import { SelectField, TextField } from '../ui';
-import { useConsole } from '../shell/context';
 import { AreaPicker } from './area_picker';
 import { is_number } from './checking';
 import type { Area } from './model';

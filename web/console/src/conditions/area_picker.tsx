@@ -1,7 +1,7 @@
 // A small map to pick a place, box or point. The fields beside it show the same values and serve the keyboard.
 import { useRef, useState } from 'preact/hooks';
 
-import { useConsole, useWatch } from '../shell/context';
+import { useConsole, useWatch } from '../context';
 import { bounds_around, ground_of, type Point } from '../state/floor/floor';
 import type { Bounds, FloorMap } from '../state/floor/floor_map';
 import { floor_point, rect, SmallFloor } from '../ui/drawing/small_floor';

@@ -1,7 +1,7 @@
 // The components that match the condition now.
 import { useEffect } from 'preact/hooks';
 
-import { useConsole, useWatch } from '../shell/context';
+import { useConsole, useWatch } from '../context';
 import { show_component } from '../shell/navigation';
 import { error_text, StatusBadge } from '../ui';
 import { problems_of } from './checking';

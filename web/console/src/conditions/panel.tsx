@@ -3,7 +3,7 @@ import './conditions.css';
 
 import { useState } from 'preact/hooks';
 
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
 import { Button, EmptyState, Form, SelectField } from '../ui';
 import { Beginnings } from './beginnings';
 import { GroupView } from './group_view';

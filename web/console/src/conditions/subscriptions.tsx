@@ -1,8 +1,8 @@
 // The subscriptions made here and their latest events.
 import type { Subscription } from 'rois-client';
 
+import { useConsole } from '../context';
 import { duration } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import { show_events } from '../shell/navigation';
 import { Badge, Button, Icon, tried } from '../ui';
 import type { ConditionStore } from './store';

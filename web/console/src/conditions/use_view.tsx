@@ -1,8 +1,8 @@
 // Uses the condition: shows its request, sends it, and shows the outcome.
 import type { Operation } from 'rois-client';
 
+import { useConsole } from '../context';
 import { Exchange } from '../forms/exchange';
-import { useConsole } from '../shell/context';
 import { Checkbox, type IconName } from '../ui';
 import { is_complete } from './checking';
 import type { Purpose } from './model';

@@ -3,7 +3,7 @@ import './forms.css';
 
 import type { Parameter } from 'rois-client';
 
-import { useConsole, useWatch } from '../shell/context';
+import { useConsole, useWatch } from '../context';
 import type { Console } from '../state/console';
 import type { ComponentView } from '../state/engine/profile_state';
 import { data_type, type Problem } from './data_type';
@@ -26,7 +26,7 @@ export function ArgumentFields({ view, asked, inputs, change, problems }: Argume
   useWatch(console.parameters.poll(view.ref));
   const current = console.parameters.of(view.ref);
   const has_things = asked.some(is_of_things);
-  void (has_things && console.now.value); // robots and persons change all the time: updating once a second is enough
+  if (has_things) void console.now.value; // robots and persons change all the time: updating once a second is enough
   const world = what_there_is(console, view.ref);
   return (
     <div class="form-fields">

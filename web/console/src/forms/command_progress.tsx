@@ -3,8 +3,8 @@ import './forms.css';
 
 import { useEffect } from 'preact/hooks';
 
+import { useConsole } from '../context';
 import { duration } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import { type CommandEntry, has_ended } from '../state/session/commands_state';
 import { Button, StatusBadge, tried } from '../ui';
 import * as t from './exchange_texts';

@@ -1,11 +1,12 @@
 // A request being written, the button that sends it, and its outcome.
 import './forms.css';
 
+import type { ComponentChildren } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { parse_xml, type Operation, Results, results_of, RoisError } from 'rois-client';
 
+import { useConsole } from '../context';
 import { duration } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import type { Console } from '../state/console';
 import type { CommandEntry } from '../state/session/commands_state';
 import type { LoggedDocument } from '../state/session/document_log';
@@ -32,7 +33,7 @@ export interface ExchangeProps {
   label?: string;
   icon?: IconName;
   /** Additional buttons. */
-  children?: preact.ComponentChildren;
+  children?: ComponentChildren;
 }
 
 export interface Outcome {

@@ -1,5 +1,5 @@
 // A logged document, and the details of an event or error.
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
 import { show_document } from '../shell/navigation';
 import type { LoggedDocument } from '../state/session/document_log';
 import type { Details } from '../state/session/events_state';

@@ -1,9 +1,9 @@
 // The session's errors, each with its details.
 import { useState } from 'preact/hooks';
 
+import { useConsole } from '../context';
 import { CommandProgress, DetailsOf, LoggedXml } from '../forms';
 import { clock_time, duration } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import * as shell from '../shell/texts';
 import type { Phase } from '../state/session/link_state';
 import { Badge, Button, type Tone, XmlView } from '../ui';

@@ -1,6 +1,6 @@
 // The most important numbers.
+import { useConsole } from '../context';
 import { bytes_text, count_text, duration } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import * as shell from '../shell/texts';
 import { Badge, Fact, tone_of } from '../ui';
 import { fresh_for, growth, latencies, type Series } from './series';

@@ -3,7 +3,7 @@ import './health.css';
 
 import { untracked } from '@preact/signals';
 
-import { useConsole, useWatch } from '../shell/context';
+import { useConsole, useWatch } from '../context';
 import * as panel_titles from '../shell/panel_titles';
 import { Figures } from './figures';
 import { ErrorLog } from './error_log';

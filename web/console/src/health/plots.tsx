@@ -1,7 +1,7 @@
 import { useSignal } from '@preact/signals';
 
+import { useConsole } from '../context';
 import { count_text, language } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import type { Scrape } from '../state/engine/metrics_state';
 import type { LoggedDocument } from '../state/session/document_log';
 import type { Second } from '../state/session/traffic';

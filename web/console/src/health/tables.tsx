@@ -1,6 +1,6 @@
 // Tables of sessions, limits and the gateway's error counters.
+import { useConsole } from '../context';
 import { count_text, duration } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import { Badge, Table } from '../ui';
 import { type LimitRow, limits_in, type SessionRow, sessions_in, type TroubleRow, troubles_in } from './counters';
 import * as t from './texts';

@@ -2,7 +2,7 @@
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
 import { shown_theme } from '../shell/theme';
 import { watch_size } from '../ui';
 import { is_map_key } from './interaction';

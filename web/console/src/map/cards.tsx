@@ -3,8 +3,8 @@ import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { command } from 'rois-client';
 
+import { useConsole } from '../context';
 import { asked_by, parameters_from } from '../forms';
-import { useConsole } from '../shell/context';
 import { show_component } from '../shell/navigation';
 import { distance, obstacle_at, turned } from '../state/floor/floor';
 import { Button, error_text, Fact, Form, IconButton, SelectField, TextField } from '../ui';

@@ -2,7 +2,7 @@
 import { useEffect } from 'preact/hooks';
 import { pose_of, type Parameter } from 'rois-client';
 
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
 import type { Console } from '../state/console';
 import { distance, on_map } from '../state/floor/floor';
 import type { FloorMap } from '../state/floor/floor_map';

@@ -1,5 +1,5 @@
 // The robots' current motions, each with a stop button.
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
 import { Button, tried } from '../ui';
 import { motions_of, stop } from './driving';
 import { type Goal, goals_of, useGoals } from './goals';

@@ -4,10 +4,10 @@ import './map.css';
 import { useSignal } from '@preact/signals';
 import { useLayoutEffect, useMemo, useRef } from 'preact/hooks';
 
-import { useConsole, useWatch } from '../shell/context';
+import { useConsole, useWatch } from '../context';
 import { Button, IconButton } from '../ui';
 import { Board } from './board';
-import { TargetCard, ThingCard, useSending } from './cards';
+import { type Sending, TargetCard, ThingCard, useSending } from './cards';
 import { key_zoom } from './interaction';
 import { Motions } from './motions';
 import type { Drawing } from './painting/drawing';
@@ -56,7 +56,7 @@ export default function MapPanel() {
 }
 
 // Places the card on the side where it does not cover its subject, and keeps it there.
-function Chosen({ sending, drawing }: { sending: ReturnType<typeof useSending>; drawing: Drawing | undefined }) {
+function Chosen({ sending, drawing }: { sending: Sending; drawing: Drawing | undefined }) {
   const console = useConsole();
   const session = session_of(console);
   const { target, chosen } = session.interaction.value;

@@ -79,7 +79,7 @@ export function scene_of({ robots, entities, map, now, is_live, senses }: Told):
     const age = now - entity.at;
     const is_sensed = is_live && (age < surely_sensed || senses(entity.component));
     const is_over = age > quiet_after[kind] && (kind === 'sound' || (kind === 'face' && !people.some((one) => distance(one, entity) < head)));
-    const freshness: Freshness = !entity.is_seen || (is_sensed && is_over) ? 'gone' : !is_sensed || entity.unknown_since !== undefined ? 'unknown' : age > old_after ? 'old' : age > quiet_after[kind] ? 'quiet' : 'live';
+    const freshness = freshness_of(entity, age, is_sensed, is_over);
     if (is_live && (freshness === 'gone' || !is_sensed) && age > (kind === 'person' ? shown_for : echo)) continue;
     add(entity, kind, { name: identity?.ref ?? entity.ref, radius: radii[kind], freshness, identity });
   }
@@ -88,4 +88,11 @@ export function scene_of({ robots, entities, map, now, is_live, senses }: Told):
     add(robot, 'robot', { name: robot.ref, radius, freshness: is_live && now - robot.at <= quiet_after.robot ? 'live' : 'gone' });
   }
   return scene;
+}
+
+function freshness_of({ kind, is_seen, unknown_since }: Entity, age: number, is_sensed: boolean, is_over: boolean): Freshness {
+  if (!is_seen || (is_sensed && is_over)) return 'gone';
+  if (!is_sensed || unknown_since !== undefined) return 'unknown';
+  if (age > old_after) return 'old';
+  return age > quiet_after[kind] ? 'quiet' : 'live';
 }

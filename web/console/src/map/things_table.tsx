@@ -1,7 +1,7 @@
 // The things on the floor as a table: always for screen readers, visible on request. Updated once a second.
 import { untracked } from '@preact/signals';
 
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
 import { Button } from '../ui';
 import { age, certainty, degrees, position } from './formats';
 import type { Shown } from './scene';

@@ -1,7 +1,7 @@
 // Toolbar of the map: Observe, places, layers, table, help.
 import { useSignal } from '@preact/signals';
 
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
 import * as panel_titles from '../shell/panel_titles';
 import { Badge, Button, Checkbox, error_text, Pop } from '../ui';
 import { Help } from './help';

@@ -3,8 +3,8 @@ import './messages.css';
 
 import { useEffect, useMemo, useState } from 'preact/hooks';
 
+import { useConsole } from '../context';
 import { is_touched } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import type { Console } from '../state/console';
 import type { LoggedDocument } from '../state/session/document_log';
 import { Button, EmptyState, SplitPane, useIsWide, VirtualList } from '../ui';

@@ -2,9 +2,9 @@
 import { useState } from 'preact/hooks';
 import { is_notification, notification_of, parse_xml, Results, results_of } from 'rois-client';
 
+import { useConsole } from '../context';
 import { CommandProgress, ResultsTable } from '../forms';
 import { clock_time } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import { show_component } from '../shell/navigation';
 import type { Console } from '../state/console';
 import type { LoggedDocument } from '../state/session/document_log';

@@ -1,5 +1,5 @@
+import { useConsole } from '../context';
 import { clock_time } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import { Badge, Icon, StatusBadge } from '../ui';
 import { category_of, is_gap, type Row } from './feed';
 import { command_of, component_of, expire_of, name_of, summary } from './summary';

@@ -1,7 +1,7 @@
 // Filter, pause and recordings.
 import { useRef } from 'preact/hooks';
 
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
 import * as panel_titles from '../shell/panel_titles';
 import { reason_of } from '../state/base/reason_of';
 import { read_recording, recording_of } from '../state/session/recording';

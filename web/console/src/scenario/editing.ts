@@ -92,7 +92,10 @@ export function with_relation(text: string, node: Node, to: (typeof relations)[n
   for (const name of ['within', ...relations]) if (again(changed).element.attribute(name) !== undefined) changed = with_attribute(changed, again(changed), name, undefined);
   const was = from === undefined ? '' : (node.element.attribute(from) ?? '');
   const is_list = (one: string | undefined) => one === 'in' || one === 'not_in';
-  const operand = to === 'empty' ? 'true' : is_list(to) ? (is_list(from) ? was : variable) : is_list(from) || from === 'empty' ? '' : was;
+  let operand = was;
+  if (to === 'empty') operand = 'true';
+  else if (is_list(to) && !is_list(from)) operand = variable;
+  else if (!is_list(to) && (is_list(from) || from === 'empty')) operand = '';
   changed = with_attribute(changed, again(changed), to, operand);
   return to === 'near' ? with_attribute(changed, again(changed), 'within', '500') : changed;
 }

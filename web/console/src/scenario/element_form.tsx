@@ -1,5 +1,6 @@
 // A form for an element: attributes, text and children.
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
+import type { ProfileState } from '../state/engine/profile_state';
 import { IconButton, SelectField, TextField } from '../ui';
 import type { Desk } from './desk';
 import { closed_choices, relation_of, relations, steps_for, suggestions, with_new, with_relation } from './editing';
@@ -154,7 +155,7 @@ function AttributeField({ desk, root, node, name, rule }: FormProps & { name: st
   );
 }
 
-function component_meant(root: Node, name: string, profile: ReturnType<typeof useConsole>['profile']) {
+function component_meant(root: Node, name: string, profile: ProfileState) {
   const node = root.children.find((one) => one.name === 'component' && one.element.attribute('name')?.trim() === name.trim());
   const [ref, type] = [node?.element.attribute('ref'), node?.element.attribute('type')];
   if (!node) return undefined;

@@ -79,7 +79,8 @@ export function layout_of(graph: Graph, sizes: Sizes): Layout {
     const spots: Spot[] = [top];
     let label!: Spot;
     for (let layer = top.layer + 1; layer < bottom.layer; ++layer) {
-      const next = layer === label_layer ? (label = spot(layer, width, height, 2)) : spot(layer, 6, 0, 4);
+      const next = layer === label_layer ? spot(layer, width, height, 2) : spot(layer, 6, 0, 4);
+      if (layer === label_layer) label = next;
       joined(spots.at(-1)!, next);
       spots.push(next);
     }

@@ -63,7 +63,10 @@ export class Machine {
       for (let in_a_row = 0; this.next !== undefined || !this.state.is_end; ++in_a_row) {
         this.check();
         if (this.next === undefined) in_a_row = 0;
-        if (in_a_row === most_in_a_row) await new Promise<void>((resolve) => this.console.environment.after((in_a_row = 0), resolve));
+        if (in_a_row === most_in_a_row) {
+          in_a_row = 0;
+          await new Promise<void>((resolve) => this.console.environment.after(0, resolve));
+        }
         if (this.next === undefined) await this.process_next();
         else await this.enter(this.scenario.states.get(this.next)!);
       }

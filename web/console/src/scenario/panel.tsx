@@ -3,7 +3,7 @@ import './scenario.css';
 
 import { useSignal } from '@preact/signals';
 
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
 import type { Notices } from '../state/notices';
 import { Button, chosen_file, EmptyState, Icon, save_file, SplitPane, Tabs, TextArea, useIsWide } from '../ui';
 import { against_engine } from './against_engine';

@@ -1,8 +1,8 @@
 // A run: variables and history.
 import { useLayoutEffect, useRef } from 'preact/hooks';
 
+import { useConsole } from '../context';
 import { clock_time, duration } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import { Badge, error_text, Icon, type Tone } from '../ui';
 import type { Desk, HistoryEntry, Run } from './desk';
 import { shown_name } from './picture';

@@ -20,7 +20,10 @@ export function typed_arguments(component: ComponentView, command_type: string, 
     const declared = known.find((one) => one.name.toLowerCase() === name.toLowerCase());
     if (!declared) return Trouble.raise(() => t.no_argument(component.ref, name, known.map((one) => one.name)));
     let argument = made.find((one) => one.name === declared.name);
-    if (!argument) made.push((argument = { name: declared.name, data_type_ref: declared.data_type_ref, values: [] }));
+    if (!argument) {
+      argument = { name: declared.name, data_type_ref: declared.data_type_ref, values: [] };
+      made.push(argument);
+    }
     add_value(argument, text);
   }
   for (const { name, data_type_ref, values } of made) {

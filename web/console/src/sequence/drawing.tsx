@@ -1,7 +1,7 @@
 // The sequence drawn as in annex B: boxes in a row, and branches between two bars.
 import { useEffect, useRef } from 'preact/hooks';
 
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
 import { IconButton } from '../ui';
 import { useDrag } from './drag';
 import { step_key } from './keys';

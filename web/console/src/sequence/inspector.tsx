@@ -1,8 +1,8 @@
 // The form of the selected step: component, command, arguments, delay, branches.
+import { useConsole } from '../context';
 import { ArgumentFields } from '../forms/argument_fields';
 import { CommandProgress } from '../forms/command_progress';
 import { asked_by, command_types, same } from '../forms/describe';
-import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/engine/profile_state';
 import { Button, EmptyState, error_text, Form, SelectField, TextField } from '../ui';
 import { is_unfinished, type Problem } from './checking';

@@ -3,7 +3,7 @@ import './sequence.css';
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 
-import { useConsole, useWatch } from '../shell/context';
+import { useConsole, useWatch } from '../context';
 import * as panel_titles from '../shell/panel_titles';
 import { Button, CurlButton, EmptyState, SplitPane, Tabs, useIsWide, XmlView } from '../ui';
 import { Drawing } from './drawing';

@@ -1,7 +1,7 @@
 // The run in one line: its state, and why it failed.
+import { useConsole } from '../context';
 import { why } from '../forms/why';
 import { duration } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import { type CommandEntry, has_ended } from '../state/session/commands_state';
 import { Badge, Button, error_text, StatusBadge } from '../ui';
 import type { Run, SequenceStore } from './store';

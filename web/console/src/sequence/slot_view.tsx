@@ -1,4 +1,5 @@
 // The gap between two steps, where steps are added and dropped.
+import type { ComponentChildren } from 'preact';
 import { useLayoutEffect, useRef } from 'preact/hooks';
 
 import { Button, IconButton, joined } from '../ui';
@@ -40,7 +41,7 @@ export function SlotView({ slot, context, is_empty = false }: { slot: Slot; cont
 }
 
 // Takes the focus. Escape or leaving closes it.
-function Choices({ close, children }: { close: () => void; children: preact.ComponentChildren }) {
+function Choices({ close, children }: { close: () => void; children: ComponentChildren }) {
   const box = useRef<HTMLDivElement>(null);
   useLayoutEffect(() => box.current?.querySelector<HTMLElement>('.button-primary')?.focus(), []);
   const left = (event: FocusEvent) => {

@@ -1,6 +1,8 @@
 // A step in the drawing, with its progress.
+import type { ComponentChildren } from 'preact';
+
+import { useConsole } from '../context';
 import { duration } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import { Icon, joined, StatusBadge } from '../ui';
 import { is_unfinished } from './checking';
 import type { LaneContext } from './lane_context';
@@ -67,7 +69,7 @@ function said_by({ inputs }: CommandStep): string {
     .join(' · ');
 }
 
-function Box({ step, context, kind, children }: Of<Step> & { kind: Step['kind']; children: preact.ComponentChildren }) {
+function Box({ step, context, kind, children }: Of<Step> & { kind: Step['kind']; children: ComponentChildren }) {
   const { store, view, drag, first } = context;
   const state = view.get(step.id);
   const problem = store.problems.value.find((one) => one.step === step.id);

@@ -1,5 +1,5 @@
 // Buttons for the sequence and the selected step.
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
 import { Button, IconButton, tried } from '../ui';
 import { move } from './keys';
 import { copy_of, found, slot_towards, type Slot, with_inserted, without } from './model';

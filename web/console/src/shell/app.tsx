@@ -1,8 +1,8 @@
 import { useEffect } from 'preact/hooks';
 
+import { ConsoleContext, useConsole, useWatch } from '../context';
 import { language } from '../i18n/i18n';
 import type { Console } from '../state/console';
-import { ConsoleContext, useConsole, useWatch } from './context';
 import { Header } from './header';
 import { Layout } from './layout';
 import { LinkBanner } from './link_status';

@@ -38,7 +38,7 @@ export const browser: Environment = {
     return () => clearTimeout(timer);
   },
   // A hidden page renders no frames, but pulses must still fire so that memory stays bounded.
-  before_picture: (act) => void (document.hidden ? setTimeout(act, 1000) : requestAnimationFrame(act)),
+  before_frame: (act) => void (document.hidden ? setTimeout(act, 1000) : requestAnimationFrame(act)),
   fetch: (path, init) => fetch(path, init),
   open_socket,
   recall: (name) => {

@@ -1,13 +1,13 @@
 import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 
+import { useConsole } from '../context';
 import { language, type Language, languages } from '../i18n/i18n';
 import { Button } from '../ui/button';
 import { Dialog } from '../ui/dialog';
 import { tried } from '../ui/error_text';
 import { StopButton } from '../ui/stop_button';
 import { Pop } from '../ui/pop';
-import { useConsole } from './context';
 import { is_narrow } from './navigation';
 import { LinkMark } from './link_status';
 import { NoticeArea } from './notices';
@@ -50,7 +50,7 @@ export function Header() {
           </select>
         </label>
         {console.link.is_open && (
-          <Button small look="quiet" onClick={() => (is_at_work() ? (asks.value = true) : void console.close())}>
+          <Button small look="quiet" onClick={ask_or_disconnect}>
             {t.disconnect()}
           </Button>
         )}
@@ -71,8 +71,9 @@ export function Header() {
     </header>
   );
 
-  function is_at_work(): boolean {
-    return console.bindings.mine.value.size > 0 || console.commands.open().length > 0;
+  function ask_or_disconnect(): void {
+    if (console.bindings.mine.value.size > 0 || console.commands.open().length > 0) asks.value = true;
+    else void console.close();
   }
   function disconnect(): void {
     asks.value = false;

@@ -2,11 +2,11 @@
 import type { ComponentType } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 
+import { useConsole } from '../context';
 import { SplitPane } from '../ui/split_pane';
 import { Loading } from '../ui/states';
 import { Tabs } from '../ui/tabs';
 import { Boundary } from './boundary';
-import { useConsole } from './context';
 import { type Area, areas, in_front, is_wide, type Panel, panels_of, show_panel, shown } from './navigation';
 import * as texts from './texts';
 
@@ -41,7 +41,8 @@ function Group({ id, label }: { id: Area | 'all'; label: string }) {
 // Loaded panels.
 const loaded = new Map<Panel, ComponentType>();
 
-// An error while loading is shown by the Boundary, whose button tries again.
+// An error while loading is shown by the Boundary, whose button tries again. Older browsers remember the error (whatwg/html#10327): there,
+// only reloading the page helps, as the Boundary's hint says.
 function Content({ panel }: { panel: Panel }) {
   const [failed, fail] = useState<{ why: unknown }>();
   const [, arrive] = useState(0);

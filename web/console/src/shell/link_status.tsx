@@ -1,5 +1,5 @@
 // Link state: a badge in the header and, if needed, a banner.
-import { useConsole } from './context';
+import { useConsole } from '../context';
 import { Badge, tone_of } from '../ui/states';
 import { Button } from '../ui/button';
 import * as t from './texts';

@@ -1,8 +1,8 @@
+import { useConsole } from '../context';
 import { Button, IconButton } from '../ui/button';
 import { Icon, type IconName } from '../ui/icon';
 import * as ui from '../ui/texts';
 import type { Severity } from '../state/notices';
-import { useConsole } from './context';
 import * as texts from './texts';
 
 const signs: Record<Severity, IconName> = { info: 'info', good: 'check', warning: 'warning', error: 'warning' };

@@ -2,10 +2,10 @@
 import { useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 
+import { useConsole } from '../context';
 import { Button } from '../ui/button';
 import { Dialog } from '../ui/dialog';
 import { tried } from '../ui/error_text';
-import { useConsole } from './context';
 import * as t from './texts';
 
 export function StoppedBanner() {

@@ -1,11 +1,11 @@
 // Asks for the gateway's token, which is kept for this visit only.
 import { useSignal } from '@preact/signals';
 
+import { useConsole } from '../context';
 import { Button } from '../ui/button';
 import { Dialog } from '../ui/dialog';
 import { TextField } from '../ui/field';
 import { Form } from '../ui/form';
-import { useConsole } from './context';
 import * as t from './texts';
 
 export function TokenDialog() {

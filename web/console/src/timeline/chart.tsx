@@ -2,7 +2,7 @@
 import { effect, untracked, useComputed, useSignal } from '@preact/signals';
 import { useCallback, useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
 import { shown_theme } from '../shell/theme';
 import { useDrawing } from '../ui/drawing/drawing';
 import { watch_size } from '../ui/use_width';
@@ -110,7 +110,8 @@ export function Chart({ view, opened, open }: ChartProps) {
       const { placed } = found(event);
       if (!placed) return;
       open(placed.thing);
-      pointer.current = hovered.value = undefined; // its tooltip would cover the details
+      pointer.current = undefined;
+      hovered.value = undefined; // its tooltip would cover the details
     },
   });
   const pointer = useRef<{ clientX: number; clientY: number }>();
@@ -132,7 +133,8 @@ export function Chart({ view, opened, open }: ChartProps) {
     pointer.current = event && { clientX: event.clientX, clientY: event.clientY };
     if (!event) {
       release();
-      return void (hovered.value = undefined);
+      hovered.value = undefined;
+      return;
     }
     const { placed, x, y } = found(event);
     const before = hovered.peek();

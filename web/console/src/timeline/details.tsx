@@ -2,9 +2,9 @@
 import { useEffect, useRef } from 'preact/hooks';
 import { Results } from 'rois-client';
 
+import { useConsole } from '../context';
 import { CommandProgress, DetailsOf, LoggedXml, ResultsTable } from '../forms';
 import { clock_time } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import { show_component } from '../shell/navigation';
 import type { CommandEntry } from '../state/session/commands_state';
 import { Button, Fact, IconButton, StatusBadge } from '../ui';

@@ -1,6 +1,6 @@
 // The time line as a table, for screen readers and for reading values.
+import { useConsole } from '../context';
 import { clock_time, duration } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import { EmptyState, StatusBadge, Table } from '../ui';
 import { describe, type Description, located, sentence } from './describe';
 import { lay_out } from './layout';

@@ -4,7 +4,7 @@ import './timeline.css';
 import { useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
 import * as panel_titles from '../shell/panel_titles';
 import { Chart } from './chart';
 import { DetailsPane } from './details';

@@ -1,5 +1,5 @@
+import { useConsole } from '../context';
 import { clock_time, duration } from '../i18n/i18n';
-import { useConsole } from '../shell/context';
 import * as panel_titles from '../shell/panel_titles';
 import { Button, Checkbox, IconButton, SelectField } from '../ui';
 import * as t from './texts';
@@ -16,6 +16,11 @@ export function Toolbar({ view, as_table, choose_table }: { view: TimeView; as_t
   const { from, to } = view.range(is_live ? console.now.value : view.sources.at);
   const usual = !is_all && spans.includes(span);
   const choices = spans.map((one) => ({ value: String(one), label: duration(one) }));
+  const state_text = () => {
+    if (!is_live) return t.stopped();
+    if (!console.link.is_open) return t.not_live();
+    return view.held.value === undefined ? t.live() : t.held();
+  };
   return (
     <div class="timeline-bar" role="toolbar" aria-label={panel_titles.timeline()}>
       {is_live ? (
@@ -24,7 +29,7 @@ export function Toolbar({ view, as_table, choose_table }: { view: TimeView; as_t
         <Button small look="primary" icon="play" onClick={() => view.go_live()}>{t.go_live()}</Button>
       )}
       <span class="timeline-shown">
-        <strong class={is_live && console.link.is_open ? 'timeline-live' : 'timeline-stopped'}>{!is_live ? t.stopped() : !console.link.is_open ? t.not_live() : view.held.value === undefined ? t.live() : t.held()}</strong> {clock_time(from, span < 10_000)} – {clock_time(to, span < 10_000)}
+        <strong class={is_live && console.link.is_open ? 'timeline-live' : 'timeline-stopped'}>{state_text()}</strong> {clock_time(from, span < 10_000)} – {clock_time(to, span < 10_000)}
       </span>
       <span class="timeline-buttons">
         <IconButton small icon="left" label={t.earlier()} onClick={() => view.move(-third)} />

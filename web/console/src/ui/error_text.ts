@@ -1,11 +1,11 @@
 import { RoisError } from 'rois-client';
 
-import type { useConsole } from '../shell/context';
 import { reason_of } from '../state/base/reason_of';
+import type { Notices } from '../state/notices';
 import * as t from './texts';
 
 /** Shows a notice if it fails. Success removes an earlier notice `about` the same. */
-export function tried({ notices }: Pick<ReturnType<typeof useConsole>, 'notices'>, about: string, done: Promise<unknown>): void {
+export function tried({ notices }: { notices: Notices }, about: string, done: Promise<unknown>): void {
   done.then(
     () => notices.dismiss(about),
     (error: unknown) => notices.tell('error', error_text(error), { about }),

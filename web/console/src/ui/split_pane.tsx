@@ -2,7 +2,7 @@
 import type { ComponentChildren } from 'preact';
 import { useRef, useState } from 'preact/hooks';
 
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
 import * as texts from './texts';
 
 export interface SplitPaneProps {

@@ -1,5 +1,5 @@
 // Stops everything with one press. It is in the header and in every dialog, because a dialog blocks the page.
-import { useConsole } from '../shell/context';
+import { useConsole } from '../context';
 import { Button } from './button';
 import * as t from './texts';
 

@@ -2,7 +2,7 @@
 import { useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 
-import { useConsole, useWatch } from '../shell/context';
+import { useConsole, useWatch } from '../context';
 import { bounds_around, distance, type FloorPose, nearest_of, on_map, type Point, turned } from '../state/floor/floor';
 import type { FloorMap } from '../state/floor/floor_map';
 import type { Visitor } from '../state/floor/hall_state';

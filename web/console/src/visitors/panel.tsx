@@ -1,8 +1,8 @@
 // The Visitors panel: lets simulated persons in, moves them, makes them speak and gesture; and lets simulated time pass.
 import './visitors.css';
 
+import { useConsole, useWatch } from '../context';
 import { duration } from '../i18n/i18n';
-import { useConsole, useWatch } from '../shell/context';
 import { gestures, type Visitor } from '../state/floor/hall_state';
 import { Badge, Button, Checkbox, EmptyState, Form, Loading, SelectField, TextField } from '../ui';
 import { Floor } from './floor';

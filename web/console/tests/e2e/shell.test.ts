@@ -27,7 +27,8 @@ describe('the page', () => {
       await page.locator('.map-canvas').waitFor();
       await page.locator('.timeline-canvas').waitFor();
       const files = await page.evaluate(() => performance.getEntriesByType('resource').map(({ name }) => new URL(name).pathname).filter((path) => path.startsWith('/assets/')));
-      expect(files.filter((path) => /panel-.*js$/.test(path)).length, 'other panels are fetched when first shown').toBe(3);
+      const scripts = new Set(files.flatMap((path) => /^\/assets\/(\w+)-.*\.js$/.exec(path)?.[1] ?? []));
+      expect([...scripts].sort(), 'other panels are fetched when first shown').toEqual(['components', 'index', 'map', 'shared', 'timeline']);
       let bytes = 0;
       for (const path of ['/', ...files]) bytes += Number((await fetch(stage.gateway.url + path, { headers: { 'Accept-Encoding': 'gzip' } })).headers.get('Content-Length'));
       expect(bytes).toBeGreaterThan(50 * 1024);
@@ -38,10 +39,11 @@ describe('the page', () => {
     stage.page(
       async (page) => {
         await page.getByText('Connected', { exact: true }).waitFor();
-        await page.route('**/assets/panel-*.js', (route) => route.abort());
+        await page.route('**/assets/health-*.js', (route) => route.abort());
         await page.getByRole('tab', { name: 'Health' }).click();
         await page.getByRole('alert').getByText('Failed to fetch').waitFor();
-        await page.unroute('**/assets/panel-*.js');
+        await page.getByRole('alert').getByText('If it fails again, reload the page.').waitFor();
+        await page.unroute('**/assets/health-*.js');
         await page.getByRole('button', { name: 'Try again' }).click();
         await page.locator('.health-figures').waitFor();
       },

@@ -48,7 +48,7 @@ export class World implements Environment {
   after(ms: number, act: () => void): Stop {
     return this.alarm({ at: this.time + ms, every: 0, act });
   }
-  before_picture(act: () => void): void {
+  before_frame(act: () => void): void {
     this.before.push(act);
   }
   fetch(path: string): Promise<Response> {

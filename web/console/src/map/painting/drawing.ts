@@ -210,7 +210,7 @@ export class Drawing {
   private request(): void {
     if (this.is_due || this.is_over) return;
     this.is_due = true;
-    this.console.environment.before_picture(() => {
+    this.console.environment.before_frame(() => {
       this.is_due = false;
       if (!this.is_over) this.draw();
     });

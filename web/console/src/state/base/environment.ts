@@ -14,7 +14,7 @@ export interface Environment {
   every(ms: number, act: () => void): Stop;
   after(ms: number, act: () => void): Stop;
   /** Once, before the next frame. */
-  before_picture(act: () => void): void;
+  before_frame(act: () => void): void;
   fetch(path: string, init?: RequestInit): Promise<Response>;
   readonly open_socket: OpenSocket;
   /** Stored strings by name, kept across visits. */

@@ -10,12 +10,12 @@ export class Pulse {
   readonly beat = signal(0);
   private is_due = false;
 
-  constructor(private readonly environment: Pick<Environment, 'before_picture'>) {}
+  constructor(private readonly environment: Pick<Environment, 'before_frame'>) {}
 
   touch(): void {
     if (this.is_due) return;
     this.is_due = true;
-    this.environment.before_picture(() => {
+    this.environment.before_frame(() => {
       this.is_due = false;
       this.beat.value += 1;
     });

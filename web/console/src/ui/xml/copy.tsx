@@ -1,6 +1,6 @@
 import { useEffect, useState } from 'preact/hooks';
 
-import { useConsole } from '../../shell/context';
+import { useConsole } from '../../context';
 import { Button, type ButtonProps } from '../button';
 import * as texts from '../texts';
 import { curl_of } from './curl';

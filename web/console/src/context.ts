@@ -2,8 +2,8 @@
 import { createContext } from 'preact';
 import { useContext, useEffect } from 'preact/hooks';
 
-import type { Stop } from '../state/base/environment';
-import type { Console } from '../state/console';
+import type { Stop } from './state/base/environment';
+import type { Console } from './state/console';
 
 export const ConsoleContext = createContext<Console | undefined>(undefined);
 
