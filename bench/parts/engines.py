@@ -14,6 +14,7 @@ ONE_LOCAL = "query 0.6 kB, own component, 1 connection"
 ONE_REMOTE = "query 0.6 kB, sub engine, 1 connection"
 
 SUBSCRIBERS = 64  # as many as requests in flight
+BURST = 8  # events of one command, so that the command hardly counts
 EVENT_LOCAL = f"event to {SUBSCRIBERS} subscribers, own component"
 EVENT_MAIN = f"event to {SUBSCRIBERS} subscribers, sub engine: CPU of the main engine"
 EVENT_BOTH = f"event to {SUBSCRIBERS} subscribers, sub engine: CPU of both engines"
@@ -30,7 +31,6 @@ def round(keep, settings):
                 with_hall(keep, BOTH, hall, "requests", lambda: ask(keep, MAIN, main, "query-0.6kB-hall", settings))
             ask(keep, ONE_LOCAL, own, "query-0.6kB", settings, connections=1)
             ask(keep, ONE_REMOTE, main, "query-0.6kB-hall", settings, connections=1)
-
 
     with running(stage()) as (hall,), running(above(hall), stage()) as (main, own):
         await_component(main, "hall.probe0")
@@ -55,9 +55,9 @@ def above(hall):
 
 
 def hear(keep, row, server, suffix, settings):
-    options = {"via": "websocket", "connect": "yes", "connections": SUBSCRIBERS, "setup": document("subscribe"), "burst": 1}
+    options = {"via": "websocket", "connect": "yes", "connections": SUBSCRIBERS, "setup": document("subscribe"), "burst": BURST}
     folder = WORK / "documents" / "micro"
-    firing = {"fire_setup": folder / f"bind-probe0{suffix}.xml", "fire": folder / f"fire-1{suffix}.xml"}
+    firing = {"fire_setup": folder / f"bind-probe0{suffix}.xml", "fire": folder / f"fire-{BURST}{suffix}.xml"}
     measured = load("fanout", server, seconds=settings.seconds, **options, **firing)
     keep(row, measured)
     return measured

@@ -101,7 +101,7 @@ private:
     void take(xml::Answered const&);
     void take(Fault const&);
     void take(xml::NumberedNotification const&);
-    bool is_flooded() const;
+    bool is_flooded();
     void go_on_when_handled(std::uint64_t era);
     void opened(Connect::Reply const&);
     void resumed(ReturnCode);
@@ -154,6 +154,8 @@ private:
     std::map<std::uint64_t, Unanswered> unanswered_;  // requests, by their numbers
     std::uint64_t last_request_ = 0;
     std::uint64_t last_command_ = 0;
+    double notifications_ = 0;              // received ones, less 5,000 for each second that has passed
+    Steady counted_at_{};                   // the end of the last of these seconds
     std::uint64_t documents_ = 0;           // number of received documents
     std::uint64_t era_ = 0;                 // counts attempts and lost links: alarms of an earlier era do nothing
     unsigned failures_ = 0;                 // failed attempts in a row

@@ -132,6 +132,24 @@ TEST_F(ALyingSubEngine, WaitsIfItReportsMoreThanThisEngineHandles) {
     EXPECT_FALSE(engines.is_paused());
 }
 
+TEST_F(ALyingSubEngine, WaitsIfItSendsTooManyNotificationsASecond) {
+    desk.subscribe("reached_target");
+    auto const fire = [&](int times) {
+        for (int i = 0; i < times; ++i)
+            engines.hall["navigation"].fires("reached_target", {value("is_final_target", "bool", {"true"})});
+        engines.settle();
+    };
+    for (int i = 0; i < 20; ++i) {  // 4,000 a second
+        fire(200);
+        EXPECT_FALSE(engines.is_paused());
+        engines.advance(50ms);
+    }
+    for (int i = 0; i < 12; ++i) fire(100);
+    EXPECT_TRUE(engines.is_paused());
+    engines.advance(50ms);
+    EXPECT_FALSE(engines.is_paused());
+}
+
 TEST_F(ALyingSubEngine, MayChangeAProfileWhileACommandRuns) {
     engines.bind(desk, "hall.navigation");
     engines.execute(desk, go("go", "hall.navigation"));

@@ -7,8 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "basic/body/body.hpp"
 #include "engine/local_component.hpp"
+
+namespace rois::basic {
+class Body;
+}
 
 namespace rois::sdk {
 
@@ -33,7 +36,7 @@ int serve(int argc, char const* const* argv, std::string name) {
     });
 }
 
-// A robot. In each tick, at least every 50 ms, `device` lets the time of the body pass: it reads the hardware, and notifies the
+// A robot (basic/body/body.hpp). In each tick, at least every 50 ms, `device` lets the time of the body pass: it reads the hardware, and notifies the
 // body's observers. Both may be one object.
 struct Robot {
     std::shared_ptr<basic::Body> body;
