@@ -1,6 +1,7 @@
 #include "command/sequences.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <random>
 #include <set>

@@ -44,8 +44,11 @@ TEST_F(House, HasShortFiles) { EXPECT_EQ(list(against_short_files(tree)), ""); }
 TEST_F(House, HasNoBrokenLinks) { EXPECT_EQ(list(against_links(tree)), ""); }
 TEST_F(House, ProvesWhatItClaims) { EXPECT_EQ(list(against_proof(tree)), ""); }
 TEST_F(House, UsesOnlyPublicNamesOfBoostInTheNetwork) {
-    for (auto const& [file, text] : tree)
-        if (file.starts_with("server/net/")) EXPECT_EQ(code_alone(text).find("detail::"), std::string::npos) << file;
+    for (auto const& [file, text] : tree) {
+        if (file.starts_with("server/net/")) {
+            EXPECT_EQ(code_alone(text).find("detail::"), std::string::npos) << file;
+        }
+    }
 }
 TEST_F(House, NamesItsDependencies) { EXPECT_EQ(list(against_named_dependencies(tree)), ""); }
 

@@ -1,5 +1,8 @@
 #include "remote/two_engines.hpp"
 
+#include <deque>
+#include <map>
+
 #include "files/files.hpp"
 #include "xml/validation/schemas.hpp"
 

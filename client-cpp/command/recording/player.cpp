@@ -1,6 +1,7 @@
 #include "command/recording/player.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "command/sequences.hpp"
