@@ -8,6 +8,7 @@
 #include <array>
 #include <boost/asio.hpp>
 #include <boost/asio/ssl.hpp>
+#include <filesystem>
 #include <fstream>
 #include <thread>
 

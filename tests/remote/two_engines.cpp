@@ -196,6 +196,7 @@ TwoEngines::TwoEngines(std::vector<Part> const& parts, remote::SubEngine setting
 }
 
 TwoEngines::~TwoEngines() {
+    remote_->end();  // drops the questions that are not answered, which refer to it
     host_->drop();
     if (wire_) wire_->cut();
 }
