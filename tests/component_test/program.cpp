@@ -108,6 +108,11 @@ void Program::cut() {
     if (link_) link_->cut();
 }
 
+void Program::abandon_link() {
+    if (!link_has_ended()) link_->send(xml::encode(Request{Disconnect{}, "end"}));
+    link_.reset();
+}
+
 void Program::send(std::string const& document) {
     if (!link_) complain("there is no link");
     link_->send(document);

@@ -37,8 +37,8 @@ public:
     // Opens a new session on the link.
     Connect::Reply connect();
     void cut();
-    // Ends the link after a broken rule: the next check begins with a new one.
-    void abandon_link() { link_.reset(); }
+    // Ends session and link after a broken rule: the next check begins with new ones.
+    void abandon_link();
     bool link_has_ended() const { return !link_ || link_->has_ended(); }
 
     // Sends the request, and waits for its answer.

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# rois-component-test passes both lamps, and finds the broken rule of each lamp of broken_lamp.py.
+# rois-component-test passes both lamps and a robot, and finds the broken rule of each lamp of broken_lamp.py.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$here/../..
@@ -30,6 +30,7 @@ breaks() {
 
 judge python python3 -B "$root/components/sdk/python/lamp.py"
 judge cpp "$bin/rois-lamp"
+judge robot --only answers_ "$bin/rois-test-robot"
 breaks answers_twice keeps_its_session
 breaks answers_without_request_id opens_a_session
 breaks completes_twice completes_start_once
@@ -56,6 +57,7 @@ for lamp in python cpp; do
     grep -q ' 0 found a broken rule, 0 could not be played' "$work/$lamp" || fail "the lamp in $lamp" "$work/$lamp"
     grep -q '<testsuite name="Component lamp"' "$work/$lamp.xml" || fail "no JUnit report" "$work/$lamp.xml"
 done
+grep -q ' checks held, 0 found a broken rule' "$work/robot" || fail "the robot" "$work/robot"
 for each in "${checks[@]}"; do
     read -r variant check <<<"$each"
     grep -q "BROKEN *$check " "$work/$variant" || fail "$variant: expected a broken $check" "$work/$variant"

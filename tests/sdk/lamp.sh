@@ -75,12 +75,14 @@ play() {
 play python3 -B "$root/components/sdk/python/lamp.py"
 play "$bin/rois-lamp"
 
+# Its frame is placed in that of the engine.
+printf '{"engines": [{"name": "lamps", "joins": "lamps", "position": [1000, 0, 0]}]}' >"$work/engines.json"
 start_gateway
 "$bin/rois-test-robot" --name lamps --url "$ROIS_URL" >"$work/robot.log" 2>&1 &
 robot=$!
 running+=("$robot")
 wait_for 'present with 15 components' "$work/gateway.log"
-expect '1001, 2000, 0' "$bin/rois" query robot_position
+expect '2001, 2000, 0' "$bin/rois" query robot_position
 expect 'OK' "$bin/rois" start lamps.navigation target_position=desk
 expect "'cellar'" "$bin/rois" start lamps.navigation target_position=cellar
 kill -TERM "$robot"
