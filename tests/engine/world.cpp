@@ -98,7 +98,11 @@ std::vector<std::string> Application::heard(std::size_t most) {
     return words;
 }
 
-World::World(std::vector<Part> const& parts, EngineSettings settings) {
+World::World(std::vector<Part> const& parts, EngineSettings settings) { restart(parts, settings); }
+
+void World::restart(std::vector<Part> const& parts, EngineSettings settings) {
+    components_.clear();
+    stage_ = std::make_shared<Stage>();
     EngineProfile profile;
     profile.object = {
         .identifier = "urn:x-rois:def:HRIEngine:test", .code_space = {}, .name = "main", .description = {}, .meta_data = {}};

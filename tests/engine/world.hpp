@@ -106,6 +106,9 @@ public:
     ScriptedComponent& operator[](std::string_view ref) { return *components_.at(std::string{ref}); }
     void advance(std::chrono::milliseconds);
 
+    // The process has died and begun again: the engine has no sessions, and components in their first state.
+    void restart(std::vector<Part> const& parts, EngineSettings settings = {});
+
     // Removes and adds components in one step.
     void change(std::vector<std::string> going, std::vector<Part> const& coming);
     // This component has been removed in another way.

@@ -1,4 +1,4 @@
-// Links, sub engines and applications fail at random moments: every acknowledged command ends exactly once, and no robot acts on
+// Links, sub engines, their programs and applications fail at random moments: every acknowledged command ends exactly once, and no robot acts on
 // when its application or the link to its engine has gone.
 #include <algorithm>
 #include <map>
@@ -52,7 +52,7 @@ private:
 
     void act() {
         auto const& desk = *desk_;
-        switch (below(12)) {
+        switch (below(13)) {
             case 0:
             case 1:
                 begin(Bind{Application::identifier("hall.navigation")});
@@ -80,11 +80,15 @@ private:
                 engines_.repair();
                 engines_.hold_back(one_in(4));
                 break;
-            case 10:  // the sub engine restarts
+            case 10:  // its component leaves, and another one comes
                 if (one_in(3)) engines_.hall.change({"navigation"}, {moving(navigation)});
                 begins_ = {};
                 break;
-            case 11:  // the application ends
+            case 11:  // its program dies
+                if (one_in(3)) engines_.restart_hall();
+                begins_ = {};
+                break;
+            case 12:  // the application ends
                 if (!one_in(4)) break;
                 collect();
                 engines_.main.engine->end(desk.session, engines_.main.now);

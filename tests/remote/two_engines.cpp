@@ -185,7 +185,7 @@ remote::SubEngine TwoEngines::hall_settings() {
 }
 
 TwoEngines::TwoEngines(std::vector<Part> const& parts, remote::SubEngine settings, std::string const& crs_of_hall)
-    : main{std::vector<Part>{}, {}}, hall{parts, {}}, host_{std::make_shared<Host>(*this)} {
+    : main{std::vector<Part>{}, {}}, hall{parts, {}}, parts_{parts}, host_{std::make_shared<Host>(*this)} {
     remote_ = std::make_shared<remote::RemoteEngine>(std::move(settings), host_);
     if (!crs_of_hall.empty()) {
         main.engine->describe({.frames = {"here"}, .all = {}});
@@ -266,6 +266,12 @@ void TwoEngines::inject(Notification const& notification) {
 void TwoEngines::cut() {
     is_broken_ = true;
     if (wire_ && !wire_->is_dead()) wire_->broke();
+}
+
+void TwoEngines::restart_hall() {
+    cut();
+    hall.restart(parts_);
+    repair();
 }
 
 std::vector<std::string> TwoEngines::asked() { return std::exchange(asked_, {}); }

@@ -55,6 +55,8 @@ public:
     // Breaks the link. It cannot be opened before `repair`.
     void cut();
     void repair() { is_broken_ = false; }
+    // The hall's process is killed, and begins again.
+    void restart_hall();
     bool is_cut() const { return is_broken_; }
     // Breaks the link after this number of further documents.
     void cut_after(int documents) { until_cut_ = documents; }
@@ -86,6 +88,7 @@ private:
 
     bool deliver();
 
+    std::vector<Part> const parts_;
     std::shared_ptr<Host> host_;
     std::shared_ptr<remote::RemoteEngine> remote_;
     std::shared_ptr<Wire> wire_;
