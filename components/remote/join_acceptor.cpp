@@ -81,7 +81,7 @@ private:
 JoinAcceptor::JoinAcceptor(client::Loop& loop, std::shared_ptr<xml::Schemas const> schemas, Find find)
     : loop_{loop}, reader_{std::move(schemas)}, find_{std::move(find)} {
     settings_.ping_interval = ping_interval;
-    settings_.longest_document = SubEngine{}.longest_document;
+    settings_.longest_document = largest_document;
 }
 
 void JoinAcceptor::open(int socket, std::string head) {

@@ -103,7 +103,7 @@ private:
         auto& settings = settings_[to.name];
         settings.url = to.url;
         settings.ping_interval = ping_interval;
-        settings.longest_document = to.longest_document;
+        settings.longest_document = largest_document;
         return client::websocket_link(loop_, client::read_url(to.url), settings, listener);
     }
 

@@ -102,8 +102,11 @@ void RemoteEngine::connected() {
 
 void RemoteEngine::document(std::string_view text) {
     auto const self = shared_from_this();
+    if (text.size() > settings_.longest_document)
+        return end_session("a document of " + std::to_string(text.size()) + " bytes: expected at most " +
+                           std::to_string(settings_.longest_document) + " (longest_document)");
     auto const read = reader_.read(text);
-    if (!read) return give_up_link("invalid document: expected an answer or a notification, not " + quoted(text, 100));
+    if (!read) return end_session("invalid document: expected an answer or a notification, not " + quoted(text, 100));
     std::visit([this](auto const& message) { take(message); }, *read);
     if (++documents_ % between_checks != 0 || !link_ || !is_flooded()) return;
     link_->pause();
@@ -192,10 +195,15 @@ void RemoteEngine::opened(Connect::Reply const& reply) {
 }
 
 void RemoteEngine::session_ended() {
-    give_up("its session has ended");
-    session_ = {};
     failures_ = 0;  // it answers
-    give_up_link("its session has ended");
+    end_session("its session has ended");
+}
+
+// A resumed session would receive the same again.
+void RemoteEngine::end_session(std::string const& reason) {
+    give_up(reason);
+    session_ = {};
+    give_up_link(reason);
 }
 
 // If this engine has given up the session, ends it there too, so that none of its commands goes on.

@@ -19,6 +19,8 @@ struct Placement {
     bool operator==(Placement const&) const = default;
 };
 
+constexpr std::size_t largest_document = 64'000'000;  // bytes: no link takes more
+
 struct SubEngine {
     std::string name;                     // prefix of the names of its components, engines and frames
     std::string url;                      // its gateway; empty: the sub engine joins
@@ -36,7 +38,7 @@ struct SubEngine {
     // How long its robot keeps moving without a sign of life from this engine.
     std::chrono::milliseconds motion_lease = std::chrono::seconds{1};
     std::size_t most_components = 1'000;
-    std::size_t longest_document = 4'000'000;  // bytes
+    std::size_t longest_document = 4'000'000;  // bytes, at most largest_document
 
     bool operator==(SubEngine const&) const = default;
 };

@@ -129,6 +129,12 @@ std::chrono::milliseconds seconds_of(json const& value, double least, double mos
     throw Expected{"a number of seconds from " + number(least) + " to " + number(most)};
 }
 
+std::size_t number_of(json const& value, std::size_t least, std::size_t most) {
+    auto const number = value.is_number_unsigned() ? value.get<std::size_t>() : 0;
+    if (number >= least && number <= most) return number;
+    throw Expected{"a whole number from " + std::to_string(least) + " to " + std::to_string(most)};
+}
+
 remote::Placement& placement(SubEngine& engine) { return engine.placement ? *engine.placement : engine.placement.emplace(); }
 
 struct Property {
@@ -157,10 +163,9 @@ std::vector<Property> const& properties() {
         {"window", [](SubEngine& engine, json const& value) { engine.window = seconds_of(value, 1, 60); }},
         {"resume_window", [](SubEngine& engine, json const& value) { engine.resume_window = seconds_of(value, 1, 86'400); }},
         {"motion_lease", [](SubEngine& engine, json const& value) { engine.motion_lease = seconds_of(value, 0.5, 3'600); }},
-        {"most_components", [](SubEngine& engine, json const& value) {
-             auto const most = value.is_number_unsigned() ? value.get<std::size_t>() : 0;
-             if (most < 1 || most > 100'000) throw Expected{"a whole number from 1 to 100000"};
-             engine.most_components = most;
+        {"most_components", [](SubEngine& engine, json const& value) { engine.most_components = number_of(value, 1, 100'000); }},
+        {"longest_document", [](SubEngine& engine, json const& value) {
+             engine.longest_document = number_of(value, 100'000, remote::largest_document);
          }}};
     return all;
 }

@@ -38,7 +38,7 @@ TEST(EnginesFile, ListsSubEngines) {
 {"engines": [
     {"name": "hall", "url": "ws://hall:8080"},
     {"name": "robot-1", "url": "https://robot", "components": ["navigation"], "window": 1.5, "resume_window": 60,
-     "motion_lease": 0.5, "most_components": 20, "position": [1, 2, 3], "orientation": [0, 0, 90],
+     "motion_lease": 0.5, "most_components": 20, "longest_document": 200000, "position": [1, 2, 3], "orientation": [0, 0, 90],
      "covariance": [4, 0, 0, 0, 4, 0, 0, 0, 1]}
 ]})");
     ASSERT_EQ(engines.size(), 2u);
@@ -50,6 +50,7 @@ TEST(EnginesFile, ListsSubEngines) {
     EXPECT_EQ(engines[1].resume_window, 60s);
     EXPECT_EQ(engines[1].motion_lease, 500ms);
     EXPECT_EQ(engines[1].most_components, 20u);
+    EXPECT_EQ(engines[1].longest_document, 200'000u);
     ASSERT_TRUE(engines[1].placement);
     EXPECT_THAT(engines[1].placement->position, ElementsAre(1, 2, 3));
     EXPECT_THAT(engines[1].placement->orientation, ElementsAre(0, 0, 90));
@@ -87,7 +88,7 @@ TEST(EnginesFile, NamesThePlaceOfEachMistake) {
     EXPECT_EQ(
         with(R"("colour": 1)"),
         "4:2: sub engine 'b': 'colour' is not a key of a sub engine: expected one of name, url, joins, command, components, "
-        "position, orientation, covariance, window, resume_window, motion_lease, most_components");
+        "position, orientation, covariance, window, resume_window, motion_lease, most_components, longest_document");
     EXPECT_EQ(
         with(R"("command": "lamp")"),
         R"(4:2: sub engine 'b': command must be a program and its arguments, such as ["python3", "lamp.py"], not '"lamp"')");
@@ -108,6 +109,8 @@ TEST(EnginesFile, NamesThePlaceOfEachMistake) {
     EXPECT_EQ(with(R"("position": [1, 2])"), "4:2: sub engine 'b': position must be [x, y, z] in mm, not '[1,2]'");
     EXPECT_EQ(with(R"("most_components": 0)"),
               "4:2: sub engine 'b': most_components must be a whole number from 1 to 100000, not '0'");
+    EXPECT_EQ(with(R"("longest_document": 1)"),
+              "4:2: sub engine 'b': longest_document must be a whole number from 100000 to 64000000, not '1'");
     EXPECT_EQ(with(R"("resume_window": 1)"),
               "4:2: sub engine 'b': resume_window (1.0 s) must not be shorter than window (3.0 s)");
     EXPECT_THAT(with(R"("covariance": [1, 0, 0, 0, -1, 0, 0, 0, 1])"), testing::StartsWith("4:2: sub engine 'b': "));

@@ -1,5 +1,5 @@
-// Links, sub engines, their programs and applications fail at random moments: every acknowledged command ends exactly once, and no robot acts on
-// when its application or the link to its engine has gone.
+// Links, sub engines, their programs and applications fail at random moments: every acknowledged command ends exactly once, and
+// no robot acts on when its application or the link to its engine has gone.
 #include <algorithm>
 #include <map>
 #include <optional>

@@ -102,6 +102,17 @@ TEST_F(ALyingSubEngine, IsRefusedWithTooManyComponents) {
     EXPECT_EQ(reported(), "it has more than 1000 components");
 }
 
+TEST_F(ALyingSubEngine, IsRefusedWithALongDocument) {
+    after([](auto& reply) {
+        auto changed = *reply.components[0].profile;
+        changed.object.description = std::string(5'000'000, 'x');
+        reply.components[0].profile = std::make_shared<ComponentProfile const>(changed);
+    });
+    EXPECT_THAT(reported(), HasSubstr("bytes: expected at most 4000000 (longest_document)"));
+    engines.advance(31s);
+    EXPECT_THAT(desk.search(), IsEmpty());
+}
+
 TEST_F(ALyingSubEngine, IsRefusedWithMoreThanEightLevels) {
     auto const deep = [](auto& profile) {
         auto whole = *profile.profile;
