@@ -231,7 +231,7 @@ void Engine::Core::Inquiry::sort(std::vector<Match>& found, Perspective& looked_
     }
     std::vector<Match> ordered;
     ordered.reserve(found.size());
-    for (auto const place : selection_.order(candidates)) ordered.push_back(std::move(found[place]));
+    for (auto const place : selection_.order(candidates)) ordered.push_back(found[place]);
     found = std::move(ordered);
     Preference{*looked_at.asker()}.bring_forward(found,
                                                  [&](Match const& match) { return possible_[match.place].component.get(); });
