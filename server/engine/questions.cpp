@@ -66,8 +66,7 @@ void Questions::end(Open const& question, std::optional<ComponentAnswer>&& answe
 bool Questions::is_open(Ticket ticket) const { return std::ranges::binary_search(open_, ticket, {}, &Open::ticket); }
 
 void Questions::expire(Instant now) {
-    auto const late =
-        std::ranges::stable_partition(open_, [&](Open const& open) { return now.steady < open.round->due_; });
+    auto const late = std::ranges::stable_partition(open_, [&](Open const& open) { return now.steady < open.round->due_; });
     std::vector<Open> const over{std::move_iterator{late.begin()}, std::move_iterator{late.end()}};
     open_.erase(late.begin(), late.end());
     Attempts attempts;

@@ -280,9 +280,7 @@ inline std::shared_ptr<xml::Schemas const> schemas() {
 }
 
 // The profiles of the basic components.
-inline std::vector<ComponentProfile> own_profiles() {
-    return xml::read_component_profiles(schemas(), files::profiles());
-}
+inline std::vector<ComponentProfile> own_profiles() { return xml::read_component_profiles(schemas(), files::profiles()); }
 
 // An example of a user-defined component (components/simulation/profiles).
 inline ComponentProfile shipped_profile(std::string const& file) {

@@ -1,6 +1,5 @@
 #include "fuzz/change.hpp"
 
-
 #include "fuzz/pieces.hpp"
 
 namespace rois::fuzz {

@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-
 #include "main/command_line.hpp"
 #include "main/temporary_file.hpp"
 

@@ -1,6 +1,5 @@
 #include "model/difference.hpp"
 
-
 #include "model/subject.hpp"
 
 namespace rois::model {

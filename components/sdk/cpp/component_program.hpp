@@ -36,8 +36,8 @@ int serve(int argc, char const* const* argv, std::string name) {
     });
 }
 
-// A robot (basic/body/body.hpp). In each tick, at least every 50 ms, `device` lets the time of the body pass: it reads the hardware, and notifies the
-// body's observers. Both may be one object.
+// A robot (basic/body/body.hpp). In each tick, at least every 50 ms, `device` lets the time of the body pass: it reads the
+// hardware, and notifies the body's observers. Both may be one object.
 struct Robot {
     std::shared_ptr<basic::Body> body;
     std::shared_ptr<Device> device;

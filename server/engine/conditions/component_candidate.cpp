@@ -1,6 +1,5 @@
 #include "engine/conditions/component_candidate.hpp"
 
-
 #include "engine/conditions/referred.hpp"
 #include "engine/frames/perspective.hpp"
 #include "engine/frames/space.hpp"

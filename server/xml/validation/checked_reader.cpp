@@ -1,6 +1,5 @@
 #include "xml/validation/checked_reader.hpp"
 
-
 #include "types/text/texts.hpp"
 #include "xml/codec/place.hpp"
 #include "xml/codec/tree.hpp"

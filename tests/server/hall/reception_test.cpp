@@ -118,7 +118,8 @@ TEST(TheReceptionScript, ReceivesAVisitor) {
     auto const text =
         printed_by("ROIS_URL=" + gateway.url() + " " ROIS_SOURCE_DIR "/docs/examples/reception.sh 1 2>&1 >/dev/null");
     auto seen = steps(text);
-    std::erase_if(seen, [](auto const& step) { return step.ends_with("now; going on."); });  // the sensor may miss the visitor once
+    std::erase_if(seen,
+                  [](auto const& step) { return step.ends_with("now; going on."); });  // the sensor may miss the visitor once
     EXPECT_THAT(seen, ElementsAre("Connected to http://N.N.N.N:N; the robot stands at N, N, N.", "Waiting for somebody to come.",
                                   "There is somebody: N person(s).", HasSubstr("(mm, mm, degree); going there."),
                                   "Arrived at person-N.", "This is tanaka.", "Robot: \"Mr. Tanaka, your meeting is in room N.\"",

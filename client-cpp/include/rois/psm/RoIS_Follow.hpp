@@ -1,7 +1,6 @@
 // Follow in the C++ PSM (sections 7.6.14 and 7.7; table 47).
 #pragma once
 
-
 #include "RoIS_Common.hpp"
 
 namespace Follow {

@@ -1,7 +1,6 @@
 // Reaction in the C++ PSM (sections 7.6.12 and 7.7; table 45).
 #pragma once
 
-
 #include "RoIS_Common.hpp"
 
 namespace Reaction {
