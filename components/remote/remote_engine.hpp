@@ -106,7 +106,7 @@ private:
     void opened(Connect::Reply const&);
     void resumed(ReturnCode);
     void session_ended();
-    void end_session(std::string const& reason);
+    void reject(std::string const& problem);
     void send_again();
     void give_up_link(std::string const& reason);
     void give_up(std::string const& reason);

@@ -103,10 +103,10 @@ void RemoteEngine::connected() {
 void RemoteEngine::document(std::string_view text) {
     auto const self = shared_from_this();
     if (text.size() > settings_.longest_document)
-        return end_session("a document of " + std::to_string(text.size()) + " bytes: expected at most " +
-                           std::to_string(settings_.longest_document) + " (longest_document)");
+        return reject("a document of " + std::to_string(text.size()) + " bytes: expected at most " +
+                      std::to_string(settings_.longest_document) + " (longest_document)");
     auto const read = reader_.read(text);
-    if (!read) return end_session("invalid document: expected an answer or a notification, not " + quoted(text, 100));
+    if (!read) return reject("invalid document: expected an answer or a notification, not " + quoted(text, 100));
     std::visit([this](auto const& message) { take(message); }, *read);
     if (++documents_ % between_checks != 0 || !link_ || !is_flooded()) return;
     link_->pause();
@@ -195,15 +195,18 @@ void RemoteEngine::opened(Connect::Reply const& reply) {
 }
 
 void RemoteEngine::session_ended() {
+    give_up("its session has ended");
+    session_ = {};
     failures_ = 0;  // it answers
-    end_session("its session has ended");
+    give_up_link("its session has ended");
 }
 
-// A resumed session would receive the same again.
-void RemoteEngine::end_session(std::string const& reason) {
-    give_up(reason);
-    session_ = {};
-    give_up_link(reason);
+// Gives up the session: if it were resumed, it would receive the same document again. Until the session is ended there, ignores
+// such documents.
+void RemoteEngine::reject(std::string const& problem) {
+    if (is_given_up_ && is_open_) return;
+    give_up(problem);
+    give_up_link(problem);
 }
 
 // If this engine has given up the session, ends it there too, so that none of its commands goes on.

@@ -38,7 +38,7 @@ struct Failing {
     bool has_failed = false;
 };
 
-// The main engine reports failures of its own, as it does to the gateway's clock.
+// The engine throws its own failures, which the gateway's clock catches.
 void pass(TwoEngines& engines, std::chrono::milliseconds time) {
     for (auto passed = 0ms; passed < time; passed += 50ms) {
         try {

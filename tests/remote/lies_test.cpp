@@ -24,10 +24,12 @@ struct ALyingSubEngine : testing::Test {
 }  // namespace
 
 TEST_F(ALyingSubEngine, IsLeftIfItSendsNoDocument) {
+    engines.bind(desk, "hall.navigation");
     engines.inject("no document");
     EXPECT_THAT(reported(), testing::StartsWith("invalid document: expected an answer or a notification, not '"));
     engines.advance(1s);
-    EXPECT_EQ(desk.status_of("hall.navigation"), "READY") << "the link is back";
+    EXPECT_EQ(desk.status_of("hall.navigation"), "READY") << "there is a new session";
+    EXPECT_EQ(engines.execute(desk, go("go", "hall.navigation")).return_code, ReturnCode::ok) << "the component is bound again";
 }
 
 TEST_F(ALyingSubEngine, UnrequestedAnswersAreIgnored) {
