@@ -66,8 +66,11 @@ void Questions::end(Open const& question, std::optional<ComponentAnswer>&& answe
 bool Questions::is_open(Ticket ticket) const { return std::ranges::binary_search(open_, ticket, {}, &Open::ticket); }
 
 void Questions::expire(Instant now) {
-    auto const late = std::ranges::stable_partition(open_, [&](Open const& open) { return now.steady < open.round->due_; });
-    std::vector<Open> const over{std::move_iterator{late.begin()}, std::move_iterator{late.end()}};
+    auto const is_in_time = [&](Open const& open) { return now.steady < open.round->due_; };
+    std::vector<Open> over;
+    over.reserve(open_.size() - static_cast<std::size_t>(std::ranges::count_if(open_, is_in_time)));  // nothing has changed yet
+    auto const late = std::ranges::stable_partition(open_, is_in_time);
+    std::ranges::move(late, std::back_inserter(over));
     open_.erase(late.begin(), late.end());
     Attempts attempts;
     for (auto const& question : over) {

@@ -13,9 +13,6 @@ namespace rois {
 
 namespace {
 
-using testing::Contains;
-using testing::HasSubstr;
-
 // The n-th allocation on the thread of the links fails.
 struct Failing {
     Failing(TwoEngines& engines, std::uint64_t n) : left{n} {
