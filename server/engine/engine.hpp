@@ -29,6 +29,8 @@ public:
     virtual ~Outbox() = default;
     // Called when the session's queue has new entries, or was closed. Must not throw.
     virtual void notify(NotificationQueue&) = 0;
+    // Called after calls of `notify`, before the engine releases the lock in `work`.
+    virtual void flush() noexcept {}
 };
 
 // Why an operation was not performed at all. The network layer answers with a fault.

@@ -15,6 +15,7 @@ void Engine::Core::work(std::unique_lock<std::mutex>& lock, Instant now, Provide
         auto provider = to_run_.take();
         if (!provider && runner == Provider::Runner::clock) provider = left_for_clock_.take();
         if (provider) {
+            notifier_.flush();
             lock.unlock();
             bool const left = provider->run(runner);
             lock.lock();
@@ -24,6 +25,7 @@ void Engine::Core::work(std::unique_lock<std::mutex>& lock, Instant now, Provide
                 inbox_->wake();
                 break;
             }
+            notifier_.flush();
             lock.unlock();
             std::this_thread::yield();
             lock.lock();

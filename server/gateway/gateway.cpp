@@ -42,20 +42,20 @@ void Hold::release() {
     auto* const gateway = std::exchange(gateway_, nullptr);
     if (!gateway) return;
     if (!queue_->release(place_)) return;
-    std::lock_guard const lock{gateway->mutex_};
+    Gateway::Lock const lock{*gateway};
     gateway->readers_.notify(*queue_);
 }
 
 // Must not fail: neither call allocates.
 Reading::~Reading() {
     if (!queue_) return;
-    std::lock_guard const lock{gateway_.mutex_};
+    Gateway::Lock const lock{gateway_};
     gateway_.readers_.leave(session(), reader_);
     gateway_.engine_.link_closed(session(), link_, closing_, present());
 }
 
 void Reading::note_pong() {
-    std::lock_guard const lock{gateway_.mutex_};
+    Gateway::Lock const lock{gateway_};
     gateway_.engine_.note_pong(session(), present());
 }
 
@@ -250,7 +250,7 @@ Fault Gateway::fault_of(Refusal refusal) {
 PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via via, std::weak_ptr<Reader> waits,
                                std::shared_ptr<Opener> const& opener, Reading const* reading, Instant now) {
     Hold hold;  // ends without the lock
-    std::unique_lock lock{mutex_};
+    Lock lock{*this};
     auto queue = reading != nullptr ? reading->queue_
                  : via == Via::http ? engine_.note_request(session, now)
                                     : engine_.notifications(session);
@@ -276,7 +276,6 @@ PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via 
     engine_.work(lock, now);
     hold.leave();
     exchange->wait();
-    lock.unlock();
     return {std::move(exchange), std::move(hold)};
 }
 
@@ -306,7 +305,7 @@ std::optional<Fault> Gateway::refusal_of(Opener const& opener) {
 std::variant<std::unique_ptr<Reading>, Fault> Gateway::read(SessionId const& session, LinkKind link, std::uint64_t after,
                                                             Reader& reader, Readers::Until until) {
     auto reading = std::make_unique<Reading>(*this, link, after, reader);
-    std::lock_guard const lock{mutex_};
+    Lock const lock{*this};
     auto queue = engine_.notifications(session);
     if (!queue || queue->closed()) return no_such_session();
     if (auto const last = queue->last_sequence(); after > last) return beyond(after, last);
@@ -327,7 +326,7 @@ std::variant<std::unique_ptr<Reading>, Fault> Gateway::read(SessionId const& ses
 void Gateway::begin() {
     auto const now = present();
     engine_.on_report([this] { alarm_.ring(); });
-    std::unique_lock lock{mutex_};
+    Lock lock{*this};
     engine_.begin(now);
     engine_.work(lock, now, Provider::Runner::clock);
     telemetry_.ticked(now.steady);
@@ -351,7 +350,7 @@ bool Gateway::await_reports(Steady until) { return alarm_.wait_until(until); }
 
 void Gateway::handle_reports() {
     auto const now = present();
-    std::unique_lock lock{mutex_};
+    Lock lock{*this};
     engine_.work(lock, now, Provider::Runner::clock);
 }
 
@@ -369,7 +368,7 @@ void Gateway::tick() {
     auto const now = present();
     save_memory(now.steady);
     {
-        std::unique_lock lock{mutex_};
+        Lock lock{*this};
         Attempts attempts;
         attempts([&] { engine_.tick(now); });
         attempts([&] { engine_.work(lock, now, Provider::Runner::clock); });
@@ -386,18 +385,19 @@ void Gateway::halt_at_last() noexcept {
     Attempts attempts;  // a failure of one component does not keep the others from halting
     attempts([&] { engine_.stop_everything(present()); });
     attempts([&] { engine_.work(lock, present(), Provider::Runner::clock); });
+    readers_.flush();
 }
 
 void Gateway::change(ComponentChange change) {
     auto const now = present();
-    std::unique_lock lock{mutex_};
+    Lock lock{*this};
     engine_.change(std::move(change), now);
     engine_.work(lock, now);
 }
 
 StopState Gateway::stop_everything() {
     auto const now = present();
-    std::unique_lock lock{mutex_};
+    Lock lock{*this};
     Attempts attempts;
     attempts([&] { engine_.stop_everything(now); });
     attempts([&] { engine_.work(lock, now); });
@@ -406,7 +406,7 @@ StopState Gateway::stop_everything() {
 }
 
 StopState Gateway::clear() {
-    std::lock_guard const lock{mutex_};
+    Lock const lock{*this};
     engine_.clear();
     return {engine_.everything_is_stopped(), engine_.not_halted()};
 }
@@ -428,7 +428,7 @@ std::vector<std::string> Gateway::not_ready() const {
 
 void Gateway::shut_down() {
     auto const now = present();
-    std::unique_lock lock{mutex_};
+    Lock lock{*this};
     shutting_down_ = true;
     engine_.shut_down(now);
     engine_.work(lock, now);

@@ -203,6 +203,18 @@ private:
     friend class Hold;
     friend class Reading;
 
+    // Locks the engine. Its end wakes the readers that were notified meanwhile.
+    class Lock : public std::unique_lock<std::mutex> {
+    public:
+        explicit Lock(Gateway& gateway) : unique_lock{gateway.mutex_}, readers_{gateway.readers_} {}
+        ~Lock() { readers_.flush(); }
+        Lock(Lock const&) = delete;
+        Lock& operator=(Lock const&) = delete;
+
+    private:
+        Readers& readers_;
+    };
+
     PendingAnswer perform(SessionId const&, Request&&, Via, std::weak_ptr<Reader> waits, std::shared_ptr<Opener> const&,
                           Reading const*, Instant now);
     PendingAnswer refused(Fault);

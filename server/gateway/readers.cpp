@@ -29,9 +29,15 @@ Reader::Reader(Wakes& wakes) : wakes_{wakes} { wakes_.enter(); }
 
 Reader::~Reader() { wakes_.leave(); }
 
+// Returns whether the loop must be woken, too.
+bool Reader::line_up() noexcept {
+    if (waiting_.exchange(true)) return false;
+    auto self = weak_from_this().lock();
+    return self && wakes_.add(std::move(self));
+}
+
 void Reader::wake() noexcept {
-    if (waiting_.exchange(true)) return;
-    if (auto self = weak_from_this().lock()) wakes_.add(std::move(self));
+    if (line_up()) wakes_.request_turn();
 }
 
 void Reader::take_over() noexcept {
@@ -102,7 +108,15 @@ std::size_t Readers::streams(NotificationQueue const& queue) {
 void Readers::notify(NotificationQueue& queue) {
     auto const* const audience = audience_of(queue);
     if (audience == nullptr) return;
-    for (auto const& one : audience->joined) one.reader->wake();
+    for (auto const& one : audience->joined)
+        if (one.reader->line_up()) one.reader->wakes_.next_to_wake_ = std::exchange(to_wake_, &one.reader->wakes_);
+}
+
+void Readers::flush() noexcept {
+    while (auto* const wakes = to_wake_) {
+        to_wake_ = wakes->next_to_wake_;
+        wakes->request_turn();
+    }
 }
 
 }  // namespace rois

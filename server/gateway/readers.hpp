@@ -32,7 +32,9 @@ protected:
     Wakes& wakes() { return wakes_; }
 
 private:
+    friend class Readers;
     friend class Wakes;
+    bool line_up() noexcept;
     void serve();
 
     // Called on the reader's own thread.
@@ -45,6 +47,9 @@ private:
 };
 
 // The engine's outbox: wakes the readers of a session. Guarded by the gateway's mutex, as the engine is.
+//
+// `notify` queues the readers, and `flush` then wakes each of their loops once. If `notify` woke a loop, the loop would often serve
+// that one reader while the engine notifies the next one, and be woken again for each of a thousand subscribers.
 class Readers : public Outbox {
 public:
     // When the reader leaves: a long poll leaves when it is answered.
@@ -59,6 +64,7 @@ public:
     static std::size_t streams(NotificationQueue const&);
 
     void notify(NotificationQueue&) override;
+    void flush() noexcept override;
 
 private:
     struct Audience;
@@ -66,6 +72,7 @@ private:
     std::shared_ptr<Audience> const& with_room(SessionId const&, std::shared_ptr<void> const& known);
 
     std::unordered_map<SessionId, std::shared_ptr<Audience>, IdHash> audiences_;  // of sessions with a reader
+    Wakes* to_wake_ = nullptr;  // by `flush`: the first one, which knows the next
 };
 
 }  // namespace rois

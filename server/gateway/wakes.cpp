@@ -34,13 +34,10 @@ void Wakes::leave() {
 }
 
 // A reader waits at most once, so there is room.
-void Wakes::add(std::shared_ptr<Reader> reader) noexcept {
-    {
-        std::lock_guard const lock{mutex_};
-        waiting_.push_back(std::move(reader));
-        if (std::exchange(posted_, true)) return;
-    }
-    request_turn();
+bool Wakes::add(std::shared_ptr<Reader> reader) noexcept {
+    std::lock_guard const lock{mutex_};
+    waiting_.push_back(std::move(reader));
+    return !std::exchange(posted_, true);
 }
 
 void Wakes::request_turn() noexcept {

@@ -24,8 +24,9 @@ public:
     void enter();
     void leave();
 
-    // Thread-safe. The loop's thread will call `Reader::woken`.
-    void add(std::shared_ptr<Reader>) noexcept;
+    // Thread-safe. The loop's thread will call `Reader::woken`. If `add` returns true, call `request_turn` soon.
+    [[nodiscard]] bool add(std::shared_ptr<Reader>) noexcept;
+    void request_turn() noexcept;
 
     // Serves some of the readers, and requests another turn if more wait. Call it on the loop's thread.
     void serve();
@@ -34,7 +35,8 @@ public:
     void look_after() noexcept;
 
 private:
-    void request_turn() noexcept;
+    friend class Readers;
+
     bool take_more();
     void yield_core();
 
@@ -44,10 +46,12 @@ private:
     std::size_t served_ = 0;                        // the first `served_` of these are done
     std::size_t in_a_row_ = 0;                      // served since the queue was empty or the core was yielded
 
+    Wakes* next_to_wake_ = nullptr;  // used only by Readers
+
     std::mutex mutex_;  // guards the members below
     std::vector<std::shared_ptr<Reader>> waiting_;
     std::size_t readers_ = 0;
-    bool posted_ = false;  // a turn is requested
+    bool posted_ = false;  // a turn is requested, or will be by the caller of `add`
 };
 
 }  // namespace rois

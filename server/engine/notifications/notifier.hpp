@@ -50,6 +50,9 @@ public:
         outbox_.notify(*session.notifications);
     }
 
+    // Lets the outbox deliver the notifications. Call it before the engine's lock is released.
+    void flush() { outbox_.flush(); }
+
     // Returns whether a queue overflowed since the last call (decision 23).
     bool take_overflowed() { return std::exchange(overflowed_, false); }
 
