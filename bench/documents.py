@@ -107,7 +107,7 @@ def all_documents():
     for burst in (1, 8, 100):
         documents[f"fire-{burst}"] = execute([unit("probe0", "fire", parameter("rois:parameter", "burst", "int", burst))])
     documents["bind-probe0"] = documents["bind"].replace("{connection}", "0")
-    for name in ("bind-probe0", "fire-8"):
+    for name in ("bind-probe0", "fire-100"):
         documents[f"{name}-hall"] = documents[name].replace("probe0", "hall.probe0")
     documents["subscribe"] = subscribe("probed")
     documents["subscribe-conditioned"] = subscribe("probed", [is_equal("value", 42), is_equal("stamp", "nowhere")])

@@ -14,7 +14,7 @@ ONE_LOCAL = "query 0.6 kB, own component, 1 connection"
 ONE_REMOTE = "query 0.6 kB, sub engine, 1 connection"
 
 SUBSCRIBERS = 64  # as many as requests in flight
-BURST = 8  # events of one command, so that the command hardly counts
+BURST = 100  # events of one command, so that the command hardly counts
 EVENT_LOCAL = f"event to {SUBSCRIBERS} subscribers, own component"
 EVENT_MAIN = f"event to {SUBSCRIBERS} subscribers, sub engine: CPU of the main engine"
 EVENT_BOTH = f"event to {SUBSCRIBERS} subscribers, sub engine: CPU of both engines"
