@@ -93,7 +93,7 @@ private:
             ->option_text("SECONDS")
             ->check(within(0.01, 86'400));
         auto* const xml = app_.add_flag("--xml", raw_.xml, "write XML documents");
-        app_.add_flag("--json", raw_.json, "write JSON, one object a line")->excludes(xml);
+        app_.add_flag("--json", raw_.json, "write JSON, one object per line")->excludes(xml);
         app_.add_option("--colour", options_.colour, "auto, always or never [auto]")
             ->option_text("WHEN")
             ->check(CLI::IsMember({"auto", "always", "never"}));
@@ -224,7 +224,7 @@ private:
         auto& replay = command("replay", "serve a recording as an engine");
         replay.add_option("FILE", options_.file, "the recording")->required()->option_text(" ");
         listening(replay, "address to serve at [127.0.0.1:8080]; port 0: any free port");
-        replay.add_option("--speed", options_.speed, "recorded seconds in a second [1]; 0: no pauses")
+        replay.add_option("--speed", options_.speed, "playback speed: 2 is twice as fast [1]; 0: no pauses")
             ->option_text("X")
             ->check(within(0, 1e6));
         auto& scenario = command("scenario", "run the state machine of a robot scenario");

@@ -158,7 +158,7 @@ private:
     double notifications_ = 0;              // received ones, less 5,000 for each second that has passed
     Steady counted_at_{};                   // the end of the last of these seconds
     std::uint64_t documents_ = 0;           // number of received documents
-    std::uint64_t era_ = 0;                 // counts attempts and lost links: alarms of an earlier era do nothing
+    std::uint64_t era_ = 0;                 // incremented by each attempt and each lost link; a timer of an earlier era does nothing
     unsigned failures_ = 0;                 // failed attempts in a row
     bool is_present_ = false;               // the profile was read, and the components have not left
     bool is_given_up_ = false;              // the session is given up; it may still exist in the sub engine

@@ -27,17 +27,18 @@ std::string why_not_free(RegisteredComponent const& component) {
     return component.bound_to == nullptr ? why_not_halted(component) : held(component);
 }
 
-std::string did_not_answer(RegisteredComponent const& component) {
-    return "the component " + quoted(component.ref().code) + " did not answer in time";
+std::string did_not_answer(RegisteredComponent const& component, std::chrono::milliseconds deadline) {
+    return "the component " + quoted(component.ref().code) + " did not answer within " + in_seconds(deadline);
 }
 
 // Returns why the command cannot begin, or nullopt. Sets what the component has prepared.
-std::optional<Objection> why_not_prepared(Preparation& command, std::optional<ComponentAnswer>& answer, Session const& session) {
+std::optional<Objection> why_not_prepared(Preparation& command, std::optional<ComponentAnswer>& answer, Session const& session,
+                                          std::chrono::milliseconds deadline) {
     auto const& component = *command.component;
     auto const objection = [&](ReturnCode code, std::string const& reason) {
         return Objection{code, command.path.empty() ? reason : command.path + ": " + reason};
     };
-    if (!answer) return objection(ReturnCode::timeout, did_not_answer(component) + "; no command has begun");
+    if (!answer) return objection(ReturnCode::timeout, did_not_answer(component, deadline) + "; no command has begun");
     if (auto const* refused = std::get_if<Refused>(&*answer)) return objection(ReturnCode::bad_parameter, refused->reason);
     auto* begin = std::get_if<Begin>(&*answer);
     if (begin == nullptr) return objection(ReturnCode::error, "the component " + quoted(component.ref().code) + " failed");
@@ -107,12 +108,14 @@ Engine::Core::Later Engine::Core::perform(Session& session, Bind const& bind_, S
     if (!component->confirms_binding() || !component->is_free()) return bind(session, *component, now);
     auto then = [this, asked, shared = component->shared_from_this()](std::optional<ComponentAnswer>& answer, Instant when) {
         auto const make = [&](Session& asker) -> Later {
-            if (!answer) return refused<Bind::Reply>(ReturnCode::timeout, did_not_answer(*shared) + "; it is not bound");
+            if (!answer) return refused<Bind::Reply>(ReturnCode::timeout, did_not_answer(*shared, settings_.question_deadline) + "; it is not bound");
             if (auto* refusal = std::get_if<Refused>(&*answer))
                 return refused<Bind::Reply>(ReturnCode::out_of_resources, std::move(refusal->reason));
-            if (!std::holds_alternative<Done>(*answer) || shared->has_departed())
-                return refused<Bind::Reply>(ReturnCode::error,
-                                            "the component " + quoted(shared->ref().code) + " cannot be bound now");
+            if (!std::holds_alternative<Done>(*answer) || shared->has_departed()) {
+                auto const* failed = std::get_if<Failed>(&*answer);
+                return refused<Bind::Reply>(ReturnCode::error, "the component " + quoted(shared->ref().code) + " is not bound: " +
+                                                                   (failed != nullptr ? failed->reason : "it has left"));
+            }
             return bind(asker, *shared, when);
         };
         --shared->binds_asked;
@@ -177,7 +180,7 @@ Engine::Core::Later Engine::Core::bind_first(Session& session, SharedAsked const
                 }
             }
             if (!candidates.empty()) return bind_first(asker, asked, candidates, until, when);
-            if (!answer) return refused<BindAny::Reply>(ReturnCode::timeout, did_not_answer(*component) + "; nothing is bound");
+            if (!answer) return refused<BindAny::Reply>(ReturnCode::timeout, did_not_answer(*component, settings_.question_deadline) + "; nothing is bound");
             return refused<BindAny::Reply>(ReturnCode::error, "no component that matches the condition can be bound now");
         };
         --component->binds_asked;
@@ -240,7 +243,7 @@ Engine::Core::Later Engine::Core::prepare(Session& session, SharedAsked const& a
                              answer_later(*asked, [&](Session& asker) -> Later {
                                  auto next = answers.begin();
                                  for (auto& each : *prepared)
-                                     if (auto objection = each.asks() ? why_not_prepared(each, *next++, asker) : std::nullopt)
+                                     if (auto objection = each.asks() ? why_not_prepared(each, *next++, asker, settings_.question_deadline) : std::nullopt)
                                          return refused<typename Op::Reply>(objection->return_code, std::move(objection->reason));
                                  return then(asker, std::move(*prepared), when);
                              });

@@ -31,11 +31,6 @@ namespace {
 // A tick asks for pings for this long, so that they continue if the next tick is late.
 constexpr std::chrono::milliseconds signs_of_life_wanted{1'000};
 
-std::string in_seconds(std::chrono::nanoseconds time) {
-    auto const tenths = std::chrono::duration_cast<std::chrono::duration<std::int64_t, std::deci>>(time).count();
-    return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " s";
-}
-
 }  // namespace
 
 // Refuses the operation, if there is a reason, before it changes anything.
@@ -132,7 +127,7 @@ void Engine::Core::hold_unproven_motion(Instant now) {
             if (missed >= settings_.motion_lease)
                 executor_.hold(*component, "the engine stood still for " + in_seconds(missed), now);
             else if (now.steady >= session->lease.end())
-                executor_.hold(*component, "its application gave no sign of life in time", now);
+                executor_.hold(*component, "its application gave no sign of life within its motion lease", now);
         });
     }
     attempts.rethrow();  // before last_tick_ changes: the next tick then holds the components that could not be held
@@ -144,7 +139,7 @@ void Engine::Core::mark_overflowed() {
     for (auto const& [id, session] : sessions_) {
         if (session->ending || !session->notifications->overflowed()) continue;
         session->ending = true;
-        session->why_it_ends = "too many notifications waited for it";
+        session->why_it_ends = "more notifications waited than max_waiting_notifications allows";
         sessions_must_end_ = true;
     }
 }
@@ -336,7 +331,7 @@ void Engine::Core::end_if_lost(SessionId const& id, Instant now) {
     if (session == nullptr) return;
     bool const linked = session->lease.links() > 0;
     if (!linked && session->quiet_until + session->window <= now.steady)
-        return end(*session, "its link was lost and it was not resumed in time", now);
+        return end(*session, "its link was lost and it was not resumed within its window", now);
     constexpr std::chrono::minutes between_looks{1};
     await_end_of_window(*session, linked ? now.steady + between_looks : now.steady);
 }

@@ -49,7 +49,7 @@ void Wakes::request_turn() noexcept {
     }
 }
 
-void Wakes::look_after() noexcept {
+void Wakes::retry_turn() noexcept {
     {
         std::lock_guard const lock{mutex_};
         bool const waits = !waiting_.empty() || served_ < serving_.size();

@@ -32,7 +32,7 @@ public:
     void serve();
 
     // Requests again a turn that could not be requested because memory was missing. Call it regularly, on the loop's thread.
-    void look_after() noexcept;
+    void retry_turn() noexcept;
 
 private:
     friend class Readers;

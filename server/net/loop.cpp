@@ -33,43 +33,45 @@ Loop::Loop(Shared& shared)
       reader_{shared.schemas, shared.settings.document, shared.settings.validation},
       sweeps_for_all_{sweeps_for_all(shared.settings)},
       wakes_{[this] { asio::post(io_, [this] { wakes_.serve(); }); }, shared.troubles} {
-    always(Troubles::Where::sweep, [this] { return sweep(); });
+    run_forever(Troubles::Where::sweep, [this] { return sweep(); });
 }
 
-void Loop::always(Troubles::Where where, std::function<Task<>()> make) { duties_.push_back({where, std::move(make)}); }
+void Loop::run_forever(Troubles::Where where, std::function<Task<>()> make) {
+    background_.push_back({where, std::move(make)});
+}
 
-// Stops the loop when the duty ends or fails: then `run` starts it again.
-Task<> Loop::perform(Duty& duty) {
+// Stops the loop when the task ends or fails: then `run` starts it again.
+Task<> Loop::run(Background& task) {
     struct End {
         Loop& loop;
-        Duty& duty;
+        Background& task;
         bool returned = false;
         ~End() {
-            duty.goes_on = returned;
+            task.is_started = returned;
             loop.io_.stop();
         }
-    } end{*this, duty};
+    } end{*this, task};
     try {
-        co_await duty.make();
+        co_await task.make();
         end.returned = true;
     } catch (...) {
-        shared_.troubles.report(duty.where);
+        shared_.troubles.report(task.where);
     }
 }
 
-void Loop::look_after() {
-    for (auto& duty : duties_) {
-        if (duty.goes_on) continue;
-        asio::co_spawn(io_, perform(duty), asio::detached);
-        duty.goes_on = true;
+void Loop::start_background() {
+    for (auto& task : background_) {
+        if (task.is_started) continue;
+        asio::co_spawn(io_, run(task), asio::detached);
+        task.is_started = true;
     }
-    wakes_.look_after();
+    wakes_.retry_turn();
 }
 
 void Loop::run() {
     while (!over_) {
         try {
-            look_after();
+            start_background();
         } catch (...) {
             shared_.troubles.report(Troubles::Where::loop);
             std::this_thread::sleep_for(between_tries);
@@ -110,7 +112,7 @@ Task<> Loop::sweep() {
 }
 
 void Loop::sweep_now() noexcept {
-    wakes_.look_after();
+    wakes_.retry_turn();
     sweep_some(std::chrono::steady_clock::now());
     over_ = draining() && connections_.empty();
     if (over_) io_.stop();
@@ -141,15 +143,15 @@ bool Loop::cut_longest_idle() {
 }
 
 void Loop::add(Connection& connection) {
-    connection.seat_ = connections_.size();
+    connection.index_ = connections_.size();
     connections_.push_back(&connection);
 }
 
 // Moves the last connection to the free index.
 void Loop::remove(Connection const& connection) {
     auto* const last = connections_.back();
-    connections_[connection.seat_] = last;
-    last->seat_ = connection.seat_;
+    connections_[connection.index_] = last;
+    last->index_ = connection.index_;
     connections_.pop_back();
 }
 

@@ -37,7 +37,7 @@ public:
 
     // Adds a coroutine that runs until it returns. After an exception, which is reported, `make` is called again. Call this
     // before `run`.
-    void always(Troubles::Where, std::function<Task<>()>);
+    void run_forever(Troubles::Where, std::function<Task<>()>);
 
     // Runs until `shut_down` was called and the last connection has ended. Survives every exception.
     void run();
@@ -58,14 +58,14 @@ public:
 private:
     friend class Connection;
 
-    struct Duty {
+    struct Background {
         Troubles::Where where;
         std::function<Task<>()> make;
-        bool goes_on = false;  // or it has returned
+        bool is_started = false;  // false: not yet, or an exception has ended it
     };
 
-    Task<> perform(Duty&);
-    void look_after();
+    Task<> run(Background&);
+    void start_background();
     Task<> sweep();
     void sweep_now() noexcept;
     void sweep_some(Steady now);
@@ -77,7 +77,7 @@ private:
     std::vector<Connection*> connections_;
     std::size_t sweeps_for_all_;
     std::size_t swept_ = 0;  // index of the next connection to check
-    std::deque<Duty> duties_;
+    std::deque<Background> background_;
     bool over_ = false;
     Steady last_moment_ = Steady::max();  // set by shut_down: the remaining connections are cut then
     asio::io_context io_{1};

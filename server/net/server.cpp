@@ -55,9 +55,9 @@ public:
 
     bool run() {
         for (auto& listener : listeners_)
-            listener.loop().always(Troubles::Where::accept, [&listener] { return listener.accept(); });
-        first_.always(Troubles::Where::loop, [this] { return wait_for_signal(); });
-        if (on_hang_up_) first_.always(Troubles::Where::loop, [this] { return wait_for_hang_ups(); });
+            listener.loop().run_forever(Troubles::Where::accept, [&listener] { return listener.accept(); });
+        first_.run_forever(Troubles::Where::loop, [this] { return wait_for_signal(); });
+        if (on_hang_up_) first_.run_forever(Troubles::Where::loop, [this] { return wait_for_hang_ups(); });
         Clock const clock{shared_.settings.tick, shared_.gateway, troubles_};
         std::vector<std::jthread> threads;
         for (std::size_t i = 1; i < loops_.size(); ++i) threads.emplace_back([this, i] { loops_[i].run(); });

@@ -150,6 +150,16 @@ std::string in_utc(std::string_view text) {
 }
 
 // The clock counts nanoseconds, so that all years have four digits.
+std::string in_seconds(nanoseconds time) {
+    auto const all = round<milliseconds>(time).count();
+    auto text = std::to_string(all / 1'000);
+    if (auto const rest = all % 1'000; rest != 0) {
+        text += "." + std::to_string(1'000 + rest).substr(1);
+        text.resize(text.find_last_not_of('0') + 1);
+    }
+    return text + " s";
+}
+
 std::string to_text(Utc time) {
     auto const day = floor<days>(time);
     year_month_day const date{day};

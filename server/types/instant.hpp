@@ -34,6 +34,9 @@ std::optional<Utc> to_utc(std::string_view);
 // Returns a text unchanged if `to_utc` rejects it or its year in UTC does not have four digits.
 std::string in_utc(std::string_view);
 
+// Returns a time in seconds, with at most three decimals: "0.5 s", "30 s".
+std::string in_seconds(std::chrono::nanoseconds);
+
 // The time from `begin` to `end`; a moment if they are equal.
 struct Period {
     Utc begin;

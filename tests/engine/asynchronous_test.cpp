@@ -218,7 +218,7 @@ TEST_F(Asynchronous, NothingRunsIfOneOfTheCommandsIsNotPreparedInTime) {
     auto const asked = execute(desk, say("say"), go("go", "robot"));
     world.advance(1s);
     EXPECT_EQ(code_of(*asked), ReturnCode::timeout);
-    EXPECT_EQ(reason_of(*asked), "command_unit_list[2]: the component 'robot' did not answer in time; no command has begun");
+    EXPECT_EQ(reason_of(*asked), "command_unit_list[2]: the component 'robot' did not answer within 1 s; no command has begun");
     EXPECT_THAT(world["speech"].told, IsEmpty());
     EXPECT_EQ(desk.result_of("say"), "BAD_PARAMETER") << "the commands do not exist";
     robot.let_prepare();

@@ -12,7 +12,7 @@
 
 namespace rois::command {
 
-// human: aligned, coloured on a terminal. xml: the documents, one after the other. json: one object a line.
+// human: aligned, coloured on a terminal. xml: the documents, one after the other. json: one object per line.
 enum class Form : std::uint8_t { human, xml, json };
 
 // Thread-safe. Each function writes whole lines at once. Throws Trouble if standard output cannot be written.

@@ -11,7 +11,7 @@
 
 namespace rois::command {
 
-// `speed`: recorded seconds in a second; 0: no pauses.
+// `speed`: 2 plays twice as fast; 0: no pauses.
 class Player : public Guest {
 public:
     Player(asio::io_context&, HostedSession&, std::shared_ptr<Script const>, double speed);

@@ -1,4 +1,4 @@
-// Recordings: all documents of a session, one JSON object a line (format: docs/rois-command.md).
+// Recordings: all documents of a session, one JSON object per line (format: docs/rois-command.md).
 #pragma once
 
 #include <chrono>

@@ -178,11 +178,11 @@ void SessionFile::write(std::string const& url, std::string const& session) {
 
 Background::Background() {
     int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) throw Trouble{Exit::error, std::string{"no pipe: "} + std::strerror(errno)};
+    if (pipe2(ends, O_CLOEXEC) != 0) throw Trouble{Exit::error, std::string{"cannot create a pipe: "} + std::strerror(errno)};
     std::fflush(nullptr);
     auto const parent = getpid();
     auto const child = fork();
-    if (child < 0) throw Trouble{Exit::error, std::string{"no process for the background: "} + std::strerror(errno)};
+    if (child < 0) throw Trouble{Exit::error, std::string{"cannot start a process in the background: "} + std::strerror(errno)};
     if (child == 0) {
         close(ends[0]);
         parent_ = ends[1];

@@ -155,7 +155,7 @@ void Core::end_late_calls() {
 void Core::take_answer(std::string_view document, std::optional<xml::EngineMessage>& received) {
     auto const first = std::ranges::find_if(calls_, [](auto const& call) { return call->sent; });
     if (first == calls_.end()) {
-        if (!received) give_up_misunderstood();
+        if (!received) give_up_misunderstood(document);
         return;
     }
     auto const call = *first;  // NOLINT(performance-unnecessary-copy-initialization): calls_ lets go of it below
@@ -172,7 +172,7 @@ void Core::take_answer(std::string_view document, std::optional<xml::EngineMessa
     auto* const fault = received ? std::get_if<Fault>(&*received) : nullptr;
     auto const& id = answered != nullptr ? answered->request_id : fault != nullptr ? fault->request_id : call->id;
     if (!received || (!id.empty() && id != call->id)) {
-        give_up_misunderstood();
+        give_up_misunderstood(document);
     } else if (answered != nullptr) {
         take_first();
         call->give(std::in_place_type<Answer>, std::move(answered->reply));

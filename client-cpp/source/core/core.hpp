@@ -80,7 +80,7 @@ private:
     void failed(std::string const& reason, client::Failure) override;
     void pinged() override;
     void give_up_link(std::string const& reason, client::Failure);
-    void give_up_misunderstood();
+    void give_up_misunderstood(std::string_view document);
     std::shared_ptr<client::Call> take_largest();
     static void refuse_too_large(client::Call&, std::string const& reason);
     void leave_session();

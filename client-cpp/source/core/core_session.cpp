@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/core.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::detail {
 
@@ -75,7 +76,7 @@ void Core::document(std::string_view text) {
     } else if (is_open()) {
         take_answer(text, received);
     } else if (!received) {
-        give_up_misunderstood();
+        give_up_misunderstood(text);
     } else if (phase_ == Phase::attaching) {
         take_opening(*std::move(received));
     } else {
@@ -216,7 +217,10 @@ void Core::leave_session() {
     gap_ = Gap{Gap::Why::new_session, {}, {}};
 }
 
-void Core::give_up_misunderstood() { give_up_link("the gateway sent an unexpected document", Failure::passing); }
+void Core::give_up_misunderstood(std::string_view document) {
+    constexpr std::size_t shown = 100;
+    give_up_link("the gateway sent a document that was not expected here: " + quoted(document, shown), Failure::passing);
+}
 
 // See Settings::first_pause.
 std::chrono::milliseconds Core::pause() {
@@ -265,7 +269,7 @@ void Core::take_restored(Fault const& fault) {
 void Core::restored(std::string const& request_id, Outcome const& outcome, Reply const* reply) {
     auto const found = restoring_.find(request_id);
     if (found == restoring_.end()) {
-        give_up_misunderstood();
+        give_up_link("the gateway answered a request that was not sent: " + quoted(request_id, 100), Failure::passing);
         return;
     }
     constexpr std::string_view subscribe = "subscribe ";

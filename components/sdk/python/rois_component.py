@@ -171,7 +171,7 @@ class WebSocket:
             if size > 125:
                 size = int.from_bytes(await self.reader.readexactly(2 if size == 126 else 8), "big")
             if size > 16_000_000:
-                raise ConnectionError("a message is too long")
+                raise ConnectionError(f"received a message of {size} bytes: expected at most 16000000")
             payload = await self.reader.readexactly(size)
             self.last_received = time.monotonic()
             opcode = first & 0x0F

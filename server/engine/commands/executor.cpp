@@ -292,9 +292,9 @@ void Executor::run_function(SharedCommand const& command, Instant now) {
 
 void Executor::await_start(SharedCommand const& command, Instant now) {
     auto const* message = find_message(command->component->profile(), MessageKind::command, command->type);
-    auto const timeout = message->timeout.value_or(settings_.start_timeout);
+    command->start_timeout = message->timeout.value_or(settings_.start_timeout);
     command->start_deadline =
-        deadlines_.add(now.steady + timeout, [this, handle = command->handle](Instant then) { start_timed_out(handle, then); });
+        deadlines_.add(now.steady + command->start_timeout, [this, handle = command->handle](Instant then) { start_timed_out(handle, then); });
 }
 
 void Executor::start_timed_out(CommandHandle handle, Instant now) {
@@ -302,7 +302,8 @@ void Executor::start_timed_out(CommandHandle handle, Instant now) {
     if (found == live_.end() || found->second->state != Command::State::running) return;
     auto const command = found->second;
     auto& component = *command->component;
-    std::string const reason = "the command '" + command->type + "' did not start in time";
+    auto const reason = "the component " + quoted(component.ref().code) + " did not start the command " + quoted(command->type) +
+                        " within " + in_seconds(command->start_timeout);
     agenda_.add({command->component, ErrorType::component_not_responding, reason});
     command->start_deadline.reset();
     bool const is_start = component.start == command;

@@ -39,7 +39,7 @@ struct ProvidersEntries {
 
     InboxEntries entries;
     bool closed = false;                // later entries are dropped
-    std::list<ProvidersEntries*> turn;  // empty while the inbox has it, because there are entries
+    std::list<ProvidersEntries*> turn;  // its only node; in `next_` of the inbox while there are entries
 };
 
 // Takes one entry of each provider in turn: a provider that reports a lot delays only its own reports. Thread-safe.

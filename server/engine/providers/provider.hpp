@@ -58,7 +58,7 @@ public:
         std::string query_type{};              // of a query
         Awaited awaited{};                     // an exception of the call is reported for this question or command
         Instant now{};                         // of a query or a halt
-        bool is_question = false;              // the component has nothing else to report after it
+        bool is_question = false;              // `after_call` is not called after it
         Report report = Report::each;          // of an exception
 
         bool is_halt() const { return !what && query_type.empty(); }

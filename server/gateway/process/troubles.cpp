@@ -18,9 +18,9 @@ void log(Telemetry::Where where, std::exception_ptr const& failure) {
     try {
         std::rethrow_exception(failure);
     } catch (std::exception const& error) {
-        spdlog::error("an exception was survived ({}): {}", name, error.what());
+        spdlog::error("exception in {}, the gateway goes on: {}", name, error.what());
     } catch (...) {
-        spdlog::error("an exception was survived ({})", name);
+        spdlog::error("exception in {}, the gateway goes on", name);
     }
 }
 

@@ -192,7 +192,7 @@ Task<Connection::Then> Connection::receive() {
     if (has_head_) loop_.shared().gateway.memory().took(wire_.received().size() - before);
     bool const silent = std::exchange(idle_, false);
     if (outcome == Wire::Outcome::closed || (outcome == Wire::Outcome::late && silent)) co_return Then::end;
-    if (outcome == Wire::Outcome::late) co_return refuse({FaultCode::too_slow, "the request did not arrive in time", {}, {}});
+    if (outcome == Wire::Outcome::late) co_return refuse({FaultCode::too_slow, "the request did not arrive within " + in_seconds(settings.request_timeout), {}, {}});
     co_return Then::next;
 }
 

@@ -69,7 +69,7 @@ private:
     Task<> flush();
 
     Loop& loop_;
-    std::size_t seat_ = 0;  // index among the loop's connections; only the loop uses it
+    std::size_t index_ = 0;  // index among the loop's connections; only the loop uses it
     Admission::Place place_;
     std::shared_ptr<Opener> opener_;
     Wire wire_;

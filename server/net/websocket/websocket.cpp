@@ -253,8 +253,8 @@ void WebSocket::sweep(Steady at) {
     if (reading_) session_due_ = Steady::max();
     if (!reading_ && session_due_ == Steady::max()) session_due_ = at + shared_.settings.connect_timeout;
     bool const without_session = at >= session_due_ && !ending_;
-    if (late) close({CloseCode::policy_violation, "the message did not arrive in time"});
-    if (without_session) close({CloseCode::policy_violation, "no session was opened or resumed in time"});
+    if (late) close({CloseCode::policy_violation, "the message did not arrive within request_timeout"});
+    if (without_session) close({CloseCode::policy_violation, "no session was opened or resumed within connect_timeout"});
     bool const proof_due = at >= proof_due_ && reading_ && reading_->wants_signs_of_life(at);
     if (proof_due) proof_due_ = std::max(proof_due_ + proof_interval, at + proof_interval / 2);
     if (silent || proof_due) ping_due_ = true;

@@ -142,8 +142,8 @@ std::optional<Received> MessageReader::rejected(Head const& head) const {
     if (head.opcode == Opcode::binary) return violation(CloseCode::unsupported_data, "messages are text");
     if (head.opcode == Opcode::continuation && fragments_ == 0) return protocol_error("a continuation without a beginning");
     if (head.opcode == Opcode::text && fragments_ > 0) return protocol_error("a new message inside another one");
-    if (head.payload > max_message_ - parts_.size()) return violation(CloseCode::message_too_big, "the message is too large");
-    if (!head.last && fragments_ >= max_fragments_) return violation(CloseCode::policy_violation, "too many fragments");
+    if (head.payload > max_message_ - parts_.size()) return violation(CloseCode::message_too_big, "the message is longer than max_body allows");
+    if (!head.last && fragments_ >= max_fragments_) return violation(CloseCode::policy_violation, "the message has too many fragments");
     return {};
 }
 
@@ -153,7 +153,7 @@ Received MessageReader::take_control(Head const& head, std::string_view payload)
     if (payload.empty()) return {Received::Kind::close, {}, CloseCode::normal};
     if (payload.size() == 1) return protocol_error("a close code of one byte");
     auto const code = static_cast<unsigned>(static_cast<unsigned char>(payload[0]) << 8 | static_cast<unsigned char>(payload[1]));
-    if (!may_be_sent(code)) return protocol_error("the close code must not be sent");
+    if (!may_be_sent(code)) return protocol_error("this close code must not be sent");
     if (!is_utf8(payload.substr(2))) return violation(CloseCode::invalid_payload, "not UTF-8");
     return {Received::Kind::close, {}, static_cast<CloseCode>(code)};
 }

@@ -175,7 +175,7 @@ TEST(Log, HasTheReasonWhyASessionEnded) {
     HttpClient lost{gateway};
     lost.call("connect");
     EXPECT_THAT(gateway.log_with("session 1 ended"),
-                HasSubstr("session 1 ended: its link was lost and it was not resumed in time\n"));
+                HasSubstr("session 1 ended: its link was lost and it was not resumed within its window\n"));
     lost.session.clear();
     WebSocketClient open{gateway};
     open.call("connect");

@@ -72,7 +72,7 @@ TEST_F(AGatewayThatFails, HaltsAllComponentsLogsTheReasonAndExitsWith70) {
     fail_the_clock(SIGUSR2);
     auto const ended = wait();
     EXPECT_EQ(ended.exit_code, 70);
-    EXPECT_THAT(ended.error, HasSubstr("an exception was survived (tick): a fault that a test has made"));
+    EXPECT_THAT(ended.error, HasSubstr("exception in tick, the gateway goes on: a fault that a test has made"));
     EXPECT_THAT(ended.error, HasSubstr("start of navigation, ended with ABORT: everything was stopped"));
     EXPECT_THAT(ended.error, HasSubstr(std::string{"critical "} + why));
 }

@@ -53,11 +53,10 @@ const radii: Record<Entity['kind'], number> = { person: 220, face: 90, sound: 11
 const quiet_after: Record<Kind, number> = { robot: 2000, person: 5000, face: 2000, sound: 1500 }; // ms
 const old_after = 30_000; // ms
 const shown_for = 30_000; // ms, after it is gone
-// The end of a sound and a face that turns away are not reported. So an unreported sound is over, and a face stays as long as a person is
-// there.
-const echo = 6000; // ms for which they are then shown
+// Neither the end of a sound nor a face that turns away is reported. A face is shown as long as a person is there.
+const echo = 6000; // ms that a sound or face is shown after its last report
 const head = 500; // mm
-const surely_sensed = 2000; // ms after a report, a thing counts as watched, whatever the bindings
+const surely_sensed = 2000; // ms after its last report in which a thing counts as watched, even if no sensor is bound
 
 export function scene_of({ robots, entities, map, now, is_live, senses }: Told): Scene {
   const scene: Scene = { shown: [], lost: [] };

@@ -1,4 +1,4 @@
-// Selection and input of the Visitors panel. Kept while another panel is shown, as is running time.
+// Selection and input of the Visitors panel. Both survive a change of panels; so does running time.
 import { signal } from '@preact/signals';
 
 import type { Console } from '../state/console';

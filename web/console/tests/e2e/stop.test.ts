@@ -1,4 +1,4 @@
-// The button that stops everything, that it is stopped, and that something is held.
+// The stop button, and how the page shows a stopped gateway and held motion.
 import type { Page } from 'playwright-core';
 import { clear_everything, command, connect, namespaces, stop_everything, value } from 'rois-client';
 import { afterAll, afterEach, beforeAll, expect, test } from 'vitest';

@@ -7,7 +7,7 @@ import { color_of } from './glyphs';
 import type { Pen } from './pen';
 
 const longest = { robot: 600, person: 200, face: 0, sound: 0 }; // points
-const overhang = 60; // points beyond the limit before all is redrawn
+const overhang = 60; // points over the limit at which the whole trail is redrawn
 const lag = 300; // ms: the drawing lags behind the reports
 
 interface Drawn {
