@@ -44,7 +44,8 @@ int serve(char const* port, std::size_t threads, Shared&... shared) {
     auto const run = [&] {
         asio::io_context io{1};
         Acceptor acceptor{io.get_executor(), here.protocol()};
-        acceptor.set_option(asio::detail::socket_option::boolean<SOL_SOCKET, SO_REUSEPORT>{true});
+        int const on = 1;
+        ::setsockopt(acceptor.native_handle(), SOL_SOCKET, SO_REUSEPORT, &on, sizeof on);
         acceptor.bind(here);
         acceptor.listen(4'096);
         accept_for_ever<Session>(acceptor, shared...);

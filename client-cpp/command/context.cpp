@@ -85,7 +85,7 @@ void Context::begin_again(NoSession const& gone) {
 void Context::replace_lost_session(NoSession const& gone) {
     auto const& held = options_.held;
     if (!held) {
-        printer_.fault({FaultCode::no_session, gone.what(), {}, {}}, options_.command);
+        printer_.fault({FaultCode::no_session, gone.what()}, options_.command);
         throw Trouble{Exit::fault, ""};
     }
     if (background_ == nullptr) throw no_holder(options_.session_file);

@@ -1,7 +1,5 @@
 #include "remote/join_acceptor.hpp"
 
-#include <unistd.h>
-
 #include <utility>
 
 #include "remote/times.hpp"
@@ -84,17 +82,11 @@ JoinAcceptor::JoinAcceptor(client::Loop& loop, std::shared_ptr<xml::Schemas cons
     settings_.longest_document = largest_document;
 }
 
-void JoinAcceptor::open(int socket, std::string head) {
-    if (pending_.size() >= most_pending_joins) {
-        ::close(socket);
-        return;
-    }
+void JoinAcceptor::open(UniqueDescriptor socket, std::string head) {
+    if (pending_.size() >= most_pending_joins) return;
     auto const pending = std::make_shared<PendingJoin>(weak_from_this());
-    auto link = client::accepted_link(loop_, socket, std::move(head), settings_, *pending);
-    if (!link) {
-        ::close(socket);
-        return;
-    }
+    auto link = client::accepted_link(loop_, std::move(socket), std::move(head), settings_, *pending);
+    if (!link) return;
     pending_.insert(pending);
     pending->enter(std::move(link));
 }

@@ -10,6 +10,7 @@
 #include "core/loop.hpp"
 #include "links/link.hpp"
 #include "remote/remote_engine.hpp"
+#include "types/unique_descriptor.hpp"
 #include "xml/validation/joining.hpp"
 
 namespace rois::remote {
@@ -23,7 +24,7 @@ public:
     JoinAcceptor(client::Loop&, std::shared_ptr<xml::Schemas const>, Find);
 
     // `socket` and `head` as in client::accepted_link. Closes the socket if too many engines wait.
-    void open(int socket, std::string head);
+    void open(UniqueDescriptor socket, std::string head);
     // Closes the links of engines that have not joined.
     void close();
 

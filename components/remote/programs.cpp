@@ -24,6 +24,8 @@
 #include <thread>
 #include <utility>
 
+#include "types/unique_descriptor.hpp"
+
 namespace rois::remote {
 
 namespace {
@@ -87,22 +89,6 @@ std::string how_it_ended(int status) {
                                : "with exit code " + std::to_string(WEXITSTATUS(status));
 }
 
-class OpenFile {
-public:
-    explicit OpenFile(int number) : number_{number} {}
-    ~OpenFile() {
-        if (number_ >= 0) ::close(number_);
-    }
-    OpenFile(OpenFile const&) = delete;
-    OpenFile& operator=(OpenFile const&) = delete;
-
-    int number() const { return number_; }  // negative: none
-    void release() { number_ = -1; }        // it belongs to another object now
-
-private:
-    int number_;
-};
-
 // Used on the thread of the programs.
 class Program : public std::enable_shared_from_this<Program> {
 public:
@@ -147,19 +133,19 @@ private:
     void launch() {
         std::array<int, 2> pipe{};
         if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw std::system_error{errno, std::system_category(), "pipe"};
-        OpenFile ours{pipe[0]}, its{pipe[1]};
+        UniqueDescriptor ours{pipe[0]}, its{pipe[1]};
         Words const command{wanted_->command}, variables{environment(*wanted_)};
         auto const gateway = ::getpid();
         auto const pid = ::fork();
-        if (pid == 0) become(wanted_->folder.c_str(), command.data(), variables.data(), its.number(), gateway);
+        if (pid == 0) become(wanted_->folder.c_str(), command.data(), variables.data(), its.get(), gateway);
         if (pid < 0) throw std::system_error{errno, std::system_category(), "a new process"};
         pid_ = pid;
         ::setpgid(pid_, pid_);  // as the program does: from now on its group can be ended
-        OpenFile end{static_cast<int>(::syscall(SYS_pidfd_open, pid, 0))};
-        if (end.number() < 0) throw std::system_error{errno, std::system_category(), "a new process"};
-        output_.assign(ours.number());
+        UniqueDescriptor end{static_cast<int>(::syscall(SYS_pidfd_open, pid, 0))};
+        if (end.get() < 0) throw std::system_error{errno, std::system_category(), "a new process"};
+        output_.assign(ours.get());
         ours.release();
-        end_.assign(end.number());
+        end_.assign(end.get());
         end.release();
         output_.non_blocking(true);
     }

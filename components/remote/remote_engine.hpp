@@ -155,17 +155,17 @@ private:
     std::map<std::uint64_t, Unanswered> unanswered_;  // requests, by their numbers
     std::uint64_t last_request_ = 0;
     std::uint64_t last_command_ = 0;
-    double notifications_ = 0;              // received ones, less 5,000 for each second that has passed
-    Steady counted_at_{};                   // the end of the last of these seconds
-    std::uint64_t documents_ = 0;           // number of received documents
-    std::uint64_t era_ = 0;                 // incremented by each attempt and each lost link; a timer of an earlier era does nothing
-    unsigned failures_ = 0;                 // failed attempts in a row
-    bool is_present_ = false;               // the profile was read, and the components have not left
-    bool is_given_up_ = false;              // the session is given up; it may still exist in the sub engine
-    std::optional<Steady> lost_at_;         // when the session lost its link; empty once the components are present again
-    bool profile_asked_ = false;            // a `get_profile` is not answered yet
-    bool profile_changed_ = false;          // the profile changed after it was requested
-    Steady last_sign_{};                    // when the last sign of life was sent
+    double notifications_ = 0;       // received ones, less 5,000 for each second that has passed
+    Steady counted_at_{};            // the end of the last of these seconds
+    std::uint64_t documents_ = 0;    // number of received documents
+    std::uint64_t era_ = 0;          // incremented by each attempt and each lost link; a timer of an earlier era does nothing
+    unsigned failures_ = 0;          // failed attempts in a row
+    bool is_present_ = false;        // the profile was read, and the components have not left
+    bool is_given_up_ = false;       // the session is given up; it may still exist in the sub engine
+    std::optional<Steady> lost_at_;  // when the session lost its link; empty once the components are present again
+    bool profile_asked_ = false;     // a `get_profile` is not answered yet
+    bool profile_changed_ = false;   // the profile changed after it was requested
+    Steady last_sign_{};             // when the last sign of life was sent
     std::optional<Steady> asked_for_sign_;  // when the first sign of life that is not answered yet was sent
     EngineState state_;                     // the state that `show` passed on last
     bool is_over_ = false;

@@ -69,7 +69,7 @@ public:
         }
     }
 
-    void accept(int socket, std::string head) { acceptor_->open(socket, std::move(head)); }
+    void accept(UniqueDescriptor&& socket, std::string head) { acceptor_->open(std::move(socket), std::move(head)); }
 
     void trouble(std::string const& name, std::string const& what) {
         auto const found = engines_.find(name);
@@ -187,8 +187,10 @@ void RemoteEngines::set(std::vector<SubEngine> wanted, std::string const& own_ur
     links_->post([links = links_, wanted = std::move(wanted)] { links->set(wanted); });
 }
 
-void RemoteEngines::accept(int socket, std::string head) {
-    links_->post([links = links_, socket, head = std::move(head)] { links->accept(socket, head); });
+void RemoteEngines::accept(UniqueDescriptor socket, std::string head) {
+    links_->post([links = links_, socket = std::move(socket), head = std::move(head)]() mutable {
+        links->accept(std::move(socket), std::move(head));
+    });
 }
 
 void RemoteEngines::join(Joining joining) {

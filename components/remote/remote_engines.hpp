@@ -11,6 +11,7 @@
 #include "remote/programs.hpp"
 #include "remote/sub_engine.hpp"
 #include "types/engine_state.hpp"
+#include "types/unique_descriptor.hpp"
 #include "xml/validation/schemas.hpp"
 
 namespace rois::remote {
@@ -41,7 +42,7 @@ public:
     std::vector<EngineState> states() const;
 
     // Takes a WebSocket of an engine that joins. `socket` and `head` as in client::accepted_link.
-    void accept(int socket, std::string head);
+    void accept(UniqueDescriptor socket, std::string head);
 
     // Makes this engine a sub engine of another one. Throws std::invalid_argument if the URL is invalid.
     void join(Joining);

@@ -108,7 +108,9 @@ Engine::Core::Later Engine::Core::perform(Session& session, Bind const& bind_, S
     if (!component->confirms_binding() || !component->is_free()) return bind(session, *component, now);
     auto then = [this, asked, shared = component->shared_from_this()](std::optional<ComponentAnswer>& answer, Instant when) {
         auto const make = [&](Session& asker) -> Later {
-            if (!answer) return refused<Bind::Reply>(ReturnCode::timeout, did_not_answer(*shared, settings_.question_deadline) + "; it is not bound");
+            if (!answer)
+                return refused<Bind::Reply>(ReturnCode::timeout,
+                                            did_not_answer(*shared, settings_.question_deadline) + "; it is not bound");
             if (auto* refusal = std::get_if<Refused>(&*answer))
                 return refused<Bind::Reply>(ReturnCode::out_of_resources, std::move(refusal->reason));
             if (!std::holds_alternative<Done>(*answer) || shared->has_departed()) {
@@ -180,7 +182,9 @@ Engine::Core::Later Engine::Core::bind_first(Session& session, SharedAsked const
                 }
             }
             if (!candidates.empty()) return bind_first(asker, asked, candidates, until, when);
-            if (!answer) return refused<BindAny::Reply>(ReturnCode::timeout, did_not_answer(*component, settings_.question_deadline) + "; nothing is bound");
+            if (!answer)
+                return refused<BindAny::Reply>(ReturnCode::timeout,
+                                               did_not_answer(*component, settings_.question_deadline) + "; nothing is bound");
             return refused<BindAny::Reply>(ReturnCode::error, "no component that matches the condition can be bound now");
         };
         --component->binds_asked;
@@ -237,17 +241,18 @@ Engine::Core::Later Engine::Core::prepare(Session& session, SharedAsked const& a
     auto const questions = static_cast<std::size_t>(std::ranges::count_if(list, &Preparation::asks));
     if (questions == 0) return then(session, std::move(list), now);
     auto const prepared = std::make_shared<std::vector<Preparation>>(std::move(list));
-    auto const round =
-        questions_.begin(now.steady + settings_.question_deadline, questions,
-                         [this, asked, prepared, then = std::move(then)](Questions::Answers& answers, Instant when) mutable {
-                             answer_later(*asked, [&](Session& asker) -> Later {
-                                 auto next = answers.begin();
-                                 for (auto& each : *prepared)
-                                     if (auto objection = each.asks() ? why_not_prepared(each, *next++, asker, settings_.question_deadline) : std::nullopt)
-                                         return refused<typename Op::Reply>(objection->return_code, std::move(objection->reason));
-                                 return then(asker, std::move(*prepared), when);
-                             });
-                         });
+    auto const round = questions_.begin(
+        now.steady + settings_.question_deadline, questions,
+        [this, asked, prepared, then = std::move(then)](Questions::Answers& answers, Instant when) mutable {
+            answer_later(*asked, [&](Session& asker) -> Later {
+                auto next = answers.begin();
+                for (auto& each : *prepared)
+                    if (auto objection =
+                            each.asks() ? why_not_prepared(each, *next++, asker, settings_.question_deadline) : std::nullopt)
+                        return refused<typename Op::Reply>(objection->return_code, std::move(objection->reason));
+                return then(asker, std::move(*prepared), when);
+            });
+        });
     std::size_t place = 0;
     for (auto& each : *prepared) {
         if (!each.asks()) continue;

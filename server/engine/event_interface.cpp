@@ -2,7 +2,6 @@
 #include <utility>
 
 #include "engine/core.hpp"
-#include "types/prefetch.hpp"
 #include "types/text/texts.hpp"
 
 namespace rois {
@@ -132,15 +131,7 @@ void Engine::Core::publish(RegisteredComponent& component, EventOccurred const& 
                                          results};
         begun = true;
         auto const& subscribers = subscription.subscribers;
-        for (std::size_t i = 0; i < subscribers.size(); ++i) {
-            // Prefetches the queues and readers of later subscribers: with many sessions, each is a cache miss
-            // (docs/performance.md).
-            auto const queue_at = [&](std::size_t place) {
-                return place < subscribers.size() ? subscribers[place].queue : nullptr;
-            };
-            if (auto const* queue = queue_at(i + 4)) prefetch(queue, sizeof(NotificationQueue));
-            if (auto const* queue = queue_at(i + 2)) prefetch(queue->attachment().get(), 1);
-            auto const& subscriber = subscribers[i];
+        for (auto const& subscriber : subscribers) {
             deliveries([&] {
                 if (each && !matches(subscription, *subscriber.session)) return;
                 events_.add_receiver(subscriber.slot);

@@ -181,8 +181,8 @@ void Engine::Core::Inquiry::ask(std::size_t place, Steady due, Then then, Instan
     then_ = then;
     Questions::begin(*this, due);
     auto& component = *possible_[place].component;
-    auto const ticket =
-        core_.questions_.add(shared_from_this(), place, component, "the component did not answer a query within question_deadline");
+    auto const ticket = core_.questions_.add(shared_from_this(), place, component,
+                                             "the component did not answer a query within question_deadline");
     component.hosted().query(ticket, query_type_, now);
 }
 
@@ -301,7 +301,8 @@ Query::Reply Engine::Core::Inquiry::answer(Session const& session, Possible& pos
 }
 
 Reply Engine::Core::Inquiry::why_nobody_answered() const {
-    if (is_late_) return refused(ReturnCode::timeout, "no component answered the query " + quoted(query_type_) + " within " +
+    if (is_late_)
+        return refused(ReturnCode::timeout, "no component answered the query " + quoted(query_type_) + " within " +
                                                 in_seconds(core_.settings_.question_deadline));
     return refused(ReturnCode::error, "the component " + quoted(failed_) + " could not answer");
 }

@@ -18,11 +18,9 @@ constexpr std::size_t work_factor = 16;
 constexpr std::size_t negligible = 1024;  // bytes of a document; most requests are that short
 
 Fault beyond(std::uint64_t after, std::uint64_t last) {
-    return {FaultCode::not_well_formed,
-            "the position " + std::to_string(after) + " is higher than the last sequence of this session: expected at most " +
-                std::to_string(last),
-            {},
-            {}};
+    return {FaultCode::not_well_formed, "the position " + std::to_string(after) +
+                                            " is higher than the last sequence of this session: expected at most " +
+                                            std::to_string(last)};
 }
 
 }  // namespace
@@ -72,13 +70,13 @@ Reading::Taken Reading::take(std::size_t most) {
     return taken;
 }
 
-Fault shutting_down() { return {FaultCode::shutting_down, "the gateway is shutting down", {}, {}}; }
+Fault shutting_down() { return {FaultCode::shutting_down, "the gateway is shutting down"}; }
 
 Fault no_memory_for_document(MemoryBudget& memory) {
-    return {FaultCode::too_many, memory.refuse("there is no memory for a long document"), {}, {}};
+    return {FaultCode::too_many, memory.refuse("there is no memory for a long document")};
 }
 
-Fault no_such_session() { return {FaultCode::no_session, "there is no such session; connect first", {}, {}}; }
+Fault no_such_session() { return {FaultCode::no_session, "there is no such session; connect first"}; }
 
 NotificationDocument::NotificationDocument(Numbered const& numbered)
     : before_{xml::notification_head(numbered.notification->body)}, after_{numbered.notification->text(xml::notification_tail)} {
@@ -234,11 +232,9 @@ Fault Gateway::fault_of(Refusal refusal) {
     switch (refusal) {
         case Refusal::too_many_sessions:
             return {FaultCode::too_many,
-                    "too many sessions are open, and none is idle: try again later; the key max_sessions sets the limit",
-                    {},
-                    {}};
+                    "too many sessions are open, and none is idle: try again later; the key max_sessions sets the limit"};
         case Refusal::no_memory:
-            return {FaultCode::too_many, memory_.refuse("there is no memory for a new session"), {}, {}};
+            return {FaultCode::too_many, memory_.refuse("there is no memory for a new session")};
         case Refusal::shutting_down:
             return rois::shutting_down();
         case Refusal::no_session:
@@ -282,11 +278,9 @@ PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via 
 // Returns a fault if this connection may not open another session.
 std::optional<Fault> Gateway::refusal_of(Opener const& opener) {
     auto const refused = [](std::string_view holder, std::size_t sessions, std::string_view instead, std::string_view key) {
-        return Fault{FaultCode::too_many,
-                     std::string{holder} + " has " + std::to_string(sessions) + " sessions open already: disconnect one" +
-                         std::string{instead} + "; the key " + std::string{key} + " sets the limit",
-                     {},
-                     {}};
+        return Fault{FaultCode::too_many, std::string{holder} + " has " + std::to_string(sessions) +
+                                              " sessions open already: disconnect one" + std::string{instead} + "; the key " +
+                                              std::string{key} + " sets the limit"};
     };
     switch (quota_.verdict(opener)) {
         case SessionQuota::Verdict::full_connection:
@@ -309,13 +303,11 @@ std::variant<std::unique_ptr<Reading>, Fault> Gateway::read(SessionId const& ses
     auto queue = engine_.notifications(session);
     if (!queue || queue->closed()) return no_such_session();
     if (auto const last = queue->last_sequence(); after > last) return beyond(after, last);
-    if (until == Readers::Until::closed && link == LinkKind::stream && Readers::streams(*queue) >= streams_per_session_) {
+    if (until == Readers::Until::closed && link == LinkKind::stream && readers_.streams(session) >= streams_per_session_) {
         telemetry_.reached(Telemetry::Limit::streams_per_session);
         return Fault{FaultCode::too_many,
                      "this session has " + std::to_string(streams_per_session_) +
-                         " event streams open already: close one; the key max_streams_per_session sets the limit",
-                     {},
-                     {}};
+                         " event streams open already: close one; the key max_streams_per_session sets the limit"};
     }
     readers_.join(*queue, link, reader, until);
     engine_.link_opened(session, link, present());

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <unordered_map>
+#include <vector>
 
 #include "engine/engine.hpp"
 
@@ -55,24 +56,26 @@ public:
     // When the reader leaves: a long poll leaves when it is answered.
     enum class Until : std::uint8_t { answered, closed };
     // A WebSocket that joins takes over from the session's earlier one. If it throws, the reader has not joined.
-    void join(NotificationQueue&, LinkKind, Reader&, Until = Until::closed);
+    void join(NotificationQueue const&, LinkKind, Reader&, Until = Until::closed);
     // Joins an ended session, to see when the other readers leave.
     void join(SessionId const&, Reader&);
     void leave(SessionId const&, Reader const&);
     std::size_t count(SessionId const&) const;
-    // The number of event streams that read this queue.
-    static std::size_t streams(NotificationQueue const&);
+    std::size_t streams(SessionId const&) const;  // event streams
 
     void notify(NotificationQueue&) override;
     void flush() noexcept override;
 
 private:
-    struct Audience;
-    static Audience* audience_of(NotificationQueue const&);
-    std::shared_ptr<Audience> const& with_room(SessionId const&, std::shared_ptr<void> const& known);
+    struct Joined {
+        LinkKind link;
+        Reader* reader;
+        Until until;
+    };
+    std::vector<Joined>& with_room(SessionId const&);
 
-    std::unordered_map<SessionId, std::shared_ptr<Audience>, IdHash> audiences_;  // of sessions with a reader
-    Wakes* to_wake_ = nullptr;  // by `flush`: the first one, which knows the next
+    std::unordered_map<SessionId, std::vector<Joined>, IdHash> joined_;  // of sessions with a reader
+    Wakes* to_wake_ = nullptr;                                           // by `flush`: the first one, which knows the next
 };
 
 }  // namespace rois

@@ -265,7 +265,9 @@ int serve(CommandLine const& command) {
         engine.add(remote_engines->pulse(), "pulse");
     }
     if (!settings.engines.empty())
-        net_settings.join = [&](int socket, std::string head) { remote_engines->accept(socket, std::move(head)); };
+        net_settings.join = [&](UniqueDescriptor socket, std::string head) {
+            remote_engines->accept(std::move(socket), std::move(head));
+        };
     net::Server server{net_settings, gateway, telemetry, documents, schemas};
     if (!settings.profiles.empty() || !settings.engines.empty())
         server.on_hang_up([&] {

@@ -45,9 +45,7 @@ void refuse(Socket& socket, Shared const& shared) {
     append(text,
            answer_of({FaultCode::too_many,
                       "this address has " + std::to_string(shared.settings.max_connections_per_address) +
-                          " connections open already: close one; the key max_connections_per_address sets the limit",
-                      {},
-                      {}}),
+                          " connections open already: close one; the key max_connections_per_address sets the limit"}),
            {Framing::Body::sent, true});
     boost::system::error_code ignored;
     socket.non_blocking(true, ignored);

@@ -36,9 +36,7 @@ Loop::Loop(Shared& shared)
     run_forever(Troubles::Where::sweep, [this] { return sweep(); });
 }
 
-void Loop::run_forever(Troubles::Where where, std::function<Task<>()> make) {
-    background_.push_back({where, std::move(make)});
-}
+void Loop::run_forever(Troubles::Where where, std::function<Task<>()> make) { background_.push_back({where, std::move(make)}); }
 
 // Stops the loop when the task ends or fails: then `run` starts it again.
 Task<> Loop::run(Background& task) {

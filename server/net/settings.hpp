@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gateway/access/addresses.hpp"
+#include "types/unique_descriptor.hpp"
 #include "xml/codec/codec.hpp"
 
 namespace rois::net {
@@ -37,7 +38,7 @@ struct Settings {
     std::vector<std::string> allowed_origins;  // of web pages, besides those of the gateway: "https://console.example"
 
     // Takes the socket of an engine that joins, and the bytes received on it. Called on an I/O thread. Empty: none may join.
-    std::function<void(int socket, std::string head)> join;
+    std::function<void(UniqueDescriptor socket, std::string head)> join;
 
     std::chrono::milliseconds request_timeout = std::chrono::seconds{30};  // for a request to arrive completely
     std::chrono::milliseconds connect_timeout = std::chrono::seconds{10};  // for a WebSocket to open a session

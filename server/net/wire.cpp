@@ -153,9 +153,9 @@ void Wire::sweep(Steady now) {
     }
 }
 
-int Wire::release() {
+UniqueDescriptor Wire::release() {
     boost::system::error_code ignored;
-    return socket_.release(ignored);
+    return UniqueDescriptor{socket_.release(ignored)};
 }
 
 void Wire::cut() {

@@ -13,6 +13,7 @@
 #include "gateway/process/telemetry.hpp"
 #include "net/asio.hpp"
 #include "types/instant.hpp"
+#include "types/unique_descriptor.hpp"
 
 namespace rois::net {
 
@@ -40,7 +41,7 @@ public:
     // The next `sweep` ends a waiting receive: it returns `late`.
     void stop_waiting() { input_due_ = Steady::min(); }
 
-    // Ends a waiting receive, which returns `done` without new input.
+    // Ends a waiting receive that has an end (`until`). It returns `done` without new input.
     void interrupt();
 
     // Writes without waiting. Returns the number of written bytes. After an error, the next send fails.
@@ -78,8 +79,8 @@ public:
     void sweep(Steady now);
     // Closes the socket.
     void cut();
-    // Gives the socket to the caller, who closes it.
-    int release();
+    // Gives the socket to the caller.
+    UniqueDescriptor release();
 
 private:
     struct Watching {

@@ -280,8 +280,8 @@ struct Place {
 struct Fault {
     FaultCode code = FaultCode::invalid;
     std::string reason;
-    std::optional<Place> place;
-    std::string request_id;
+    std::optional<Place> place{};
+    std::string request_id{};
 };
 
 }  // namespace rois

@@ -227,7 +227,7 @@ asio::awaitable<Front::Connection::Then> Front::Connection::write(HttpMessage co
 
 asio::awaitable<Front::Connection::Then> Front::Connection::refuse(HttpMessage const& message, FaultCode code,
                                                                    std::string reason) {
-    Fault const fault{code, std::move(reason), {}, {}};
+    Fault const fault{code, std::move(reason)};
     co_return co_await write(message, fault);
 }
 

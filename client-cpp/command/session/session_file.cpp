@@ -16,6 +16,7 @@
 
 #include "command/output/json.hpp"
 #include "types/text/texts.hpp"
+#include "types/unique_descriptor.hpp"
 
 namespace rois::command {
 
@@ -44,21 +45,6 @@ pid_t holder_of(int descriptor) {
     if (fcntl(descriptor, F_GETLK, &lock) != 0 || lock.l_type == F_UNLCK) return 0;
     return lock.l_pid;
 }
-
-class Descriptor {
-public:
-    explicit Descriptor(int descriptor) : descriptor_{descriptor} {}
-    ~Descriptor() {
-        if (descriptor_ >= 0) close(descriptor_);
-    }
-    Descriptor(Descriptor const&) = delete;
-    Descriptor& operator=(Descriptor const&) = delete;
-    int get() const { return descriptor_; }
-    int release() { return std::exchange(descriptor_, -1); }
-
-private:
-    int descriptor_;
-};
 
 // Rejects FIFOs and devices, which would block or lose the text. Rejects a file of another user, who could send the token to
 // another gateway, and a file that others can read, since the session is a secret. An empty file has no secret yet.
@@ -108,7 +94,7 @@ bool is_still(std::string const& file, int descriptor) {
 std::optional<HeldSession> find_held_session(std::string const& file, std::chrono::milliseconds deadline) {
     auto const end = std::chrono::steady_clock::now() + deadline;
     while (true) {
-        Descriptor const open_file{open_to_read(file)};
+        UniqueDescriptor const open_file{open_to_read(file)};
         if (open_file.get() < 0) return std::nullopt;
         auto held = read_held_session(file, open_file.get());
         auto const holder = holder_of(open_file.get());
@@ -123,7 +109,7 @@ std::optional<HeldSession> find_held_session(std::string const& file, std::chron
 }
 
 void end_holder(std::string const& file, pid_t holder, std::chrono::milliseconds deadline) {
-    Descriptor const open_file{open_to_read(file)};
+    UniqueDescriptor const open_file{open_to_read(file)};
     if (open_file.get() < 0 || holder_of(open_file.get()) != holder) return;
     if (kill(holder, SIGTERM) != 0 && errno != ESRCH)
         complain_of_error(file, "process " + std::to_string(holder) + " cannot be ended");
@@ -143,7 +129,7 @@ Trouble no_holder(std::string const& file) {
 
 std::unique_ptr<SessionFile> SessionFile::lock(std::string const& file) {
     while (true) {
-        Descriptor locked_file{open_file(file, O_RDWR | O_CREAT, "cannot be written")};
+        UniqueDescriptor locked_file{open_file(file, O_RDWR | O_CREAT, "cannot be written")};
         int const descriptor = locked_file.get();
         if (descriptor < 0) complain_of_error(file, "cannot be written");
         check_trusted(file, descriptor);

@@ -66,7 +66,7 @@ Task<Answer> Core::plain(Request request, std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
     co_await here();
     if (std::holds_alternative<Resume>(request.operation))
-        co_return Fault{FaultCode::not_allowed, "the connection resumes its session by itself", {}, {}};
+        co_return Fault{FaultCode::not_allowed, "the connection resumes its session by itself"};
     request.request_id = fresh_request_id();
     auto const kind = is_of_session(request.operation) ? Call::Kind::in_session : Call::Kind::again;
     auto const call = send(kind, xml::encode(request), request.request_id, deadline);

@@ -202,7 +202,7 @@ void Core::refuse_too_large(Call& call, std::string const& reason) {
     if (call.kind == Call::Kind::raw) {
         call.give(NoAnswer{NoAnswer::Why::link_lost, std::move(why)});
     } else {
-        call.give(Fault{FaultCode::too_large, std::move(why), {}, {}});
+        call.give(Fault{FaultCode::too_large, std::move(why)});
     }
 }
 

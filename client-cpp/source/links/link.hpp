@@ -10,6 +10,7 @@
 #include "links/target.hpp"
 #include "rois/settings.hpp"
 #include "types/messages.hpp"
+#include "types/unique_descriptor.hpp"
 #include "xml/codec/codec.hpp"
 
 namespace rois::client {
@@ -81,9 +82,9 @@ protected:
 inline Link::Document document_of(Request const& request) { return std::make_shared<std::string const>(xml::encode(request)); }
 
 std::shared_ptr<Link> websocket_link(Loop&, Target const&, Settings const&, Link::Listener&);
-// A WebSocket that a client opens here. `socket`: a connected socket, which the link closes. `head`: the bytes received on it,
+// A WebSocket that a client opens here. `socket`: a connected socket. `head`: the bytes received on it,
 // with the request for the upgrade. Returns null if the socket cannot be used.
-std::shared_ptr<Link> accepted_link(Loop&, int socket, std::string head, Settings const&, Link::Listener&);
+std::shared_ptr<Link> accepted_link(Loop&, UniqueDescriptor socket, std::string head, Settings const&, Link::Listener&);
 std::shared_ptr<Link> http_link(Loop&, Target const&, Settings const&, Link::Listener&);
 
 }  // namespace rois::client

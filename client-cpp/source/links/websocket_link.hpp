@@ -42,12 +42,14 @@ public:
             asio::detached);
     }
 
-    // Makes this the server's side of an accepted WebSocket. Returns whether it owns the socket now. Only for Socket.
-    bool accept(int socket, std::string head) {
+    // Makes this the server's side of an accepted WebSocket. Returns false if the socket cannot be used. Only for Socket.
+    bool accept(UniqueDescriptor socket, std::string head) {
         error_code error;
-        beast::get_lowest_layer(stream_).assign(asio::ip::tcp::v4(), socket, error);
+        beast::get_lowest_layer(stream_).assign(asio::ip::tcp::v4(), socket.get(), error);
+        if (error) return false;
+        socket.release();
         head_ = std::move(head);
-        return !error;
+        return true;
     }
 
     void send(Document document) override {

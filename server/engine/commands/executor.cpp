@@ -293,8 +293,8 @@ void Executor::run_function(SharedCommand const& command, Instant now) {
 void Executor::await_start(SharedCommand const& command, Instant now) {
     auto const* message = find_message(command->component->profile(), MessageKind::command, command->type);
     command->start_timeout = message->timeout.value_or(settings_.start_timeout);
-    command->start_deadline =
-        deadlines_.add(now.steady + command->start_timeout, [this, handle = command->handle](Instant then) { start_timed_out(handle, then); });
+    command->start_deadline = deadlines_.add(now.steady + command->start_timeout,
+                                             [this, handle = command->handle](Instant then) { start_timed_out(handle, then); });
 }
 
 void Executor::start_timed_out(CommandHandle handle, Instant now) {

@@ -107,10 +107,6 @@ public:
     void want_signs_of_life(Steady until) { signs_of_life_until_.store(until, std::memory_order_relaxed); }
     bool wants_signs_of_life(Steady now) const { return now < signs_of_life_until_.load(std::memory_order_relaxed); }
 
-    // A slot for the outbox, which finds the session's readers here without a search. Needs the engine's lock.
-    std::shared_ptr<void> const& attachment() const { return attachment_; }
-    void attach(std::shared_ptr<void> attachment) { attachment_ = std::move(attachment); }
-
 private:
     bool make_room();
     bool make_room_among_held();
@@ -122,7 +118,6 @@ private:
     void mark_sent(std::uint64_t until);
     void forget();
 
-    std::shared_ptr<void> attachment_;
     Hold current_ = 0;
     // Guards the members below. lost_ and overflowed_ change only under the engine's lock as well, so its holder may read them
     // without this mutex.

@@ -97,9 +97,7 @@ std::optional<Fault> refusal_of_host(std::string_view authority, std::vector<std
     if (is_own_host(authority, names)) return {};
     return Fault{FaultCode::not_allowed,
                  "this gateway is not known as " + quoted(authority) +
-                     ": expected localhost, an IP address or the name of its machine; the key hosts adds other names",
-                 {},
-                 {}};
+                     ": expected localhost, an IP address or the name of its machine; the key hosts adds other names"};
 }
 
 std::optional<Fault> refusal_of_origin(std::string_view origin, std::string_view authority,
@@ -107,9 +105,7 @@ std::optional<Fault> refusal_of_origin(std::string_view origin, std::string_view
     if (is_allowed_origin(origin, authority, allowed)) return {};
     return Fault{FaultCode::not_allowed,
                  "pages of the origin " + quoted(origin) +
-                     " are not allowed here: expected a page of this gateway; the key allowed_origins adds other origins",
-                 {},
-                 {}};
+                     " are not allowed here: expected a page of this gateway; the key allowed_origins adds other origins"};
 }
 
 }  // namespace rois

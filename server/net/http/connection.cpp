@@ -53,7 +53,8 @@ Task<> Connection::run() {
     if (then == Then::websocket) co_await serve_websocket();
     if (then == Then::engine) {
         co_await flush();
-        loop_.shared().settings.join(wire_.release(), std::string{head_.text.begin(), head_.text.end()}.append(wire_.text()));
+        auto head = std::string{head_.text.begin(), head_.text.end()}.append(wire_.text());
+        loop_.shared().settings.join(wire_.release(), std::move(head));
     }
     if (then == Then::linger) {
         co_await await_answers();
@@ -192,7 +193,8 @@ Task<Connection::Then> Connection::receive() {
     if (has_head_) loop_.shared().gateway.memory().took(wire_.received().size() - before);
     bool const silent = std::exchange(idle_, false);
     if (outcome == Wire::Outcome::closed || (outcome == Wire::Outcome::late && silent)) co_return Then::end;
-    if (outcome == Wire::Outcome::late) co_return refuse({FaultCode::too_slow, "the request did not arrive within " + in_seconds(settings.request_timeout), {}, {}});
+    if (outcome == Wire::Outcome::late)
+        co_return refuse({FaultCode::too_slow, "the request did not arrive within " + in_seconds(settings.request_timeout)});
     co_return Then::next;
 }
 
@@ -272,9 +274,7 @@ Connection::Then Connection::serve_upgrade() {
     if (joins && (!shared.settings.join || !is_loopback(place_.address())))
         return reply(answer_of(
             {FaultCode::not_allowed,
-             "joining is not allowed: expected a connection from this machine, and the key engines in the configuration",
-             {},
-             {}}));
+             "joining is not allowed: expected a connection from this machine, and the key engines in the configuration"}));
     auto const answer = upgrade(head_);
     if (answer.status != http::status::switching_protocols) return reply(answer);
     if (joins) return Then::engine;  // client::accepted_link sends the answer to the handshake

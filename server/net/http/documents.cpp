@@ -38,7 +38,7 @@ HttpAnswer verdict(std::string const& trouble, std::string_view otherwise) {
             .content_type = "text/plain; charset=utf-8"};
 }
 
-HttpAnswer not_found(std::string reason) { return answer_of({FaultCode::not_found, std::move(reason), {}, {}}); }
+HttpAnswer not_found(std::string reason) { return answer_of({FaultCode::not_found, std::move(reason)}); }
 
 }  // namespace
 

@@ -14,7 +14,7 @@ constexpr std::size_t most_a_poll = 1'024;  // and of one answer
 constexpr std::uint64_t longest_wait = 30;  // seconds
 
 Fault bad_number(std::string_view name, std::string_view value, std::string const& limit = {}) {
-    return {FaultCode::not_well_formed, std::string{name} + " must be a whole number" + limit + ", not " + quoted(value), {}, {}};
+    return {FaultCode::not_well_formed, std::string{name} + " must be a whole number" + limit + ", not " + quoted(value)};
 }
 
 // Appends a server-sent event: its id is the sequence, its data the document line by line.

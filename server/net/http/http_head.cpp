@@ -30,15 +30,14 @@ bool is_refused(std::string_view parameters) {
     return value.starts_with('0') && value.find_first_not_of("0.") == std::string_view::npos;
 }
 
-Fault broken(std::string reason) { return {FaultCode::not_well_formed, "broken HTTP: " + std::move(reason), {}, {}}; }
+Fault broken(std::string reason) { return {FaultCode::not_well_formed, "broken HTTP: " + std::move(reason)}; }
 
 Fault overlong_target(Settings const& settings) {
-    return {
-        FaultCode::uri_too_long, "the request target is longer than " + std::to_string(settings.max_target) + " bytes", {}, {}};
+    return {FaultCode::uri_too_long, "the request target is longer than " + std::to_string(settings.max_target) + " bytes"};
 }
 
 Fault no_transfer_encoding() {
-    return {FaultCode::length_required, "send the body with a Content-Length; Transfer-Encoding is not taken", {}, {}};
+    return {FaultCode::length_required, "send the body with a Content-Length; Transfer-Encoding is not taken"};
 }
 
 // Splits the target: "http://host:80/path?query" or "/path?query". Returns false if it has neither form (RFC 9112, 3.2).
@@ -76,10 +75,9 @@ public:
         if (target_.size() > settings.max_target) return overlong_target(settings);
         if (!split_target(target_, head_)) return broken("the target is neither a path nor an http URL with a host");
         if (head_.fields.size() > settings.max_fields) {
-            return Fault{
-                FaultCode::header_too_large, "more than " + std::to_string(settings.max_fields) + " header fields", {}, {}};
+            return Fault{FaultCode::header_too_large, "more than " + std::to_string(settings.max_fields) + " header fields"};
         }
-        if (text.find("\r\n ") != text.npos || text.find("\r\n\t") != text.npos)
+        if (text.find("\n ") != text.npos || text.find("\n\t") != text.npos)
             return broken("a folded header line: send each header field in one line");
         if (hosts_ > 1 || (hosts_ == 0 && !head_.is_http_1_0)) return broken("expected exactly one Host header");
         if (auto const host = head_.field("Host").value_or(""); !may_be_authority(host))
@@ -209,7 +207,7 @@ std::optional<Fault> read_head(std::string_view text, Settings const& settings, 
 
 Fault overlong_head(std::string_view text, Settings const& settings) {
     if (text.find('\n') == std::string_view::npos) return overlong_target(settings);
-    return {FaultCode::header_too_large, "the header has more than " + std::to_string(settings.max_header) + " bytes", {}, {}};
+    return {FaultCode::header_too_large, "the header has more than " + std::to_string(settings.max_header) + " bytes"};
 }
 
 }  // namespace rois::net

@@ -69,7 +69,7 @@ std::optional<HttpAnswer> refusal_of_other_sites(RequestHead const& head, Settin
 HttpAnswer method_not_allowed(Route const& route, std::string_view method) {
     auto const allowed = std::string{methods_of(route.endpoint)};
     auto const reason = "the method " + quoted(method) + " is not allowed here: expected one of " + allowed;
-    auto answer = answer_of({FaultCode::method_not_allowed, reason, {}, {}});
+    auto answer = answer_of({FaultCode::method_not_allowed, reason});
     answer.fields.set(http::field::allow, allowed);
     return answer;
 }
@@ -90,17 +90,17 @@ Route route_of(std::string_view path) {
 std::optional<HttpAnswer> refusal(RequestHead const& head, Route const& route, Settings const& settings) {
     if (auto refused = refusal_of_other_sites(head, settings)) return refused;
     if (route.endpoint == Endpoint::unknown && is_known_method(head.method))
-        return answer_of({FaultCode::not_found, "there is nothing at " + quoted(head.path), {}, {}});
+        return answer_of({FaultCode::not_found, "there is nothing at " + quoted(head.path)});
     if (!takes(route, head.method)) return method_not_allowed(route, head.method);
     if (head.content_length > settings.document.bytes) {
         auto const size = std::to_string(head.content_length), most = std::to_string(settings.document.bytes);
-        return answer_of({FaultCode::too_large, "the body has " + size + " bytes: expected at most " + most, {}, {}});
+        return answer_of({FaultCode::too_large, "the body has " + size + " bytes: expected at most " + most});
     }
     auto const type = head.field("Content-Type").value_or("");
     bool const has_document = head.verb == http::verb::post && route.endpoint == Endpoint::rois;
     if (!has_document || xml::is_xml_media_type(type)) return {};
     auto const reason = "Content-Type is " + quoted(type) + ": expected application/xml, in UTF-8";
-    return answer_of({FaultCode::unsupported_media_type, reason, {}, {}});
+    return answer_of({FaultCode::unsupported_media_type, reason});
 }
 
 }  // namespace rois::net

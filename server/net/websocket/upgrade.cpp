@@ -13,7 +13,7 @@ constexpr std::string_view subprotocol = "rois.xml.v1";
 constexpr std::string_view suffix = "258EAFA5-E914-47DA-95CA-C5AB0DC85B11";  // of the key, before it is hashed (RFC 6455, 1.3)
 
 HttpAnswer wants_upgrade(std::string reason) {
-    auto answer = answer_of({FaultCode::upgrade_required, std::move(reason), {}, {}});
+    auto answer = answer_of({FaultCode::upgrade_required, std::move(reason)});
     answer.fields.set(http::field::upgrade, "websocket");
     answer.fields.set(http::field::connection, "Upgrade");
     answer.fields.set(http::field::sec_websocket_version, "13");
@@ -21,7 +21,7 @@ HttpAnswer wants_upgrade(std::string reason) {
 }
 
 HttpAnswer broken(std::string reason) {
-    auto answer = answer_of({FaultCode::not_well_formed, "broken WebSocket handshake: " + std::move(reason), {}, {}});
+    auto answer = answer_of({FaultCode::not_well_formed, "broken WebSocket handshake: " + std::move(reason)});
     answer.fields.set(http::field::sec_websocket_version, "13");
     return answer;
 }

@@ -153,7 +153,8 @@ Expression decode_circle(Frame frame, Node node) {
     auto const numbers = to_doubles(centre.text());
     if (frame.problem) return {*frame.problem};
     if (numbers.size() != 2 || std::isnan(numbers[0]) || std::isnan(numbers[1]))
-        return {NotUnderstood{"the centre of a circle of the condition is " + quoted(centre.text()) + ": expected two coordinates"}};
+        return {
+            NotUnderstood{"the centre of a circle of the condition is " + quoted(centre.text()) + ": expected two coordinates"}};
     auto const unit = millimetres_in(radius.attribute_text("uom"));
     if (!unit)
         return {NotUnderstood{"the condition has the unit " + quoted(radius.attribute_text("uom")) +

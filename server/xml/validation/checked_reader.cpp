@@ -50,8 +50,7 @@ CheckedReader::CheckedReader(std::shared_ptr<Schemas const> schemas, DocumentLim
 std::optional<Fault> CheckedReader::read(std::string_view document) {
     checked_.reset();
     if (document.size() > limits_.bytes) {
-        return Fault{
-            FaultCode::too_large, "the document is too large: the limit is " + std::to_string(limits_.bytes) + " bytes", {}, {}};
+        return Fault{FaultCode::too_large, "the document is too large: the limit is " + std::to_string(limits_.bytes) + " bytes"};
     }
     tree_.reset();
     document_ = document;

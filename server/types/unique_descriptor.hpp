@@ -1,0 +1,23 @@
+// Owns a file descriptor of the system.
+#pragma once
+
+#include <utility>
+
+namespace rois {
+
+class UniqueDescriptor {
+public:
+    UniqueDescriptor() = default;
+    explicit UniqueDescriptor(int number) : number_{number} {}
+    UniqueDescriptor(UniqueDescriptor&& other) noexcept : number_{other.release()} {}
+    UniqueDescriptor& operator=(UniqueDescriptor&&) = delete;
+    ~UniqueDescriptor();  // closes it
+
+    int get() const { return number_; }  // negative: none
+    int release() { return std::exchange(number_, -1); }
+
+private:
+    int number_ = -1;
+};
+
+}  // namespace rois
