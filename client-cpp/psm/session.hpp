@@ -125,6 +125,10 @@ private:
     void report(std::string text);  // reports an error of the library to the receivers
     void abort_commands();
     void subscribe_again();
+    template <class Receiver>
+    void add_to(std::vector<Receiver*>&, Receiver*);
+    template <class Receiver>
+    void remove_from(std::vector<Receiver*>&, Receiver*);
     void deliver_error(std::string const& id, RoIS_Service::ErrorType);
     void deliver_completed(std::string const& id, RoIS_Service::Completed_Status);
     std::vector<RoIS_Service::ServiceApplicationBase*> applications() const;

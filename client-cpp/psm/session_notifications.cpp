@@ -154,34 +154,26 @@ void Session::deliver_completed(std::string const& id, RoIS_Service::Completed_S
 
 // --- Receivers ---
 
-void Session::add(RoIS_Service::ServiceApplicationBase* application) {
+template <class Receiver>
+void Session::add_to(std::vector<Receiver*>& receivers, Receiver* receiver) {
     std::lock_guard const lock{mutex_};
-    applications_.push_back(application);
-    new_.insert(application);
+    receivers.push_back(receiver);
+    new_.insert(receiver);
 }
 
-void Session::remove(RoIS_Service::ServiceApplicationBase* application) {
+template <class Receiver>
+void Session::remove_from(std::vector<Receiver*>& receivers, Receiver* receiver) {
     {
         std::lock_guard const lock{mutex_};
-        std::erase(applications_, application);
-        new_.erase(application);
+        std::erase(receivers, receiver);
+        new_.erase(receiver);
     }
-    delivery_.end(application);
+    delivery_.end(receiver);
 }
 
-void Session::add(RoIS_Common::Event* event) {
-    std::lock_guard const lock{mutex_};
-    events_.push_back(event);
-    new_.insert(event);
-}
-
-void Session::remove(RoIS_Common::Event* event) {
-    {
-        std::lock_guard const lock{mutex_};
-        std::erase(events_, event);
-        new_.erase(event);
-    }
-    delivery_.end(event);
-}
+void Session::add(RoIS_Service::ServiceApplicationBase* application) { add_to(applications_, application); }
+void Session::remove(RoIS_Service::ServiceApplicationBase* application) { remove_from(applications_, application); }
+void Session::add(RoIS_Common::Event* event) { add_to(events_, event); }
+void Session::remove(RoIS_Common::Event* event) { remove_from(events_, event); }
 
 }  // namespace rois::psm

@@ -1,10 +1,12 @@
 #include "remote/remote_engines.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "core/loop.hpp"
 #include "remote/join_acceptor.hpp"

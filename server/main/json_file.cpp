@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <set>
 
 #include "main/settings.hpp"
+#include "types/text/text_encoding.hpp"
 #include "types/text/texts.hpp"
 
 namespace rois {
@@ -18,7 +20,7 @@ std::string place_of(std::string_view text, std::size_t position) {
     auto const before = text.substr(0, position);
     auto const line = 1 + std::ranges::count(before, '\n');
     auto const begin = before.rfind('\n') + 1;  // npos + 1 is 0
-    auto const column = 1 + std::ranges::count_if(before.substr(begin), [](char c) { return (c & 0xC0) != 0x80; });
+    auto const column = 1 + std::ranges::count_if(before.substr(begin), std::not_fn(continues_character));
     return std::to_string(line) + ":" + std::to_string(column);
 }
 

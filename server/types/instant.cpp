@@ -86,6 +86,15 @@ void put(std::string& text, std::size_t last, Number number) {
     for (auto rest = static_cast<unsigned>(number); rest > 0; rest /= 10) text[last--] = static_cast<char>('0' + rest % 10);
 }
 
+// Writes "2026-11-20T12:00" to the front of the text.
+void put_minute(std::string& text, year_month_day const& date, auto const& clock) {
+    put(text, 3, static_cast<int>(date.year()));
+    put(text, 6, static_cast<unsigned>(date.month()));
+    put(text, 9, static_cast<unsigned>(date.day()));
+    put(text, 12, clock.hours().count());
+    put(text, 15, clock.minutes().count());
+}
+
 std::optional<Period> whole_days(year_month_day const& first, year_month_day const& next) {
     if (!first.ok()) return {};
     return Period{moment(sys_days{first}, nanoseconds{0}), moment(sys_days{next}, nanoseconds{0})};
@@ -141,15 +150,10 @@ std::string in_utc(std::string_view text) {
     if (static_cast<int>(date.year()) < 1 || static_cast<int>(date.year()) > 9'999) return std::string{text};
     hh_mm_ss const shown{then - floor<days>(then)};
     std::string utc = "0000-00-00T00:00";
-    put(utc, 3, static_cast<int>(date.year()));
-    put(utc, 6, static_cast<unsigned>(date.month()));
-    put(utc, 9, static_cast<unsigned>(date.day()));
-    put(utc, 12, shown.hours().count());
-    put(utc, 15, shown.minutes().count());
+    put_minute(utc, date, shown);
     return utc.append(written.substr(utc.size(), end_of_second - utc.size())).append("Z");
 }
 
-// The clock counts nanoseconds, so that all years have four digits.
 std::string in_seconds(nanoseconds time) {
     auto const all = round<milliseconds>(time).count();
     auto text = std::to_string(all / 1'000);
@@ -160,16 +164,13 @@ std::string in_seconds(nanoseconds time) {
     return text + " s";
 }
 
+// The clock counts nanoseconds, so that all years have four digits.
 std::string to_text(Utc time) {
     auto const day = floor<days>(time);
     year_month_day const date{day};
     hh_mm_ss const clock{floor<milliseconds>(time - day)};
     std::string text = "0000-00-00T00:00:00.000Z";
-    put(text, 3, static_cast<int>(date.year()));
-    put(text, 6, static_cast<unsigned>(date.month()));
-    put(text, 9, static_cast<unsigned>(date.day()));
-    put(text, 12, clock.hours().count());
-    put(text, 15, clock.minutes().count());
+    put_minute(text, date, clock);
     put(text, 18, clock.seconds().count());
     put(text, 22, clock.subseconds().count());
     return text;

@@ -1,4 +1,4 @@
-// The frames of RFC 6455. The tests write frames by hand, independently of the code that they test.
+// The frames of RFC 6455. The kit writes frames independently of the code that is tested here.
 #include "net/websocket/websocket_frames.hpp"
 
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "kit/websocket_frames.hpp"
 #include "types/text/text_encoding.hpp"
 
 namespace rois::net {
@@ -23,13 +24,8 @@ std::string big_endian(std::uint64_t number, int bytes) {
 }
 
 // A masked frame, as a client sends it.
-std::string frame(unsigned first_byte, std::string payload, std::string const& mask = "mask") {
-    auto const size = payload.size();
-    for (std::size_t i = 0; i < size; ++i) payload[i] = static_cast<char>(payload[i] ^ mask[i % 4]);
-    auto const head = size < 126     ? big_endian(0x80 | size, 1)
-                      : size < 65536 ? "\xFE" + big_endian(size, 2)
-                                     : "\xFF" + big_endian(size, 8);
-    return static_cast<char>(first_byte) + head + mask + payload;
+std::string frame(unsigned first_byte, std::string_view payload) {
+    return kit::frame_bytes(first_byte, payload, kit::Masked::yes);
 }
 
 std::string close_frame(unsigned code, std::string const& reason = "") { return frame(0x88, big_endian(code, 2) + reason); }
@@ -62,10 +58,7 @@ TEST(Frame, IsWrittenWithTheShortestLengthAndWithoutAMask) {
         std::string const payload(size, 'x');
         std::string out;
         append_frame(out, Opcode::text, payload);
-        auto const length = size < 126     ? big_endian(size, 1)
-                            : size < 65536 ? "\x7E" + big_endian(size, 2)
-                                           : "\x7F" + big_endian(size, 8);
-        EXPECT_TRUE(out == "\x81" + length + payload) << size;
+        EXPECT_TRUE(out == kit::frame_bytes(0x81, payload, kit::Masked::no)) << size;
         std::string head;
         append_text_head(head, size);
         EXPECT_TRUE(head + payload == out) << size;

@@ -5,7 +5,6 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <functional>
 #include <sstream>
 
 #include "gateway/process/log_queue.hpp"

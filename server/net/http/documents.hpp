@@ -1,6 +1,7 @@
 // The documents that clients read without a session: profiles, schemas, the floor map, health, metrics and the page at "/".
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "gateway/gateway.hpp"

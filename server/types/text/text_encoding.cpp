@@ -15,7 +15,7 @@ Utf8Character first_character(std::string_view text) {
     if (length == 0 || length > text.size()) return {};
     char32_t code = first & (0x7FU >> length);
     for (std::size_t i = 1; i < length; ++i) {
-        if ((byte(i) & 0xC0U) != 0x80) return {};
+        if (!continues_character(text[i])) return {};
         code = code << 6U | (byte(i) & 0x3FU);
     }
     bool const overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);

@@ -18,6 +18,9 @@ struct Utf8Character {
 Utf8Character first_character(std::string_view text);
 bool is_utf8(std::string_view);
 
+// Returns whether the byte is not the first one of a UTF-8 character.
+constexpr bool continues_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
+
 // Decodes percent-encoding (RFC 3986, 2.1). Returns nothing if a percent sign is not followed by two hexadecimal digits.
 std::optional<std::string> percent_decoded(std::string_view);
 

@@ -50,8 +50,7 @@ void append(std::string& text, char32_t c) {
 // Returns the largest length up to `longest` that does not cut a UTF-8 character.
 std::size_t whole_characters(std::string_view text, std::size_t longest) {
     if (text.size() <= longest) return text.size();
-    auto const continues = [&](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U; };
-    while (longest > 0 && continues(longest)) --longest;
+    while (longest > 0 && continues_character(text[longest])) --longest;
     return longest;
 }
 

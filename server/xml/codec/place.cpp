@@ -1,12 +1,12 @@
 #include "xml/codec/place.hpp"
 
+#include "types/text/text_encoding.hpp"
+
 namespace rois::xml {
 
 namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
-bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
 // Returns whether a line ends with this character. In CR LF, only the LF ends it.
 bool ends_line(std::string_view document, std::size_t i) {

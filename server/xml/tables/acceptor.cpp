@@ -15,17 +15,8 @@ namespace rois::xml {
 namespace {
 
 // The bytes that end a run of plain text in content; `ends_value`: in an attribute.
-constexpr auto ends_text = [] {
-    std::array<bool, 256> table{};
-    for (unsigned char const c : std::string_view{"<&]"}) table[c] = true;
-    return table;
-}();
-
-constexpr auto ends_value = [] {
-    std::array<bool, 256> table{};
-    for (unsigned char const c : std::string_view{"<&\"'\t\n"}) table[c] = true;
-    return table;
-}();
+constexpr auto ends_text = bytes_of("<&]");
+constexpr auto ends_value = bytes_of("<&\"'\t\n");
 
 // Prefixes that begin with "xml", in any case, are reserved.
 bool is_reserved(std::string_view prefix) {

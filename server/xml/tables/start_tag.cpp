@@ -7,11 +7,7 @@ namespace rois::xml {
 namespace {
 
 // The bytes that end a name. The parser checks the characters of the name.
-constexpr auto ends_name = [] {
-    std::array<bool, 256> table{};
-    for (unsigned char const c : std::string_view{" \t\r\n/>=<\"'&"}) table[c] = true;
-    return table;
-}();
+constexpr auto ends_name = bytes_of(" \t\r\n/>=<\"'&");
 
 }  // namespace
 

@@ -1,12 +1,20 @@
 // Reads one start tag, attribute by attribute, from unparsed bytes.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string_view>
 
 namespace rois::xml {
 
 inline constexpr std::string_view white_space = " \t\r\n";
+
+// A table that is true for these bytes.
+constexpr std::array<bool, 256> bytes_of(std::string_view bytes) {
+    std::array<bool, 256> table{};
+    for (unsigned char const byte : bytes) table[byte] = true;
+    return table;
+}
 
 class StartTag {
 public:
