@@ -57,8 +57,8 @@ HttpAnswer not_modified(HttpAnswer answer) {
     return answer;
 }
 
-// Beast's serializer would write the same, but makes a query 8 % more expensive: together with Beast's `fields` for requests,
-// more than the goal allows (docs/performance.md).
+// Beast's serializer would write the same, but makes a query 8 % more expensive, which is more than the goal allows
+// (docs/performance.md).
 void append(std::string& out, HttpAnswer const& answer, Framing framing) {
     bool const has_length = may_have_body(answer.status) && framing.body != Framing::Body::endless;
     auto const line = [&](std::string_view name, std::string_view value) {

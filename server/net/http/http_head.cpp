@@ -64,8 +64,8 @@ bool may_be_authority(std::string_view text) { return text.find_first_of(" \t,/\
 using boost::beast::error_code;
 using boost::beast::string_view;
 
-// Beast's parser. It stores the head as views: Beast's own `fields` copy each field, which makes a query 3 % more expensive:
-// together with Beast's serializer, more than the goal allows (docs/performance.md).
+// Beast's parser. It stores the head as views: Beast's own `fields` copy each field. With them, a query costs 3 % more, which is
+// all that the goal leaves (docs/performance.md).
 class HeadParser : public http::basic_parser<true> {
 public:
     explicit HeadParser(RequestHead& head) : head_{head} {}
