@@ -12,7 +12,6 @@
 
 #include "media/channel.hpp"
 #include "media/rtp.hpp"
-#include "types/text/texts.hpp"
 
 namespace rois::media {
 
@@ -183,10 +182,11 @@ std::unique_ptr<Outlet> Server::serve(Content content, Flow flow) { return runni
 
 std::optional<std::string> Server::rtp_refusal(std::string_view target) const {
     auto const endpoint = rtp_target(target);
-    if (!endpoint) return quoted(target) + " is not an RTP target: expected rtp://HOST:PORT with a numeric address or localhost";
+    if (!endpoint)
+        return "'" + std::string{target} + "' is not an RTP target: expected rtp://HOST:PORT with a numeric address or localhost";
     if (running_->settings().rtp_targets == RtpTargets::loopback && !endpoint->address().is_loopback())
-        return "the RTP target " + quoted(target) +
-               " is not on this machine; the key media_rtp with the value any allows all addresses";
+        return "the RTP target '" + std::string{target} +
+               "' is not on this machine; the key media_rtp with the value any allows all addresses";
     return {};
 }
 

@@ -57,11 +57,11 @@ TEST(Layers, TheGatewayKnowsNoSockets) {
 
 TEST(Layers, ALibraryBelongsToOneLayer) {
     Tree const tree{{"server/engine/engine.cpp", "#include <vector>\n#include <boost/asio.hpp>\n"},
-                    {"server/types/ids.hpp", "#include <unistd.h>\n"},
+                    {"server/files/ids.hpp", "#include <unistd.h>\n"},
                     {"server/main/main.cpp", "#include <CLI/CLI.hpp>\n#include <Eigen/Core>\n"}};
     EXPECT_THAT(against_layers(tree), ElementsAre("server/engine/engine.cpp:2: server/engine/ may not see <boost/asio.hpp>",
-                                                  "server/main/main.cpp:2: server/main/ may not see <Eigen/Core>",
-                                                  "server/types/ids.hpp:1: server/types/ may not see <unistd.h>"));
+                                                  "server/files/ids.hpp:1: server/files/ may not see <unistd.h>",
+                                                  "server/main/main.cpp:2: server/main/ may not see <Eigen/Core>"));
 }
 
 TEST(Layers, ALibraryIsNotVisibleThroughAHeader) {

@@ -142,8 +142,10 @@ std::optional<Received> MessageReader::rejected(Head const& head) const {
     if (head.opcode == Opcode::binary) return violation(CloseCode::unsupported_data, "messages are text");
     if (head.opcode == Opcode::continuation && fragments_ == 0) return protocol_error("a continuation without a beginning");
     if (head.opcode == Opcode::text && fragments_ > 0) return protocol_error("a new message inside another one");
-    if (head.payload > max_message_ - parts_.size()) return violation(CloseCode::message_too_big, "the message is longer than max_body allows");
-    if (!head.last && fragments_ >= max_fragments_) return violation(CloseCode::policy_violation, "the message has too many fragments");
+    if (head.payload > max_message_ - parts_.size())
+        return violation(CloseCode::message_too_big, "the message is longer than max_body allows");
+    if (!head.last && fragments_ >= max_fragments_)
+        return violation(CloseCode::policy_violation, "the message has too many fragments");
     return {};
 }
 

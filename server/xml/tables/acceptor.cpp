@@ -7,6 +7,7 @@
 
 #include "xml/codec/characters.hpp"
 #include "xml/codec/names.hpp"
+#include "xml/tables/start_tag.hpp"
 #include "xml/validation/grammars.hpp"
 #include "xml/validation/scan.hpp"
 
