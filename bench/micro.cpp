@@ -182,10 +182,10 @@ template <class Known>
 void handle(benchmark::State& state, std::string const& document) {
     World world{static_cast<int>(state.range(0))};
     auto const operation = request_of(document).operation;
-    std::uint64_t heard = 0;
+    std::uint64_t last_sequence = 0;
     for (auto _ : state) {
         benchmark::DoNotOptimize(world.ask<Known>(world.session, operation));
-        world.take(world.session, heard);
+        world.take(world.session, last_sequence);
     }
 }
 
@@ -195,16 +195,16 @@ void fire(benchmark::State& state, std::string const& subscribe, std::string con
     auto const subscription = request_of(subscribe).operation;
     auto const firing = request_of(fire).operation;
     std::vector<std::pair<SessionId, std::uint64_t>> subscribers(static_cast<std::size_t>(state.range(0)));
-    for (auto& [session, heard] : subscribers) {
+    for (auto& [session, last_sequence] : subscribers) {
         session = world.connect();
         world.ask<Subscribe>(session, subscription);
     }
-    std::uint64_t heard_by_firing = 0;
+    std::uint64_t last_of_firing = 0;
     std::string text;
     for (auto _ : state) {
         world.ask<Execute>(world.session, firing);
-        for (auto& [session, heard] : subscribers) benchmark::DoNotOptimize(world.take(session, heard));
-        world.take(world.session, heard_by_firing);
+        for (auto& [session, last_sequence] : subscribers) benchmark::DoNotOptimize(world.take(session, last_sequence));
+        world.take(world.session, last_of_firing);
     }
     state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * subscribers.size()));
 }
@@ -242,7 +242,7 @@ struct Conditioned {
     explicit Conditioned(std::string const& subscribe)
         : condition{std::get<Subscribe>(request_of(subscribe).operation).condition} {
         declared.add(find_message(probe_profile(), MessageKind::event, "probed")->results);
-        told.parameters = {text("stamp", "t1"), integer("value", 42)};
+        results.parameters = {text("stamp", "t1"), integer("value", 42)};
     }
     Filter compile() const {
         auto made = Filter::compile(condition, {.places = &places, .parameters = nullptr, .results = &declared});
@@ -253,7 +253,7 @@ struct Conditioned {
     Places places;
     Declarations declared;
     QueryExpression condition;
-    Results told;
+    Results results;
 };
 
 void compile_filter(benchmark::State& state, std::string const& document) {
@@ -264,7 +264,7 @@ void compile_filter(benchmark::State& state, std::string const& document) {
 void match_filter(benchmark::State& state, std::string const& document) {
     Conditioned const conditioned{document};
     auto const filter = conditioned.compile();
-    ResultsCandidate const candidate{conditioned.told, "e-1"};
+    ResultsCandidate const candidate{conditioned.results, "e-1"};
     for (auto _ : state) {
         if (filter.match(candidate) != Match::yes) state.SkipWithError("no match");
     }

@@ -178,5 +178,5 @@ def write_json(path, machine, version, kept):
     together = dict(collections.ChainMap(*kept.values()))
     middle = medians(together)
     parts = {part: {row: {"median": middle[row], "rounds": rounds[row]} for row in rounds} for part, rounds in kept.items()}
-    told = [vars(goal) for goal in goals(together)]
-    path.write_text(json.dumps({"machine": machine, "version": version, "goals": told, "parts": parts}, indent=1) + "\n")
+    report = {"machine": machine, "version": version, "goals": [vars(goal) for goal in goals(together)], "parts": parts}
+    path.write_text(json.dumps(report, indent=1) + "\n")

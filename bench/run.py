@@ -41,7 +41,7 @@ def measure(parts, rounds, settings):
         for part in parts:
             begun = time.monotonic()
             rows = kept[part]
-            importlib.import_module(f"parts.{part}").round(lambda row, told: rows.setdefault(row, []).append(told), settings)
+            importlib.import_module(f"parts.{part}").round(lambda row, measured: rows.setdefault(row, []).append(measured), settings)
             print(f"round {number + 1} of {rounds}: {part}, {time.monotonic() - begun:.0f} s", file=sys.stderr, flush=True)
     return kept
 

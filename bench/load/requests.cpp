@@ -50,8 +50,8 @@ private:
     }
 
     void take(Socket::Message const& message) {
-        bool const told = options_.via == Via::http ? answered_ : is_notification(message.body);
-        if (told) {
+        bool const has_notifications = options_.via == Via::http ? answered_ : is_notification(message.body);
+        if (has_notifications) {
             note_sequence(message.body);
             notified_ = message.body.find(options_.await) != message.body.npos;
         } else {
@@ -64,15 +64,15 @@ private:
     }
 
     // Notes the last sequence of this message; the next poll continues after it.
-    void note_sequence(std::string_view heard) {
+    void note_sequence(std::string_view document) {
         constexpr std::string_view attribute = "sequence=\"";
-        auto const last = heard.rfind(attribute);
-        if (last != heard.npos) heard_ = std::strtoull(heard.data() + last + attribute.size(), nullptr, 10);
+        auto const last = document.rfind(attribute);
+        if (last != document.npos) last_sequence_ = std::strtoull(document.data() + last + attribute.size(), nullptr, 10);
     }
 
     // Sends a long poll: over HTTP, notifications must be requested.
     void poll() {
-        auto const path = options_.path + "/notifications?wait=10&after=" + std::to_string(heard_);
+        auto const path = options_.path + "/notifications?wait=10&after=" + std::to_string(last_sequence_);
         application_.socket().send(http_get(path, application_.session(), "application/xml"));
     }
 
@@ -82,7 +82,7 @@ private:
     std::size_t next_ = 0;
     Nanoseconds began_ = 0;
     std::size_t answer_bytes_ = 0;
-    std::uint64_t heard_ = 0;
+    std::uint64_t last_sequence_ = 0;
     bool answered_ = false;
     bool notified_ = false;
 };

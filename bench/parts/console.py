@@ -19,5 +19,5 @@ def round(keep, settings):
     if done.returncode != 0:
         raise BenchError(f"console: {done.stderr.strip()}")
     for line in done.stdout.splitlines():
-        told = json.loads(line)
-        keep(f"console, {told.pop('row')}", told)
+        measured = json.loads(line)
+        keep(f"console, {measured.pop('row')}", measured)

@@ -35,8 +35,8 @@ def round(keep, settings):
     with running(stage()) as (hall,), running(above(hall), stage()) as (main, own):
         await_component(main, "hall.probe0")
         for _ in range(settings.turns):
-            hear(keep, EVENT_LOCAL, own, "", settings)
-            with_hall(keep, EVENT_BOTH, hall, "messages", lambda: hear(keep, EVENT_MAIN, main, "-hall", settings))
+            send_events(keep, EVENT_LOCAL, own, "", settings)
+            with_hall(keep, EVENT_BOTH, hall, "messages", lambda: send_events(keep, EVENT_MAIN, main, "-hall", settings))
 
 
 def with_hall(keep, row, hall, counted, measure):
@@ -54,7 +54,7 @@ def above(hall):
     return gateway(1, "--robots", "none", "--engines", file, name="main-engine")
 
 
-def hear(keep, row, server, suffix, settings):
+def send_events(keep, row, server, suffix, settings):
     options = {"via": "websocket", "connect": "yes", "connections": SUBSCRIBERS, "setup": document("subscribe"), "burst": BURST}
     folder = WORK / "documents" / "micro"
     firing = {"fire_setup": folder / f"bind-probe0{suffix}.xml", "fire": folder / f"fire-{BURST}{suffix}.xml"}

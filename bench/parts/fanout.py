@@ -31,7 +31,7 @@ def fire(burst):
     return {"fire_setup": folder / "bind-probe0.xml", "fire": folder / f"fire-{burst}.xml", "burst": burst}
 
 
-def hear(server, subscribers, burst, seconds):
+def send_events(server, subscribers, burst, seconds):
     options = {"via": "websocket", "connect": "yes", "connections": subscribers, "setup": document("subscribe")}
     return load("fanout", server, seconds=seconds, **options, **fire(burst))
 
@@ -40,17 +40,17 @@ def round(keep, settings):
     for burst in BURSTS:
         for subscribers in (1, 100, 5_000):
             with running(stage()) as (server,):
-                keep(row(subscribers, burst), hear(server, subscribers, burst, settings.seconds))
+                keep(row(subscribers, burst), send_events(server, subscribers, burst, settings.seconds))
         for _ in range(settings.turns):
             with running(stage()) as (server,):
-                heard = hear(server, MANY, burst, settings.seconds)
-            keep(row(MANY, burst), heard)
-            with running(Server("sender", [BIN / "rois-prebuilt-sender", "{port}", int(heard["message_bytes"])])) as (server,):
+                measured = send_events(server, MANY, burst, settings.seconds)
+            keep(row(MANY, burst), measured)
+            with running(Server("sender", [BIN / "rois-prebuilt-sender", "{port}", int(measured["message_bytes"])])) as (server,):
                 (WORK / "burst").write_text(str(burst))
                 options = {"via": "websocket", "connections": MANY, "fire": WORK / "burst", "burst": burst}
                 keep(sender_row(burst), load("fanout", server, seconds=settings.seconds, **options))
         with running(stage(threads=2)) as (server,):
-            keep(row(MANY, burst, 2), hear(server, MANY, burst, settings.seconds))
+            keep(row(MANY, burst, 2), send_events(server, MANY, burst, settings.seconds))
     for via, name in REQUESTS.items():
         keep(name, requests_beside_events(settings, via))
 
@@ -58,13 +58,13 @@ def round(keep, settings):
 def requests_beside_events(settings, via):
     seconds = 4 * settings.seconds
     with running(stage(threads=2)) as (server,):
-        events = {"via": "websocket", "connect": "yes", "connections": MANY, "setup": document("subscribe"), "rate": 20}
-        with beside("fanout", server, seconds=seconds + 3, **events, **fire(1)) as events_told:
+        options = {"via": "websocket", "connect": "yes", "connections": MANY, "setup": document("subscribe"), "rate": 20}
+        with beside("fanout", server, seconds=seconds + 3, **options, **fire(1)) as events:
             requests = {"via": via, "connect": "yes", "expect": '"OK"', "connections": 16, "rate": 500}
             measured = load("requests", server, body=document("reading-0.6kB"), seconds=seconds, **requests)
-            if events_told.poll() is not None:
+            if events.poll() is not None:
                 raise BenchError("the events ended before the measurement of the requests")
-            told = json.loads(events_told.stdout.readline())["messages_per_second"]
-            if told < 0.975 * 20 * MANY:
-                raise BenchError(f"only {told:.0f} notifications a second reached {MANY} subscribers; expected at least {0.975 * 20 * MANY:.0f}")
+            reached = json.loads(events.stdout.readline())["messages_per_second"]
+            if reached < 0.975 * 20 * MANY:
+                raise BenchError(f"only {reached:.0f} notifications a second reached {MANY} subscribers; expected at least {0.975 * 20 * MANY:.0f}")
             return {name: value for name, value in measured.items() if name != "cpu_us"}  # it includes that of the events

@@ -71,8 +71,8 @@ def after_events(ask):
         for number in AXES[EVENTS]:
             while happened < number:
                 options = {"via": "websocket", "connect": "yes", "connections": 1, "setup": document("subscribe")}
-                heard = load("fanout", server, seconds=0.1, warm_up=0, **options, **fire(100))
-                happened += heard["messages"]
+                measured = load("fanout", server, seconds=0.1, warm_up=0, **options, **fire(100))
+                happened += measured["messages"]
             ask(EVENTS, number, server)
 
 

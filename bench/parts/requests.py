@@ -96,8 +96,8 @@ def operations(ask):
     with running(stage(probes=64)) as (server,):
         for name, via in MODES.items():
             ask(f"stage: set_parameter, {name}", server, "set_parameter", via=via, setup=document("bind"))
-            told = {"setup": document("bind"), "await": "<completed"}
-            ask(f"stage: execute until completed, {name}", server, "execute", via=via, **told)
+            options = {"setup": document("bind"), "await": "<completed"}
+            ask(f"stage: execute until completed, {name}", server, "execute", via=via, **options)
             ask(f"stage: subscribe again, {name}", server, "subscribe", via=via)
         for name, via in MODES.items():
             ask(f"stage: new subscription, {name}", server, "subscribe-elsewhere", via=via, variants=MANY_VARIANTS)

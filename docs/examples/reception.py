@@ -51,11 +51,11 @@ def ask(question):
     """Asks, and returns the answer, or None."""
     engine.skip().run("speech_recognition")
     say(question)
-    heard = engine.event("speech_recognized", 10)
+    recognized = engine.event("speech_recognized", 10)
     engine.run("speech_recognition", "stop")
-    if heard is not None:
+    if recognized is not None:
         say("I shall tell my colleagues at the desk.")
-    return heard and heard["recognized_text"][0]
+    return recognized and recognized["recognized_text"][0]
 
 
 def receive(visitors):
@@ -79,11 +79,11 @@ def receive(visitors):
         met.add(person)
         if visitor not in met:
             message = MESSAGES.get(visitor, "Welcome. There is no message for you today.")
-            heard = ask(message) if visitor == "somebody" else say(message)
+            answer = ask(message) if visitor == "somebody" else say(message)
             met.update({visitor} - {"somebody"})
             engine.run("reaction", reaction_ref=["RoISIdentifier", "9"])
             say("Goodbye.")
-            print(f'{visitor}: told "{message}"' + (f', heard "{heard}"' if heard else ""), flush=True)
+            print(f'{visitor}: told "{message}"' + (f', heard "{answer}"' if answer else ""), flush=True)
             received += 1
     engine.run("navigation", target_position=["string[]", start])
     print(f"visitors received: {visitors}")

@@ -34,7 +34,7 @@ message_for() {
     esac
 }
 
-tell() { printf '%s  %s\n' "$(date +%H:%M:%S)" "$*" >&2; }
+log() { printf '%s  %s\n' "$(date +%H:%M:%S)" "$*" >&2; }
 
 # --- Speaking to the engine -----------------------------------------------------------------------------------------
 
@@ -51,15 +51,15 @@ ask() {
 
 pause() {
     broken=${broken:-$(date +%s)}
-    [ $(($(date +%s) - broken)) -lt 10 ] || { tell "$url does not answer."; exit 1; }
-    tell 'The link broke; asking again.'
+    [ $(($(date +%s) - broken)) -lt 10 ] || { log "$url does not answer."; exit 1; }
+    log 'The link broke; asking again.'
     sleep 1
 }
 
 # request OPERATION [CHILDREN [ATTRIBUTES]]: like `ask`, but the script ends if the answer is not OK.
 request() { ask "$@" || refused "$1"; }
 refused() {
-    tell "The engine refused $1: $answer"
+    log "The engine refused $1: $answer"
     exit 1
 }
 
@@ -140,14 +140,14 @@ commands=0
 run() {
     commands=$((commands + 1))
     execute "step-$commands" "$(command "step-$commands" "$1" "$2" "${3:-}")"
-    wait_for "*<command_id>step-$commands</command_id>*" 120 || { tell "$1 $2 did not complete within two minutes"; exit 1; }
+    wait_for "*<command_id>step-$commands</command_id>*" 120 || { log "$1 $2 did not complete within two minutes"; exit 1; }
     status=$(text_of status "$notification")
     why=$status  # with the engine's reason, if there is one
     [ "$status" = OK ] || ! ask get_command_result "<command_id>step-$commands</command_id>" || why=$why$(values_of reason "$answer" | sed '1s/^/: /')
 }
 
 say() {
-    tell "Robot: \"$1\""
+    log "Robot: \"$1\""
     run speech_synthesis start "$(parameter speech_text string "$1")"
 }
 
@@ -156,10 +156,10 @@ go_to() { run navigation start "$(parameter target_position 'string[]' "$1")$(pa
 # --- The states of figure 1 -----------------------------------------------------------------------------------------
 
 wait_for_a_person() {
-    tell 'Waiting for somebody to come.'
+    log 'Waiting for somebody to come.'
     run person_detection start
     until wait_for '*<event_type>person_detected</event_type>*' 30 && [ "$(values_of number "$notification")" -gt 0 ]; do :; done
-    tell "There is somebody: $(values_of number "$notification") person(s)."
+    log "There is somebody: $(values_of number "$notification") person(s)."
     run person_detection stop
 }
 
@@ -222,18 +222,18 @@ go_before() {
 
 # Goes to a standing person, and on to their new position if they have moved, at most five times. Fails if no new person is reached.
 go_there() {
-    find_standing || { tell 'Nobody new stands anywhere.'; return 1; }
-    tell "$person is at $position (mm, mm, degree); going there."
+    find_standing || { log 'Nobody new stands anywhere.'; return 1; }
+    log "$person is at $position (mm, mm, degree); going there."
     for try in 1 2 3 4 5; do
         aim=$position
-        go_before "$aim" || { tell "No way leads to $person ($why)."; return 1; }
+        go_before "$aim" || { log "No way leads to $person ($why)."; return 1; }
         look
         is=$(position_of "$person" "$seen")
-        [ -n "$is" ] && near "$aim" "$is" 600 && { tell "Arrived at $person."; return 0; }
-        find_standing "$person" || { tell "$person is out of sight."; return 1; }
-        [ "$try" -eq 5 ] || tell "$person is at $position now; going on."
+        [ -n "$is" ] && near "$aim" "$is" 600 && { log "Arrived at $person."; return 0; }
+        find_standing "$person" || { log "$person is out of sight."; return 1; }
+        [ "$try" -eq 5 ] || log "$person is at $position now; going on."
     done
-    tell "$person does not stay."
+    log "$person does not stay."
     return 1
 }
 
@@ -248,23 +248,23 @@ identify() {
 }
 
 guide() {
-    heard=
+    words=
     if [ -z "$visitor" ]; then
-        tell 'Nobody that is known.'
+        log 'Nobody that is known.'
         message='Welcome. How can I help you?'
         run speech_recognition start
         say "$message"
         if wait_for '*<event_type>speech_recognized</event_type>*' 10; then
-            heard=$(values_of recognized_text "$notification" | sed -n 1p)
-            tell "Visitor: \"$heard\""
+            words=$(values_of recognized_text "$notification" | sed -n 1p)
+            log "Visitor: \"$words\""
             say 'I shall tell my colleagues at the desk.'
         else
-            tell 'No answer.'
+            log 'No answer.'
         fi
         run speech_recognition stop
         return
     fi
-    tell "This is $visitor."
+    log "This is $visitor."
     message=$(message_for "$visitor")
     message=${message:-Welcome. There is no message for you today.}
     say "$message"
@@ -276,24 +276,24 @@ receive() {
     known_persons="$known_persons$person "
     identify
     case $known_visitors in *" ${visitor:-nobody} "*)
-        tell "This is $visitor, who was received already."
+        log "This is $visitor, who was received already."
         go_back
         return 1
         ;;
     esac
     known_visitors="$known_visitors$visitor "
     guide
-    tell 'The robot bows.'
+    log 'The robot bows.'
     run reaction start "$(parameter reaction_ref RoISIdentifier 9)"
     say 'Goodbye.'
-    printf '%s: told "%s"%s\n' "${visitor:-somebody}" "$message" "${heard:+, heard \"$heard\"}"
+    printf '%s: told "%s"%s\n' "${visitor:-somebody}" "$message" "${words:+, heard \"$words\"}"
     go_back
 }
 
 go_back() {
-    tell 'Going back to the start.'
+    log 'Going back to the start.'
     go_to "$start"
-    [ "$status" = OK ] || tell "The way back ended with $why."
+    [ "$status" = OK ] || log "The way back ended with $why."
 }
 
 leave() {
@@ -314,7 +314,7 @@ for event in person_detected person_localized person_identified speech_recognize
 done
 request query '<query_type>robot_position</query_type>'
 start=$(values_of position_data "$answer" | sed -n 1p)
-tell "Connected to $url; the robot stands at $start."
+log "Connected to $url; the robot stands at $start."
 
 received=0
 known_persons=' '   # temporary names of received visitors, valid until the robot loses sight of them

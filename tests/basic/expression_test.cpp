@@ -155,7 +155,7 @@ TEST(SeveralBodies, HaveTheirNamesInTheirRefs) {
     EXPECT_EQ(components[27]->description().engine, "second");
 }
 
-TEST(Bodies, TheirComponentsAreUninitializedBeforeTheFirstObservation) {
+TEST(Bodies, ComponentsAreUninitializedBeforeTheFirstObservation) {
     auto const body = std::make_shared<FakeBody>();
     std::vector<std::unique_ptr<Operated>> operated;
     for (auto& component : robot_components({.bodies = {body}, .media = nullptr}, own_profiles()))

@@ -57,12 +57,12 @@ TEST_F(TheBackOff, IsResetByAResumedSession) {
 }
 
 TEST_F(TheBackOff, GrowsWhileNoLinkResumesTheSession) {
-    std::promise<std::vector<FailedAttempt>> told;
+    std::promise<std::vector<FailedAttempt>> reported;
     std::vector<FailedAttempt> attempts;
     Observers observers;
     observers.attempt_failed = [&](FailedAttempt const& attempt) {
         attempts.push_back(attempt);
-        if (attempts.size() == 6) told.set_value(attempts);
+        if (attempts.size() == 6) reported.set_value(attempts);
     };
     Client client{with_pauses(gateway.url(), 8ms, 50ms), observers};
     connect();
@@ -70,7 +70,7 @@ TEST_F(TheBackOff, GrowsWhileNoLinkResumesTheSession) {
         gateway.accept();
         gateway.receive("resume");
     }
-    auto const all = told.get_future().get();
+    auto const all = reported.get_future().get();
     std::vector<std::chrono::milliseconds> const longest{8ms, 16ms, 32ms, 50ms, 50ms, 50ms};
     for (std::size_t i = 0; i < longest.size(); ++i) {
         EXPECT_EQ(all[i].count, i + 1);
@@ -109,9 +109,9 @@ TEST_P(TheFlakyLink, LosesNothingAt250EventsPerSecondWhenItBreaksEvery100Kilobyt
     }
     history.await_notifications(rounds * each);
     EXPECT_THAT(history.gaps(), testing::IsEmpty());
-    auto const told = history.notifications();
-    ASSERT_THAT(told, SizeIs(rounds * each));
-    for (std::size_t i = 0; i < told.size(); ++i) EXPECT_EQ(told[i].first, i + 1);
+    auto const received = history.notifications();
+    ASSERT_THAT(received, SizeIs(rounds * each));
+    for (std::size_t i = 0; i < received.size(); ++i) EXPECT_EQ(received[i].first, i + 1);
     EXPECT_GT(proxy.cuts(), 10U);
 }
 
@@ -123,14 +123,14 @@ TEST_P(ARefusedConnection, IsReportedAtOnceWhileTheClientRetries) {
     proxy.refuse(true);
     auto patient = settings(proxy.url());
     patient.connect_deadline = 1h;
-    std::promise<FailedAttempt> told;
+    std::promise<FailedAttempt> reported;
     History history;
     auto observers = history.observers();
     observers.attempt_failed = [&](FailedAttempt const& attempt) {
-        if (attempt.count == 1) told.set_value(attempt);
+        if (attempt.count == 1) reported.set_value(attempt);
     };
     Blocking robot{patient, observers};
-    auto const first = told.get_future().get();
+    auto const first = reported.get_future().get();
     EXPECT_THAT(first.reason, HasSubstr("reset"));
     EXPECT_GT(first.retry_in, 0ms);
     EXPECT_EQ(robot.client().state(), State::connecting);

@@ -25,8 +25,8 @@ ROIS_BOTH_WAYS(TheLink);
 // Expects each sequence number once, without gaps except reported ones.
 void expect_all_once(History const& history) {
     std::uint64_t last = 0;
-    for (auto const& [sequence, told] : history.notifications()) {
-        auto const* const lost = std::get_if<Lost>(&told);
+    for (auto const& [sequence, notification] : history.notifications()) {
+        auto const* const lost = std::get_if<Lost>(&notification);
         EXPECT_EQ(sequence, last + (lost != nullptr ? lost->count : 1));
         last = sequence;
     }
@@ -153,9 +153,9 @@ TEST_P(TheLink, DoesNotResetThePauseBeforeItHasAnswered) {
     slow.first_pause = slow.longest_pause = 1h;
     History history;
     auto observers = history.observers();
-    observers.state = [&, told = observers.state](StateChange const& change) {
+    observers.state = [&, record = observers.state](StateChange const& change) {
         if (change.state == State::lost) proxy.cut_before("<search_response");
-        told(change);
+        record(change);
     };
     Blocking robot{slow, observers};
     robot.open();
@@ -242,7 +242,8 @@ TEST_P(TheLink, RestoresBindingsAndSubscriptionsInANewSession) {
     EXPECT_TRUE(robot(again.next(5s)));
     EXPECT_EQ(detected.gaps(), 1U);
     auto events = 0;
-    for (auto const& [sequence, told] : history.notifications()) events += std::holds_alternative<ReceiveEvent>(told) ? 1 : 0;
+    for (auto const& [sequence, notification] : history.notifications())
+        events += std::holds_alternative<ReceiveEvent>(notification) ? 1 : 0;
     EXPECT_EQ(events, 1) << "subscribed once";
     EXPECT_FALSE(history.completions().contains(following.id().text)) << "only the gap is reported of the session that has ended";
 }

@@ -34,7 +34,7 @@ protected:
 
     // Waits for the next event that `is_it` accepts. The component must be started.
     template <class E>
-    E heard(Events<E>& events, std::function<bool(E const&)> const& is_it) {
+    E next(Events<E>& events, std::function<bool(E const&)> const& is_it) {
         while (true) {
             auto event = robot(events.next(20s));
             if (!event) throw std::runtime_error{"no such event: " + std::string{E::name}};
@@ -48,7 +48,7 @@ protected:
         auto const component = robot.bind_any<Facade>();
         auto events = robot((component.*subscribe)({}));
         EXPECT_EQ(robot(component.start()), CompletedStatus::ok);
-        auto const event = heard(events, is_it);
+        auto const event = next(events, is_it);
         EXPECT_GT(event.timestamp, *to_utc("2024-01-01T00:00:00Z"));
         robot(component.release());
         return event;
@@ -71,8 +71,8 @@ protected:
         expect_ok(streaming.resume_stream(stream.stream_id));
         expect_ok(streaming.disconnect_stream(stream.stream_id));
         for (auto const status : {StreamStatus::suspended, StreamStatus::resumed, StreamStatus::not_connected})
-            heard<StreamStatusNotified>(notified, [&](StreamStatusNotified const& told) {
-                return told.stream_id == stream.stream_id && told.status == status;
+            next<StreamStatusNotified>(notified, [&](StreamStatusNotified const& event) {
+                return event.stream_id == stream.stream_id && event.status == status;
             });
         EXPECT_EQ(robot(streaming.get_stream_status()), StreamStatus::not_connected);
         EXPECT_THROW(robot(streaming.suspend_stream(stream.stream_id)), Error);
@@ -158,7 +158,7 @@ TEST_F(TheFacades, LocalizePeopleFacesAndSounds) {
 
 TEST_F(TheFacades, IdentifyPeople) {
     auto const event = first<PersonIdentification, PersonIdentified>(&PersonIdentification::person_identified,
-                                                                     [](auto& told) { return !told.people.empty(); });
+                                                                     [](auto& candidate) { return !candidate.people.empty(); });
     EXPECT_THAT(event.people, ElementsAre(Field(&Identifier::code, "tanaka")));
     EXPECT_EQ(event.people[0].codebook_ref, "urn:x-rois:def:codebook:simulation::visitor");
 }
@@ -176,16 +176,16 @@ TEST_F(TheFacades, RecognizeSpeech) {
     auto over = robot(recognition.speech_input_finished());
     auto recognized = robot(recognition.speech_recognized());
     expect_ok(recognition.start());
-    auto const what = heard<SpeechRecognized>(recognized, [](auto&) { return true; });
+    auto const what = next<SpeechRecognized>(recognized, [](auto&) { return true; });
     EXPECT_THAT(what.recognized_text, ElementsAre("hello"));
-    auto const from = heard<SpeechInputStarted>(begun, [](auto&) { return true; });
-    auto const to = heard<SpeechInputFinished>(over, [](auto&) { return true; });
+    auto const from = next<SpeechInputStarted>(begun, [](auto&) { return true; });
+    auto const to = next<SpeechInputFinished>(over, [](auto&) { return true; });
     EXPECT_LT(from.timestamp, to.timestamp);
 }
 
 TEST_F(TheFacades, RecognizeGestures) {
     auto const event = first<GestureRecognition, GestureRecognized>(&GestureRecognition::gesture_recognized,
-                                                                    [](auto& told) { return !told.gestures.empty(); });
+                                                                    [](auto& candidate) { return !candidate.gestures.empty(); });
     EXPECT_EQ(event.gestures[0].code, "wave");
     GestureRecognition const recognition{robot.bind("gesture_recognition")};
     EXPECT_EQ(robot(recognition.component_status()), ComponentStatus::ready);
@@ -224,10 +224,10 @@ TEST_F(TheFacadesThatMove, NavigateToTargets) {
                                 .with_time_limit(60s)
                                 .with_routing_policy(RoutingPolicy::distance)));
     auto const any = [](ReachedTarget const&) { return true; };
-    auto const on_the_way = heard<ReachedTarget>(reached, any);
+    auto const on_the_way = next<ReachedTarget>(reached, any);
     EXPECT_EQ(on_the_way.target, "5000, 5000, 90");
     EXPECT_FALSE(on_the_way.is_final_target);
-    EXPECT_TRUE(heard<ReachedTarget>(reached, any).is_final_target);
+    EXPECT_TRUE(next<ReachedTarget>(reached, any).is_final_target);
     EXPECT_EQ(robot(navigation.go_to("entrance", 1ms)), CompletedStatus::timeout);
     expect_ok(navigation.go_to(Pose{6_m, 6_m}, 0ms));
     expect_ok(navigation.set(NavigationParameters()
@@ -281,9 +281,9 @@ TEST_F(TheFacadesThatMove, DriveLinesAndCurves) {
     EXPECT_FALSE(curve.line) << "a curve replaces a line";
 }
 
-TEST_F(TheFacades, StreamAudio) { expect_stream<AudioStreaming>("audio/wav"); }
+TEST_F(TheFacades, ConnectSuspendResumeAndDisconnectAudioStreams) { expect_stream<AudioStreaming>("audio/wav"); }
 
-TEST_F(TheFacades, StreamVideo) { expect_stream<VideoStreaming>("multipart/x-mixed-replace"); }
+TEST_F(TheFacades, ConnectSuspendResumeAndDisconnectVideoStreams) { expect_stream<VideoStreaming>("multipart/x-mixed-replace"); }
 
 // --- Temporaries inside a co_await ---
 
@@ -325,8 +325,8 @@ TEST_F(TheFacades, PassEventsToAFunction) {
     auto const gestures = robot.bind<GestureRecognition>("gesture_recognition");
     auto recognized = robot(gestures.gesture_recognized());
     auto const third = std::make_shared<std::promise<std::pair<std::string, std::thread::id>>>();
-    recognized.each([third, told = 0](GestureRecognized const& event) mutable {
-        if (++told == 3) third->set_value({event.gestures.at(0).code, std::this_thread::get_id()});
+    recognized.each([third, count = 0](GestureRecognized const& event) mutable {
+        if (++count == 3) third->set_value({event.gestures.at(0).code, std::this_thread::get_id()});
     });
     expect_ok(gestures.start());
     auto given = third->get_future();
@@ -346,8 +346,8 @@ TEST_F(TheFacades, PassWaitingEventsFirst) {
         expect_ok(detection.stop());
     }
     auto const both = std::make_shared<std::promise<void>>();
-    waiting.each([both, told = 0](PersonDetected const&) mutable {
-        if (++told == 2) both->set_value();
+    waiting.each([both, count = 0](PersonDetected const&) mutable {
+        if (++count == 2) both->set_value();
     });
     EXPECT_EQ(both->get_future().wait_for(5s), std::future_status::ready);
 }

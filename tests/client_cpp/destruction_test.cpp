@@ -145,7 +145,7 @@ TEST_P(Destruction, KeepsObserversUntilTheLastHandleIsGone) {
 }
 
 // Uses the handles of a destroyed client in a coroutine of another client.
-Task<> ask_when_it_is_over(Destruction::Handles& handles, std::promise<std::vector<std::string>>& told) {
+Task<> ask_when_it_is_over(Destruction::Handles& handles, std::promise<std::vector<std::string>>& outcome) {
     std::vector<std::string> said;
     auto const event = co_await handles.stream->next_event(1h);
     said.emplace_back(event ? "event" : "no event");
@@ -166,7 +166,7 @@ Task<> ask_when_it_is_over(Destruction::Handles& handles, std::promise<std::vect
     } catch (Error const& refused) {
         said.emplace_back(refused.what());
     }
-    told.set_value(std::move(said));
+    outcome.set_value(std::move(said));
 }
 
 TEST_P(Destruction, LeavesHandlesThatAnotherClientCanUse) {
@@ -177,9 +177,9 @@ TEST_P(Destruction, LeavesHandlesThatAnotherClientCanUse) {
         Blocking robot{settings()};
         handles = handles_of(robot);
     }
-    std::promise<std::vector<std::string>> told;
-    other.client().spawn(ask_when_it_is_over(handles, told));
-    auto said = told.get_future();
+    std::promise<std::vector<std::string>> outcome;
+    other.client().spawn(ask_when_it_is_over(handles, outcome));
+    auto said = outcome.get_future();
     ASSERT_EQ(said.wait_for(5s), std::future_status::ready);
     auto const closed = testing::HasSubstr("the connection is closed");
     EXPECT_THAT(said.get(), testing::ElementsAre("no event", "ABORT: the connection is closed", closed, closed, closed));

@@ -30,8 +30,8 @@ protected:
     }
     std::vector<ErrorType> errors() const {
         std::vector<ErrorType> all;
-        for (auto const& [sequence, told] : history.notifications())
-            if (auto const* const error = std::get_if<ReceiveError>(&told)) all.push_back(error->error_type);
+        for (auto const& [sequence, notification] : history.notifications())
+            if (auto const* const error = std::get_if<ReceiveError>(&notification)) all.push_back(error->error_type);
         return all;
     }
     void await_hold() {

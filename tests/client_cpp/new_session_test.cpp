@@ -31,7 +31,8 @@ protected:
         EXPECT_TRUE(robot(kept.next(5s)));
         EXPECT_EQ(robot(detection.stop()), CompletedStatus::ok) << "completes after the event";
         auto events = 0;
-        for (auto const& [sequence, told] : history.notifications()) events += std::holds_alternative<ReceiveEvent>(told) ? 1 : 0;
+        for (auto const& [sequence, notification] : history.notifications())
+            events += std::holds_alternative<ReceiveEvent>(notification) ? 1 : 0;
         EXPECT_EQ(events, 1);
     }
 
@@ -193,7 +194,7 @@ TEST_P(TheNewSessionWhenAnObserverCloses, AtTheGapEnds) {
 
 // An unexpected document must not count as the answer to a document that was sent on an earlier link.
 TEST_P(TheNewSession, IsRetriedAfterAnUnexpectedAnswer) {
-    for (auto const& [said, heard] : {std::pair{"<bind_response", "(bind_response"}, {"\"restore-", "\"nothing-"}}) {
+    for (auto const& [sent, replaced] : {std::pair{"<bind_response", "(bind_response"}, {"\"restore-", "\"nothing-"}}) {
         Blocking robot{settings(proxy.url()), history.observers()};
         auto& client = robot.client();
         auto const synthesis = robot.bind<SpeechSynthesis>("speech_synthesis");
@@ -201,7 +202,7 @@ TEST_P(TheNewSession, IsRetriedAfterAnUnexpectedAnswer) {
         proxy.cut_before("<search_response");
         auto raw = begun(client, client.send("<search xmlns='urn:x-rois:psm:xml:message:1'/>"));
         history.await_state("lost");
-        proxy.misquote(said, heard);
+        proxy.misquote(sent, replaced);
         lose_session();
         history.await_state("open");
         auto const answer = raw.get();

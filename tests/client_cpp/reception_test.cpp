@@ -31,7 +31,7 @@ TEST(TheReceptionInCpp, ReportsWhyItFailed) {
     EXPECT_THAT(printed("nowhere", "1", 1), testing::StartsWith("reception: "));
 }
 
-TEST(TheReceptionInCpp, IsShort) {
+TEST(TheReceptionInCpp, HasFewerThan100Lines) {
     std::ifstream source{ROIS_SOURCE_DIR "/client-cpp/examples/reception.cpp"};
     auto const lines = std::count(std::istreambuf_iterator<char>{source}, {}, '\n');
     EXPECT_GT(lines, 0);

@@ -42,8 +42,8 @@ public:
         Observers all;
         all.state = [this](StateChange const& change) { note([&] { states_.emplace_back(to_text(change.state)); }); };
         all.gap = [this](Gap const& gap) { note([&] { gaps_.push_back(gap); }); };
-        all.notification = [this](Notification const& told, std::uint64_t sequence) {
-            note([&] { notifications_.emplace_back(sequence, told); });
+        all.notification = [this](Notification const& notification, std::uint64_t sequence) {
+            note([&] { notifications_.emplace_back(sequence, notification); });
         };
         return all;
     }
@@ -76,8 +76,8 @@ public:
     // Returns how many `completed` notifications each command had.
     std::map<std::string, int> completions() const {
         std::map<std::string, int> count;
-        for (auto const& [sequence, told] : notifications())
-            if (auto const* const completed = std::get_if<Completed>(&told)) ++count[completed->command_id.text];
+        for (auto const& [sequence, notification] : notifications())
+            if (auto const* const completed = std::get_if<Completed>(&notification)) ++count[completed->command_id.text];
         return count;
     }
 

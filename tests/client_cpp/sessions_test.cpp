@@ -27,13 +27,13 @@ TEST_P(TheSession, IsSharedWithAProgramThatKnowsItsId) {
     auto const detection = holder.bind<PersonDetection>("person_detection");
     EXPECT_EQ(holder(detection.start()), CompletedStatus::ok);
     {
-        History told;
-        Blocking guest{beside(holder), told.observers()};
+        History guest_history;
+        Blocking guest{beside(holder), guest_history.observers()};
         guest.open();
         EXPECT_EQ(guest.client().session(), holder.client().session());
         auto const same = guest.client().component("person_detection");
         EXPECT_EQ(guest(same.stop()), CompletedStatus::ok) << "it is bound in this session";
-        EXPECT_THAT(told.completions(), SizeIs(2)) << "earlier notifications are received first";
+        EXPECT_THAT(guest_history.completions(), SizeIs(2)) << "earlier notifications are received first";
     }
     EXPECT_EQ(holder(detection.start()), CompletedStatus::ok) << "the session goes on";
     EXPECT_THAT(history.completions(), SizeIs(3));
@@ -41,28 +41,28 @@ TEST_P(TheSession, IsSharedWithAProgramThatKnowsItsId) {
 }
 
 TEST_P(TheSession, ClosesTheConnectionsThatShareItWhenItEnds) {
-    History told;
+    History guest_history;
     std::optional<Blocking> holder{settings()};
     holder->open();
-    Blocking guest{beside(*holder), told.observers()};
+    Blocking guest{beside(*holder), guest_history.observers()};
     guest.open();
     holder.reset();
-    told.await_states({"connecting", "open", "lost", "closed"});
+    guest_history.await_states({"connecting", "open", "lost", "closed"});
     EXPECT_THAT(guest.call(Search{}).reason, HasSubstr("the session does not exist"));
 }
 
 TEST_P(TheSession, IsNotOpenedForAProgramThatJoins) {
     auto joining = settings();
     joining.session = "nobody";
-    History told;
-    Blocking guest{joining, told.observers()};
+    History guest_history;
+    Blocking guest{joining, guest_history.observers()};
     try {
         guest.open();
         ADD_FAILURE() << "it is open";
     } catch (Error const& refused) {
         EXPECT_THAT(refused.what(), HasSubstr("the session does not exist"));
     }
-    EXPECT_THAT(told.states(), ElementsAre("connecting", "closed"));
+    EXPECT_THAT(guest_history.states(), ElementsAre("connecting", "closed"));
 }
 
 TEST_P(TheSession, ReportsTheEndOfItsCommandsBeforeItsOwnEnd) {

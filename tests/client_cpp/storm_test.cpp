@@ -22,19 +22,19 @@ struct Received {
     std::uint64_t twice = 0;
     std::uint64_t lost = 0;
 
-    void take(Notification const& told, std::uint64_t sequence) {
+    void take(Notification const& notification, std::uint64_t sequence) {
         auto const step = sequence - last;
         if (sequence <= last) ++twice;
         last = std::max(last, sequence);
-        if (auto const* const gap = std::get_if<Lost>(&told)) {
+        if (auto const* const gap = std::get_if<Lost>(&notification)) {
             lost += gap->count;
             unreported += step - gap->count;
             return;
         }
         unreported += step - 1;
-        if (auto const* const event = std::get_if<ReceiveEvent>(&told))
+        if (auto const* const event = std::get_if<ReceiveEvent>(&notification))
             ++events[event->subscribe_id.text + " " + event->event_id.text];
-        if (auto const* const completed = std::get_if<Completed>(&told)) ++completions[completed->command_id.text];
+        if (auto const* const completed = std::get_if<Completed>(&notification)) ++completions[completed->command_id.text];
     }
 };
 
@@ -64,7 +64,9 @@ TEST_P(TheStorm, MissesNothingAndRepeatsNothing) {
     Received received;
     std::uint64_t gaps = 0;
     Observers observers;
-    observers.notification = [&](Notification const& told, std::uint64_t sequence) { received.take(told, sequence); };
+    observers.notification = [&](Notification const& notification, std::uint64_t sequence) {
+        received.take(notification, sequence);
+    };
     observers.gap = [&](Gap const&) { ++gaps; };
     std::vector<EventStream> streams;
     {

@@ -16,7 +16,7 @@ Condition filter(std::string_view text) { return read_condition(text).filter.val
 
 TEST(AConditionThatIsTyped, MayBeEmpty) { EXPECT_EQ(read_condition("  "), QueryExpression{}); }
 
-TEST(AConditionThatIsTyped, Compares) {
+TEST(AConditionThatIsTyped, HasTheSixComparisons) {
     EXPECT_EQ(filter("number = 1"), Reference{"number"} == "1");
     EXPECT_EQ(filter("number==1"), Reference{"number"} == "1");
     EXPECT_EQ(filter("number!=1"), Reference{"number"} != "1");
@@ -46,7 +46,7 @@ TEST(AConditionThatIsTyped, BindsNotBeforeAndBeforeOr) {
     EXPECT_EQ(filter("(a=1 or b=2) AND NOT (c=3)"), (a || b) && !c);
 }
 
-TEST(AConditionThatIsTyped, HasTheOtherPredicates) {
+TEST(AConditionThatIsTyped, HasLikeBetweenNullPlacesAndTimes) {
     EXPECT_EQ(filter("name like nav*"), Reference{"name"}.like("nav*"));
     EXPECT_EQ(filter("volume between 10 and 50 and number > 0"),
               Reference{"volume"}.between("10", "50") && Reference{"number"} > "0");

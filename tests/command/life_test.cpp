@@ -93,7 +93,7 @@ TEST_F(RoisAndMotion, ACommandThatWaitsKeepsTheRobotGoing) {
     expect_moving_on();
 }
 
-TEST_F(RoisAndMotion, ACommandThatIsStoppedLetsTheRobotBeHeldAndSaysSo) {
+TEST_F(RoisAndMotion, AStoppedCommandLetsTheRobotBeHeldAndReportsTheHold) {
     RoisProcess walk{{"start", "navigation", way}, at};
     await_busy("navigation");
     walk.signal(SIGSTOP);

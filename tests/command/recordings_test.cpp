@@ -27,9 +27,9 @@ TEST_F(Rois, ReplaysItsRecording) {
         again.insert(again.end(), way.begin(), way.end());
         auto const replayed = run_rois(again, {}, there);
         ASSERT_EQ(replayed.exit_code, 0) << replayed.error;
-        auto told = json::parse(lines_of(replayed.out).back());
-        told["sequence"] = event["sequence"];
-        EXPECT_EQ(told, event);
+        auto repeated = json::parse(lines_of(replayed.out).back());
+        repeated["sequence"] = event["sequence"];
+        EXPECT_EQ(repeated, event);
     }
     EXPECT_EQ(run_rois({"health"}, {}, there).exit_code, 0);
     EXPECT_EQ(run_rois({"bind", "navigation"}, {}, there).exit_code, 4) << "never recorded";

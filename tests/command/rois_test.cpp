@@ -355,7 +355,7 @@ TEST_F(Rois, ReportsWhetherTheEngineIsReady) {
         << "beside a gateway";
 }
 
-TEST_F(Rois, RefusesOptionsOfSessionsWhereItNeedsNone) {
+TEST_F(Rois, RefusesSessionOptionsOfCommandsWithoutASession) {
     for (std::string const command : {"health", "stop-all", "clear"}) {
         auto const refusal = command + " needs no session: ";
         expect(2, refusal + "--session has no effect here", {command, "--session", "s"});

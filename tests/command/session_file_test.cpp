@@ -169,7 +169,7 @@ TEST_F(RoisWithASessionFile, TrustsNoFileThatOthersCouldReadOrWrite) {
     EXPECT_EQ(run({"release", "--session-file", empty}).exit_code, 0);
 }
 
-TEST_F(RoisWithASessionFile, ReleasesWhatARefusedBindHasBound) {
+TEST_F(RoisWithASessionFile, ReleasesTheComponentsThatARefusedBindHasBound) {
     auto const file = file_named("partly");
     ASSERT_EQ(run({"bind", "reaction", "--session-file", file}).exit_code, 0);
     expect(3, "unknown component 'elevator'; there are ", {"bind", "reaction", "move", "elevator", "--session-file", file});

@@ -28,12 +28,12 @@ TEST_F(Asynchronous, AQueryWithoutAnAnswerTimesOutAfterTheDeadline) {
     world.advance(50ms);
     EXPECT_EQ(code_of(*asked), ReturnCode::timeout);
     EXPECT_THAT(reason_of(*asked), HasSubstr("in time"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_NOT_RESPONDING robot"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 COMPONENT_NOT_RESPONDING robot"));
     EXPECT_EQ(desk.status_of("robot"), "ERROR");
     auto const again = query(desk);
     world.advance(1s);
     EXPECT_EQ(code_of(*again), ReturnCode::timeout);
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "reported once";
+    EXPECT_THAT(desk.received(), IsEmpty()) << "reported once";
     auto const strays = world.stray_answers();
     robot.answer_query("2.5");
     work();
@@ -206,7 +206,7 @@ TEST_F(Asynchronous, ACommandBeginsWhenItIsPrepared) {
     EXPECT_EQ(robot.begun.size(), 1U);
     robot.port().completed(robot.begun.front(), CompletedStatus::ok);
     work();
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go OK"));
 }
 
 TEST_F(Asynchronous, NothingRunsIfOneOfTheCommandsIsNotPreparedInTime) {
@@ -219,7 +219,7 @@ TEST_F(Asynchronous, NothingRunsIfOneOfTheCommandsIsNotPreparedInTime) {
     world.advance(1s);
     EXPECT_EQ(code_of(*asked), ReturnCode::timeout);
     EXPECT_EQ(reason_of(*asked), "command_unit_list[2]: the component 'robot' did not answer within 1 s; no command has begun");
-    EXPECT_THAT(world["speech"].told, IsEmpty());
+    EXPECT_THAT(world["speech"].calls, IsEmpty());
     EXPECT_EQ(desk.result_of("say"), "BAD_PARAMETER") << "the commands do not exist";
     robot.let_prepare();
     work();
@@ -273,7 +273,7 @@ TEST_F(Asynchronous, TwoWaitingExecutesCannotHaveTheSameCommandId) {
     EXPECT_EQ(code_of(*second), ReturnCode::bad_parameter);
 }
 
-TEST_F(Asynchronous, SetParameterCompletesWhenTheComponentHasTakenIt) {
+TEST_F(Asynchronous, SetParameterCompletesWhenTheComponentHasAcceptedTheValues) {
     auto& robot = add(named("robot", navigation));
     auto desk = world.connect();
     desk.bind("robot");
@@ -284,7 +284,7 @@ TEST_F(Asynchronous, SetParameterCompletesWhenTheComponentHasTakenIt) {
     EXPECT_EQ(desk.result_of(reply.command_id.text), "OK");
     desk.set_parameter("robot", {integer("time_limit", 6)});
     world.advance(5s);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed " + reply.command_id.text + " OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed " + reply.command_id.text + " OK"));
 }
 
 TEST_F(Asynchronous, SuspendAndResumeCompleteWhenTheyAreConfirmed) {
@@ -293,24 +293,24 @@ TEST_F(Asynchronous, SuspendAndResumeCompleteWhenTheyAreConfirmed) {
     desk.bind("robot");
     desk.execute(go("go", "robot"));
     desk.execute(named("wait", suspend("robot")));
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
     robot.answer("suspend", Done{});
     work();
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed wait OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed wait OK"));
     desk.execute(named("on", resume("robot")));
     robot.answer("resume", Done{});
     work();
-    EXPECT_THAT(desk.heard(), ElementsAre("2 completed on OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("2 completed on OK"));
 }
 
-TEST_F(Asynchronous, ASuspendThatIsNotConfirmedHaltsWhatMoves) {
+TEST_F(Asynchronous, ASuspendThatIsNotConfirmedHaltsAMovingComponent) {
     auto& robot = add(moving(named("robot", navigation)));
     auto desk = world.connect();
     desk.bind("robot");
     desk.execute(go("go", "robot"));
     desk.execute(named("wait", suspend("robot")));
     world.advance(500ms);
-    EXPECT_THAT(desk.heard(),
+    EXPECT_THAT(desk.received(),
                 ElementsAre("1 completed go ABORT", "2 completed wait TIMEOUT", "3 COMPONENT_NOT_RESPONDING robot"));
     EXPECT_EQ(world.engine->not_halted(), std::vector<std::string>{}) << "the halt was confirmed";
     robot.answer("suspend", Done{});
@@ -325,10 +325,10 @@ TEST_F(Asynchronous, AStopCompletesWhenTheHaltIsConfirmed) {
     desk.bind("robot");
     desk.execute(go("go", "robot"));
     desk.execute(named("stop", rois::stop("robot")));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go ABORT"));
     robot.confirm_halt();
     work();
-    EXPECT_THAT(desk.heard(), ElementsAre("2 completed stop OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("2 completed stop OK"));
 }
 
 TEST_F(Asynchronous, AStopThatIsNotConfirmedTimesOutAndIsRepeated) {
@@ -339,7 +339,7 @@ TEST_F(Asynchronous, AStopThatIsNotConfirmedTimesOutAndIsRepeated) {
     desk.execute(go("go", "robot"));
     desk.execute(named("stop", rois::stop("robot")));
     world.advance(500ms);
-    EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("completed stop TIMEOUT")));
+    EXPECT_THAT(desk.received(), testing::Contains(HasSubstr("completed stop TIMEOUT")));
     EXPECT_THAT(world.engine->not_halted(), ElementsAre("robot"));
     world.advance(200ms);
     EXPECT_EQ(robot.questions.size(), 2U) << "asked again";
@@ -380,7 +380,7 @@ TEST_F(Asynchronous, AFloodOfOneProviderDelaysOnlyItsOwnReports) {
     // One turn of the engine handles a few reports of each provider.
     world.engine->tick(world.now);
     EXPECT_EQ(code_of(*asked), ReturnCode::ok);
-    EXPECT_EQ(desk.heard().size(), 1'000U);
+    EXPECT_EQ(desk.received().size(), 1'000U);
 }
 
 }  // namespace rois

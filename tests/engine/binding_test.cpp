@@ -72,7 +72,7 @@ TEST(Search, FindsAGroupOfOneRobot) {
                 ElementsAre("robot2.navigation", "robot2.speech", "robot3.speech"));
     desk.subscribe("reached_target", both_of_them);
     for (auto const* ref : {"robot1.navigation", "robot2.navigation"}) world[ref].fires("reached_target");
-    EXPECT_THAT(desk.heard(), testing::SizeIs(2)) << "events are received from each robot that meets it";
+    EXPECT_THAT(desk.received(), testing::SizeIs(2)) << "events are received from each robot that meets it";
 }
 
 struct GroupsOfTwoRobots : testing::Test {
@@ -130,7 +130,7 @@ TEST_F(GroupsOfTwoRobots, StartOverWhenARobotCannotProvideTheRest) {
     EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot2.navigation");
 }
 
-TEST_F(GroupsOfTwoRobots, MustBeFreeWhateverElseTheConditionAsksFor) {
+TEST_F(GroupsOfTwoRobots, MustBeFreeAlsoIfTheConditionHasOtherParts) {
     hall.bind("robot1.speech");
     auto const of_type = [](Part const& part) { return equal("component_type", part.profile.object.identifier); };
     EXPECT_EQ(desk.bind_any(both({drives_and_speaks, of_type(navigation)})), "robot2.navigation");
@@ -142,7 +142,7 @@ TEST_F(GroupsOfTwoRobots, MustBeFreeWhateverElseTheConditionAsksFor) {
     EXPECT_EQ(world.connect().bind_any(last_first), "robot2.speech");
 }
 
-TEST_F(GroupsOfTwoRobots, MayAskForWhatNoOtherSessionHasBound) {
+TEST_F(GroupsOfTwoRobots, MayRequireComponentsThatNoOtherSessionHasBound) {
     auto const free = [](Part const& part) {
         return both({equal("component_type", part.profile.object.identifier), equal("bound", "false")});
     };
@@ -161,7 +161,7 @@ TEST_F(GroupsOfTwoRobots, MayAskForWhatNoOtherSessionHasBound) {
     EXPECT_EQ(hall.bind_any(all_free), "robot2.speech");
 }
 
-TEST(BindAny, OfAGroupTakesWhatTheSessionLacksFirst) {
+TEST(BindAny, OfAGroupTakesComponentsThatTheSessionLacksFirst) {
     World world{named("navigation_a", navigation), named("navigation_b", navigation), speech};
     auto desk = world.connect();
     auto const drives_and_speaks =
@@ -195,12 +195,12 @@ TEST(Binding, IsRequiredForCommands) {
     World world{navigation};
     auto desk = world.connect(), hall = world.connect();
     hall.bind("navigation");
-    hall.heard();
+    hall.received();
     EXPECT_EQ(desk.get_parameter("navigation").return_code, ReturnCode::error);
     EXPECT_THAT(desk.get_parameter("navigation").reason, HasSubstr("is not bound by this session"));
     EXPECT_EQ(desk.set_parameter("navigation", {integer("time_limit", 7)}).return_code, ReturnCode::error);
     EXPECT_EQ(desk.execute(go("go")).return_code, ReturnCode::error);
-    EXPECT_THAT(world["navigation"].told, IsEmpty());
+    EXPECT_THAT(world["navigation"].calls, IsEmpty());
     EXPECT_EQ(in_words(hall.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time");
     EXPECT_EQ(desk.get_parameter("gripper").return_code, ReturnCode::bad_parameter);
     EXPECT_EQ(desk.set_parameter("gripper", {}).return_code, ReturnCode::bad_parameter);
@@ -214,8 +214,8 @@ TEST(Release, StopsTheRunningAction) {
     desk.execute(go("go"), say("arrived"));
     desk.execute(say("meanwhile"));
     EXPECT_EQ(desk.release("navigation"), ReturnCode::ok);
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT", "2 completed arrived ABORT"));
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("start", "halt", "parameters_changed"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go ABORT", "2 completed arrived ABORT"));
     EXPECT_EQ(desk.result_of("meanwhile"), "RUNNING") << "a component that stays bound is not affected";
     EXPECT_EQ(world.connect().bind("navigation"), ReturnCode::ok);
 }
@@ -226,8 +226,8 @@ TEST(Release, StopsACommandOfTheComponentsOwn) {
     desk.bind("navigation");
     desk.execute(named("dock", command("dock", "navigation")));
     desk.release("navigation");
-    EXPECT_THAT(world["navigation"].told, ElementsAre("dock", "halt"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock ABORT"));
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("dock", "halt"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed dock ABORT"));
 }
 
 TEST(Profile, ListsTheComponentsAndTheirEngines) {
@@ -244,7 +244,7 @@ TEST(Profile, ListsTheComponentsAndTheirEngines) {
     EXPECT_EQ(reply.components[2].engine, "sub1");
 }
 
-TEST(Profile, IsThatOfTheSubEngineWhoseComponentsAreChosen) {
+TEST(Profile, OfTheComponentsOfOneSubEngineIsTheProfileOfThatEngine) {
     World world{navigation, in_engine("sub1", speech), in_engine("sub1", navigation), in_engine("sub2", speech)};
     auto desk = world.connect();
     auto const engine = [&](Condition condition) {
@@ -261,7 +261,7 @@ TEST(Profile, IsThatOfTheSubEngineWhoseComponentsAreChosen) {
     EXPECT_EQ(desk.ask(GetProfile{equal("engine", "sub1")}).profile->components.size(), 2U);
 }
 
-TEST(Profile, IsThatOfTheMainEngineAlsoWhenOneRobotHasAll) {
+TEST(Profile, OfTheWholeEngineIsTheProfileOfTheMainEngineAlsoWithASingleRobot) {
     World world{in_engine("robot1", navigation), in_engine("robot1", speech)};
     auto desk = world.connect();
     for (auto const& whole : {QueryExpression{}, QueryExpression{equal("engine", "main")}, QueryExpression{equal("engine", "")}})

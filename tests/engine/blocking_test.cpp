@@ -97,7 +97,7 @@ TEST_F(Blocked, ADriverDelaysOnlyItsOwnComponents) {
     EXPECT_FALSE(asked->said);
     EXPECT_EQ(code_of(*execute(desk, say("say"))), ReturnCode::ok);
     EXPECT_EQ(code_of(*execute(desk, named("stop", rois::stop("speech")))), ReturnCode::ok);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed say ABORT", "2 completed stop OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed say ABORT", "2 completed stop OK"));
     world.advance(1s);
     EXPECT_EQ(code_of(*asked), ReturnCode::timeout);
     EXPECT_EQ(world.engine->statistics().errors, 1U);
@@ -125,7 +125,7 @@ TEST_F(Blocked, AHaltBehindABlockedCallIsNotConfirmed) {
     EXPECT_EQ(code_of(*started), ReturnCode::ok);
     desk.execute(named("stop", rois::stop("driver")));
     world.advance(500ms);
-    EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("completed stop TIMEOUT")));
+    EXPECT_THAT(desk.received(), testing::Contains(HasSubstr("completed stop TIMEOUT")));
     EXPECT_THAT(world.engine->not_halted(), ElementsAre("driver"));
     gate->let_pass();
     EXPECT_TRUE(comes([&] {

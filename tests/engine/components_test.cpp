@@ -57,7 +57,7 @@ TEST(UserDefined, CommandsAreCheckedAgainstTheirProfile) {
     EXPECT_THAT(reason({pattern("1"), integer("speed", 3)}),
                 HasSubstr("unknown parameter 'speed'; expected one of pattern, brightness"));
     EXPECT_THAT(desk.execute(command("burn", "blinker")).reason, HasSubstr("it has blink, start, stop"));
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
 }
 
 TEST(UserDefined, CommandsGetTheDefaultsOfTheirProfile) {
@@ -140,8 +140,8 @@ TEST(UserDefined, EventsAndResultsAreCheckedAgainstTheirProfile) {
     world["blinker"].fires("blinked", {text("times", "often")});
     desk.execute(named("b", command("blink", "blinker", {pattern("1")})));
     world["blinker"].finishes(CompletedStatus::ok, {{text("times", "often")}, {}});
-    EXPECT_THAT(desk.heard(), ElementsAre("1 blinked blinker", "2 COMPONENT_INTERNAL_ERROR blinker", "3 completed b ERROR",
-                                          "4 COMPONENT_INTERNAL_ERROR blinker"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 blinked blinker", "2 COMPONENT_INTERNAL_ERROR blinker", "3 completed b ERROR",
+                                             "4 COMPONENT_INTERNAL_ERROR blinker"));
 }
 
 TEST(UserDefined, ProfilesAreServedWithTheMessagesThatTheyInclude) {
@@ -164,13 +164,13 @@ protected:
 TEST_F(ComingAndGoing, NotifiesAllSessionsOnce) {
     auto hall = world.connect();
     world.change({"speech"}, {detection, named("lamp2", desk_lamp)});
-    EXPECT_THAT(desk.heard(), ElementsAre("1 profile_changed"));
-    EXPECT_THAT(hall.heard(), ElementsAre("1 profile_changed"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 profile_changed"));
+    EXPECT_THAT(hall.received(), ElementsAre("1 profile_changed"));
     EXPECT_THAT(desk.search(), ElementsAre("detection", "lamp2", "navigation"));
     auto const profile = desk.ask(GetProfile{}).profile;
     EXPECT_THAT(profile->components, ElementsAre("navigation", "detection", "lamp2"));
     world.change({}, {});
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "nothing changed";
+    EXPECT_THAT(desk.received(), IsEmpty()) << "nothing changed";
 }
 
 TEST_F(ComingAndGoing, LeavesAProfileThatIsBeingReadUnchanged) {
@@ -192,11 +192,11 @@ TEST_F(ComingAndGoing, AbortsRunningAndWaitingCommands) {
     desk.bind("navigation");
     desk.bind("speech");
     desk.execute(in_parallel({in_sequence({go("go"), say("greet")}), in_sequence({say("wait"), go("back")})}));
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
     world.change({"navigation"}, {});
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT", "2 completed greet ABORT", "3 profile_changed"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go ABORT", "2 completed greet ABORT", "3 profile_changed"));
     world["speech"].finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("4 completed wait OK", "5 completed back ABORT"));
+    EXPECT_THAT(desk.received(), ElementsAre("4 completed wait OK", "5 completed back ABORT"));
     EXPECT_EQ(desk.result_of("go"), "ABORT") << "its result is still known";
 }
 
@@ -204,9 +204,9 @@ TEST_F(ComingAndGoing, EndsCommandsOfTheComponentsOwnProfileToo) {
     desk.bind("navigation");
     desk.execute(named("dock", command("dock", "navigation")));
     world.change({"navigation"}, {});
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock ABORT", "2 profile_changed"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed dock ABORT", "2 profile_changed"));
     world.advance(std::chrono::seconds{2});
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "the command has ended";
+    EXPECT_THAT(desk.received(), IsEmpty()) << "the command has ended";
 }
 
 TEST_F(ComingAndGoing, EndsCommandsWithoutASession) {
@@ -220,7 +220,7 @@ TEST_F(ComingAndGoing, EndsCommandsWithoutASession) {
     auto stays = lasting.connect();
     lasting.change({"navigation"}, {});
     EXPECT_EQ(lasting.engine->statistics().commands_completed[static_cast<std::size_t>(CompletedStatus::abort)], 1U);
-    EXPECT_THAT(stays.heard(), ElementsAre("1 profile_changed"));
+    EXPECT_THAT(stays.received(), ElementsAre("1 profile_changed"));
 }
 
 TEST_F(ComingAndGoing, LosesBindingsAndKeepsSubscriptions) {
@@ -236,8 +236,8 @@ TEST_F(ComingAndGoing, LosesBindingsAndKeepsSubscriptions) {
     auto hall = world.connect();
     EXPECT_EQ(hall.bind("detection"), ReturnCode::ok) << "it is not bound any more";
     world["detection"].fires("person_detected", one);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 profile_changed", "2 person_detected detection", "3 person_detected detection"));
-    EXPECT_EQ(desk.last_heard<ReceiveEvent>().subscribe_id, subscription.subscribe_id);
+    EXPECT_THAT(desk.received(), ElementsAre("1 profile_changed", "2 person_detected detection", "3 person_detected detection"));
+    EXPECT_EQ(desk.last_received<ReceiveEvent>().subscribe_id, subscription.subscribe_id);
 }
 
 TEST_F(ComingAndGoing, IsReportedOnceASecond) {
@@ -245,13 +245,13 @@ TEST_F(ComingAndGoing, IsReportedOnceASecond) {
         world.change({}, {detection});
         world.change({"detection"}, {});
     }
-    EXPECT_THAT(desk.heard(), ElementsAre("1 profile_changed"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 profile_changed"));
     world.advance(950ms);
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
     world.advance(50ms);
-    EXPECT_THAT(desk.heard(), ElementsAre("2 profile_changed")) << "the later changes";
+    EXPECT_THAT(desk.received(), ElementsAre("2 profile_changed")) << "the later changes";
     world.advance(5s);
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
 }
 
 TEST_F(ComingAndGoing, OfASubEngineGivesItFrameAndInstance) {
@@ -333,8 +333,8 @@ TEST_F(ComingAndGoing, KeepsTheDetailsOfEarlierEvents) {
     world.change({}, {detection});
     desk.subscribe("person_detected");
     world["detection"].fires("person_detected", {date_time("timestamp", world.now.utc), integer("number", 1)});
-    desk.heard();
-    auto const event = desk.last_heard<ReceiveEvent>().event_id;
+    desk.received();
+    auto const event = desk.last_received<ReceiveEvent>().event_id;
     world.change({"detection"}, {});
     EXPECT_EQ(desk.detail_of(event, equal("number", "1")).results.parameters.size(), 2U);
     EXPECT_EQ(desk.detail_of(event, equal("colour", "red")).return_code, ReturnCode::bad_parameter);
@@ -347,8 +347,8 @@ TEST_F(ComingAndGoing, DoesNotGiveAnOldCommandTheNewComponent) {
     world.change({"navigation"}, {navigation});
     desk.bind("navigation");
     world["speech"].finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("1 profile_changed", "2 completed greet OK", "3 completed go ABORT"));
-    EXPECT_THAT(world["navigation"].told, ElementsAre("halt"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 profile_changed", "2 completed greet OK", "3 completed go ABORT"));
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("halt"));
 }
 
 TEST_F(ComingAndGoing, HappensWholeOrNotAtAll) {
@@ -367,7 +367,7 @@ TEST_F(ComingAndGoing, HappensWholeOrNotAtAll) {
     EXPECT_THAT(try_to({"speech"}, {navigation}), HasSubstr("two components with the ref 'navigation'"));
     EXPECT_THAT(try_to({}, {detection, detection}), HasSubstr("two components with the ref 'detection'"));
     EXPECT_THAT(desk.search(), ElementsAre("navigation", "speech"));
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
     EXPECT_EQ(try_to({"speech"}, {speech}), "it was done");
 }
 

@@ -108,7 +108,7 @@ public:
     std::vector<std::string> const& refs() const { return refs_; }
     bool lives() const { return !died_; }
     // When the engine last received a sign of life.
-    Steady last_heard() const { return last_heard_; }
+    Steady last_sign_of_life() const { return last_sign_of_life_; }
 
     void live(std::chrono::milliseconds passed) {
         if (died_) return;
@@ -116,7 +116,7 @@ public:
         if (dies_ <= 0ms) return die();
         if (is_cut() && (cut_for_ -= passed) <= 0ms) reconnect();
         if (is_cut()) return;
-        last_heard_ = world_.now.steady;
+        last_sign_of_life_ = world_.now.steady;
         if (dice_.one_in(100)) return cut();
         if (way_ == Way::websocket) world_.engine->note_pong(session_, world_.now);
         if (way_ == Way::requests || dice_.one_in(10)) act();
@@ -187,7 +187,7 @@ private:
     Way way_;
     std::chrono::milliseconds dies_;
     SessionId session_;
-    Steady last_heard_;
+    Steady last_sign_of_life_;
     bool died_ = false;
     std::chrono::milliseconds cut_for_{0};  // until its link comes back
     bool closed_ = false;                   // its link
@@ -210,7 +210,9 @@ std::chrono::nanoseconds longest_unproven_motion(std::uint32_t seed, int& moved)
         return mortals[mover.description().ref.code == "base" ? 0 : 1];
     };
     std::chrono::nanoseconds longest{0};
-    auto const is_over = [&](Mortal const& mortal) { return !mortal.lives() && world.now.steady >= mortal.last_heard() + 3s; };
+    auto const is_over = [&](Mortal const& mortal) {
+        return !mortal.lives() && world.now.steady >= mortal.last_sign_of_life() + 3s;
+    };
     while (!std::ranges::all_of(mortals, is_over)) {
         auto const passed = 10ms + dice.time(40ms);
         world.now = world.now + passed;
@@ -221,7 +223,7 @@ std::chrono::nanoseconds longest_unproven_motion(std::uint32_t seed, int& moved)
         for (auto const* mover : movers) {
             if (!mover->moves()) continue;
             ++moved;
-            longest = std::max(longest, world.now.steady - commander(*mover).last_heard());
+            longest = std::max(longest, world.now.steady - commander(*mover).last_sign_of_life());
         }
     }
     return longest;

@@ -28,7 +28,7 @@ TEST(Decision18, TheConditionSelectsTheComponentThatAnswers) {
         << "parameters are read without a binding";
     desk.subscribe("reached_target");
     for (auto const* ref : {"robot_a", "sub1.robot_c"}) world[ref].fires("reached_target");
-    EXPECT_THAT(desk.heard(), ElementsAre("1 reached_target robot_a", "2 reached_target sub1.robot_c"))
+    EXPECT_THAT(desk.received(), ElementsAre("1 reached_target robot_a", "2 reached_target sub1.robot_c"))
         << "without a condition, all are received";
     EXPECT_EQ(desk.subscribe("earthquake").return_code, ReturnCode::unsupported);
 }
@@ -39,20 +39,20 @@ TEST(Decision19, OnlyMatchingEventsAndResultsAreReported) {
     desk.bind("navigation");
     desk.subscribe("person_detected", greater("number", "0"), true);
     for (int number : {0, 2, 0}) world["detection"].fires("person_detected", people(number));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection number=2"));
-    auto const event = desk.last_heard<ReceiveEvent>().event_id;
+    EXPECT_THAT(desk.received(), ElementsAre("1 person_detected detection number=2"));
+    auto const event = desk.last_received<ReceiveEvent>().event_id;
     EXPECT_EQ(in_words(desk.detail_of(event, greater("number", "1")).results.parameters), "number=2");
     EXPECT_THAT(desk.detail_of(event, greater("number", "2")).results.parameters, IsEmpty());
     desk.subscribe("person_localized", within("position_data", {box(0, 0, 1'000, 1'000)}));
     for (auto const* point : {"5000, 0, 0", "500, 500, 90"})
         world["localization"].fires("person_localized", {texts("position_data", {point})});
-    EXPECT_THAT(desk.heard(), ElementsAre("2 person_localized localization"));
+    EXPECT_THAT(desk.received(), ElementsAre("2 person_localized localization"));
     desk.execute(named("stop", stop("navigation")));
     EXPECT_EQ(desk.result_of("stop", equal("status", "OK")), "OK");
     EXPECT_EQ(desk.result_of("stop", equal("status", "ERROR")), "");
     world["navigation"].reports(ErrorType::user_defined_error, "a wheel is stuck");
-    desk.heard();
-    auto const error = desk.last_heard<ReceiveError>().error_id;
+    desk.received();
+    auto const error = desk.last_received<ReceiveError>().error_id;
     EXPECT_THAT(desk.detail_of(error, like("text", "*wheel*")).results.parameters, testing::SizeIs(3));
     EXPECT_THAT(desk.detail_of(error, like("text", "*voice*")).results.parameters, IsEmpty());
 }
@@ -64,13 +64,13 @@ TEST(Decision20, EqualSubscriptionsAreOne) {
     auto const id = desk.subscribe("person_detected", both({a, b})).subscribe_id;
     EXPECT_EQ(desk.subscribe("person_detected", both({b, a}), true).subscribe_id, id) << "the same after canonicalisation";
     world["detection"].fires("person_detected", people(1));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection number=1"))
+    EXPECT_THAT(desk.received(), ElementsAre("1 person_detected detection number=1"))
         << "received once, and the last inline_results wins";
     EXPECT_EQ(hall.subscribe("person_detected", both({a, b})).subscribe_id, id) << "an id names type and condition";
     EXPECT_EQ(desk.unsubscribe(id), ReturnCode::ok);
     world["detection"].fires("person_detected", people(1));
-    EXPECT_THAT(desk.heard(), IsEmpty());
-    EXPECT_THAT(hall.heard(), ElementsAre("1 person_detected detection"));
+    EXPECT_THAT(desk.received(), IsEmpty());
+    EXPECT_THAT(hall.received(), ElementsAre("1 person_detected detection"));
     EXPECT_EQ(desk.unsubscribe(id), ReturnCode::ok);
     EXPECT_EQ(desk.unsubscribe({"made-up"}), ReturnCode::ok);
 }
@@ -81,15 +81,15 @@ TEST(Decision21, DetailsAreKeptUntilTheyExpire) {
     desk.subscribe("person_detected");
     hall.subscribe("person_detected", {}, true);
     world["detection"].fires("person_detected", people(2));
-    EXPECT_THAT(hall.heard(), ElementsAre("1 person_detected detection number=2")) << "this saves the round trip";
-    EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection"));
-    auto const told = desk.last_heard<ReceiveEvent>();
-    EXPECT_EQ(told.expire, world.now.utc + 60s);
+    EXPECT_THAT(hall.received(), ElementsAre("1 person_detected detection number=2")) << "this saves the round trip";
+    EXPECT_THAT(desk.received(), ElementsAre("1 person_detected detection"));
+    auto const event = desk.last_received<ReceiveEvent>();
+    EXPECT_EQ(event.expire, world.now.utc + 60s);
     world.advance(59'950ms);
-    EXPECT_EQ(in_words(desk.detail_of(told.event_id).results.parameters), "number=2");
+    EXPECT_EQ(in_words(desk.detail_of(event.event_id).results.parameters), "number=2");
     world.advance(50ms);
-    EXPECT_EQ(desk.detail_of(told.event_id).return_code, ReturnCode::bad_parameter);
-    EXPECT_THAT(desk.detail_of(told.event_id).reason, HasSubstr("expired"));
+    EXPECT_EQ(desk.detail_of(event.event_id).return_code, ReturnCode::bad_parameter);
+    EXPECT_THAT(desk.detail_of(event.event_id).reason, HasSubstr("expired"));
 }
 
 TEST(Decision22, NotificationsAreNumberedAsThingsHappen) {
@@ -99,13 +99,13 @@ TEST(Decision22, NotificationsAreNumberedAsThingsHappen) {
     desk.subscribe("person_detected");
     auto const answer = desk.notifications().hold();
     desk.execute(named("a", stop("navigation")), go("b"));
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "the answer comes before the notifications that it causes";
+    EXPECT_THAT(desk.received(), IsEmpty()) << "the answer comes before the notifications that it causes";
     desk.notifications().release(answer);
     world["detection"].fires("person_detected");
     world["navigation"].finishes();
     world["navigation"].reports(ErrorType::user_defined_error, "tired");
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed a OK", "2 person_detected detection", "3 completed b OK",
-                                          "4 USER_DEFINED_ERROR navigation"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed a OK", "2 person_detected detection", "3 completed b OK",
+                                             "4 USER_DEFINED_ERROR navigation"));
 }
 
 TEST(Decision23, EventsAreDroppedAndOtherNotificationsAreNot) {
@@ -118,15 +118,15 @@ TEST(Decision23, EventsAreDroppedAndOtherNotificationsAreNot) {
     desk.subscribe("person_detected");
     desk.execute(named("a", stop("navigation")));
     for (int i = 0; i < 6; ++i) world["detection"].fires("person_detected");
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed a OK", "4 lost 3", "5 person_detected detection",
-                                          "6 person_detected detection", "7 person_detected detection"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed a OK", "4 lost 3", "5 person_detected detection",
+                                             "6 person_detected detection", "7 person_detected detection"));
     EXPECT_EQ(desk.notifications().read(4, 100).size(), 3U) << "reading discards nothing";
     EXPECT_EQ(world.engine->statistics().notifications_lost, 3U);
     for (auto const* id : {"1", "2", "3", "4"}) desk.execute(named(id, stop("navigation")));
-    EXPECT_FALSE(desk.told_of_the_end());
+    EXPECT_FALSE(desk.notifications_closed());
     desk.execute(named("5", stop("navigation")));
-    EXPECT_TRUE(desk.told_of_the_end()) << "other notifications fill the queue";
-    EXPECT_EQ(desk.heard().size(), 5U) << "and all are received";
+    EXPECT_TRUE(desk.notifications_closed()) << "other notifications fill the queue";
+    EXPECT_EQ(desk.received().size(), 5U) << "and all are received";
 }
 
 TEST(Decision24, ErrorsGoToTheSessionsThatTheyConcern) {
@@ -139,10 +139,10 @@ TEST(Decision24, ErrorsGoToTheSessionsThatTheyConcern) {
     subscribed.subscribe("reached_target");
     other.bind("speech");
     world["navigation"].reports(ErrorType::user_defined_error, "a wheel is stuck");
-    EXPECT_THAT(bound.heard(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
-    EXPECT_THAT(subscribed.heard(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
-    EXPECT_THAT(other.heard(), IsEmpty());
-    auto const id = bound.last_heard<ReceiveError>().error_id;
+    EXPECT_THAT(bound.received(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
+    EXPECT_THAT(subscribed.received(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
+    EXPECT_THAT(other.received(), IsEmpty());
+    auto const id = bound.last_received<ReceiveError>().error_id;
     EXPECT_EQ(in_words(bound.detail_of(id).results.parameters),
               "component_ref=navigation time=" + to_text(world.now.utc) + " text=a wheel is stuck");
     world.advance(10min - 50ms);
@@ -151,7 +151,7 @@ TEST(Decision24, ErrorsGoToTheSessionsThatTheyConcern) {
     EXPECT_EQ(bound.detail_of(id).return_code, ReturnCode::bad_parameter);
     world.engine->add(std::make_shared<Floor>());
     world.advance(50ms);
-    for (auto* each : {&bound, &subscribed, &other}) EXPECT_THAT(each->heard().back(), HasSubstr("ENGINE_INTERNAL_ERROR"));
+    for (auto* each : {&bound, &subscribed, &other}) EXPECT_THAT(each->received().back(), HasSubstr("ENGINE_INTERNAL_ERROR"));
 }
 
 TEST(Decision24, DetailsOfAnEventAreForSessionsThatWereNotifiedOfIt) {
@@ -160,8 +160,8 @@ TEST(Decision24, DetailsOfAnEventAreForSessionsThatWereNotifiedOfIt) {
     desk.subscribe("person_detected");
     choosy.subscribe("person_detected", greater("number", "5"));
     world["detection"].fires("person_detected", people(2));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection"));
-    auto const id = desk.last_heard<ReceiveEvent>().event_id;
+    EXPECT_THAT(desk.received(), ElementsAre("1 person_detected detection"));
+    auto const id = desk.last_received<ReceiveEvent>().event_id;
     other.subscribe("person_detected");
     auto later = world.connect();
     EXPECT_EQ(desk.detail_of(id).return_code, ReturnCode::ok);
@@ -183,8 +183,8 @@ TEST(Decision24, DetailsOfAnErrorAreForSessionsThatWereNotifiedOfIt) {
     auto desk = world.connect(), other = world.connect();
     desk.bind("navigation");
     world["navigation"].reports(ErrorType::user_defined_error, "a wheel is stuck");
-    EXPECT_THAT(desk.heard(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
-    auto const id = desk.last_heard<ReceiveError>().error_id;
+    EXPECT_THAT(desk.received(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
+    auto const id = desk.last_received<ReceiveError>().error_id;
     EXPECT_EQ(desk.detail_of(id).return_code, ReturnCode::ok);
     EXPECT_EQ(other.detail_of(id).return_code, ReturnCode::bad_parameter);
     EXPECT_EQ(other.detail_of(id).reason, "unknown error_id '" + id.text + "'");
@@ -195,15 +195,15 @@ TEST(Decision24, DetailsDoNotPassToTheNextSession) {
     auto desk = world.connect();
     desk.subscribe("person_detected");
     world["detection"].fires("person_detected", people(2));
-    desk.heard();
-    auto const id = desk.last_heard<ReceiveEvent>().event_id;
+    desk.received();
+    auto const id = desk.last_received<ReceiveEvent>().event_id;
     desk.leave();
     auto next = world.connect();
     EXPECT_EQ(next.detail_of(id).return_code, ReturnCode::bad_parameter) << "although it has the slot of the session that ended";
     next.subscribe("person_detected");
     world["detection"].fires("person_detected", people(3));
-    next.heard();
-    EXPECT_EQ(next.detail_of(next.last_heard<ReceiveEvent>().event_id).return_code, ReturnCode::ok);
+    next.received();
+    EXPECT_EQ(next.detail_of(next.last_received<ReceiveEvent>().event_id).return_code, ReturnCode::ok);
 }
 
 TEST(Decision25, ComponentsHaveNamesAndTypes) {
@@ -239,7 +239,7 @@ TEST(Decision26, ValuesAreOfTheirDeclaredTypes) {
     EXPECT_THAT(set(value("colour", "string", {"red"})), HasSubstr("unknown parameter 'colour'"));
 }
 
-TEST(Decision26, PublishedSpellingsAreAcceptedAndReturnedInTheSeedsSpelling) {
+TEST(Decision26, PublishedSpellingsAreAcceptedAndReturnedInTheEnginesSpelling) {
     World world{navigation, speech};
     auto desk = world.connect();
     desk.bind("navigation");
@@ -258,8 +258,8 @@ TEST(Decision28, TimesAreUtc) {
     auto desk = world.connect();
     desk.bind("navigation");
     world["navigation"].reports(ErrorType::user_defined_error, "tired");
-    desk.heard();
-    auto const detail = desk.detail_of(desk.last_heard<ReceiveError>().error_id);
+    desk.received();
+    auto const detail = desk.detail_of(desk.last_received<ReceiveError>().error_id);
     EXPECT_THAT(find(detail.results.parameters, "time")->values, ElementsAre("2026-11-20T12:00:00.000Z"));
 }
 

@@ -58,7 +58,7 @@ TEST(Decision02, ALostLinkMayBeResumedForAWhileAndThenEndsTheSession) {
     EXPECT_TRUE(is_open(world, over_websocket));
     world.advance(50ms);
     EXPECT_FALSE(is_open(world, over_websocket)) << "a closed WebSocket: the resume window of 30 s";
-    EXPECT_THAT(over_websocket.heard(), ElementsAre("1 completed go ABORT")) << "as if disconnected";
+    EXPECT_THAT(over_websocket.received(), ElementsAre("1 completed go ABORT")) << "as if disconnected";
     world.advance(30s);
     EXPECT_TRUE(is_open(world, over_http)) << "silence on HTTP: the session timeout of 60 s, and the window";
     world.advance(50ms);
@@ -84,17 +84,17 @@ TEST(Decision03, TheEndOfASessionStopsReleasesAndCancels) {
     for (auto const* ref : {"navigation", "speech", "detection"}) desk.bind(ref);
     desk.subscribe("person_detected");
     desk.execute(start("detection"), go("go"), say("arrived"));
-    desk.heard();
+    desk.received();
     desk.leave();
-    EXPECT_THAT(desk.heard(), ElementsAre("2 completed go ABORT", "3 completed arrived ABORT"));
-    EXPECT_TRUE(desk.told_of_the_end());
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
-    EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(desk.received(), ElementsAre("2 completed go ABORT", "3 completed arrived ABORT"));
+    EXPECT_TRUE(desk.notifications_closed());
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("start", "halt", "parameters_changed"));
+    EXPECT_THAT(world["detection"].calls, ElementsAre("start", "halt"));
     for (auto const* ref : {"navigation", "speech", "detection"}) EXPECT_EQ(hall.bind(ref), ReturnCode::ok) << ref;
     EXPECT_EQ(world.engine->statistics().subscriptions, 0U);
     world["detection"].fires("person_detected");
     world.advance(1min);
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
     EXPECT_NE(desk.ask(Connect{}).session, desk.session) << "connect with an ended id opens another session";
 }
 
@@ -121,7 +121,7 @@ TEST(Decision05, CommandsNeedABindingAndQueriesDoNot) {
     EXPECT_EQ(desk.get_parameter("navigation").return_code, ReturnCode::error);
     EXPECT_EQ(desk.set_parameter("navigation", {integer("time_limit", 7)}).return_code, ReturnCode::error);
     EXPECT_EQ(desk.execute(go("go")).return_code, ReturnCode::error);
-    EXPECT_THAT(world["navigation"].told, IsEmpty());
+    EXPECT_THAT(world["navigation"].calls, IsEmpty());
     EXPECT_EQ(desk.query("route").return_code, ReturnCode::ok);
     EXPECT_EQ(desk.subscribe("reached_target").return_code, ReturnCode::ok);
     EXPECT_THAT(desk.search(), ElementsAre("navigation"));
@@ -142,8 +142,8 @@ TEST(Decision06, ReleaseStopsTheCommandsOfTheSession) {
     desk.execute(named("look", start("detection")), go("go", "robot_a"));
     EXPECT_EQ(desk.release("robot_a"), ReturnCode::ok);
     EXPECT_EQ(desk.release("detection"), ReturnCode::ok);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed look OK", "2 completed go ABORT"));
-    EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed look OK", "2 completed go ABORT"));
+    EXPECT_THAT(world["detection"].calls, ElementsAre("start", "halt"));
     hall.bind("robot_a");
     hall.execute(go("on", "robot_a"));
     EXPECT_EQ(desk.release("robot_a"), ReturnCode::ok) << "known, and nothing to do";
@@ -175,22 +175,22 @@ TEST(Decision08, ParametersAreStoredAndStartActs) {
     auto desk = world.connect();
     for (auto const* ref : {"navigation", "speech", "detection"}) desk.bind(ref);
     auto const stored = desk.set_parameter("speech", {text("speech_text", "hello"), integer("volume", 70)}).command_id;
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed " + stored.text + " OK")) << "stored, and completed at once";
-    EXPECT_THAT(world["speech"].told, ElementsAre("parameters_changed")) << "it does not speak";
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed " + stored.text + " OK")) << "stored, and completed at once";
+    EXPECT_THAT(world["speech"].calls, ElementsAre("parameters_changed")) << "it does not speak";
     desk.execute(named("say", start("speech", {integer("volume", 20)})));
     EXPECT_EQ(in_words(world["speech"].started_with), "speech_text=hello volume=20 language=en")
         << "arguments of start are stored first";
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
     world["speech"].finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("2 completed say OK")) << "an action completes at its end";
+    EXPECT_THAT(desk.received(), ElementsAre("2 completed say OK")) << "an action completes at its end";
     desk.execute(named("look", start("detection")));
-    EXPECT_THAT(desk.heard(), ElementsAre("3 completed look OK")) << "a function completes once it is active";
+    EXPECT_THAT(desk.received(), ElementsAre("3 completed look OK")) << "a function completes once it is active";
     EXPECT_THAT(desk.execute(start("navigation")).reason, HasSubstr("target_position is mandatory"));
     desk.subscribe("reached_target");
     desk.execute(go("go"));
     world["navigation"].fires("reached_target");
     world["navigation"].finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("4 reached_target navigation", "5 completed go OK")) << "its events come first";
+    EXPECT_THAT(desk.received(), ElementsAre("4 reached_target navigation", "5 completed go OK")) << "its events come first";
 }
 
 TEST(Decision08, FollowEndsByStopOrByItsTimeLimit) {
@@ -201,15 +201,15 @@ TEST(Decision08, FollowEndsByStopOrByItsTimeLimit) {
     desk.bind("follow");
     desk.execute(go("follow", "follow"), named("too late", stop("follow")));
     world.advance(1h);
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "a stop after it in the sequence never runs";
+    EXPECT_THAT(desk.received(), IsEmpty()) << "a stop after it in the sequence never runs";
     desk.execute(named("enough", stop("follow")));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed follow OK", "2 completed enough OK", "3 completed too late OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed follow OK", "2 completed enough OK", "3 completed too late OK"));
     desk.execute(go("again", "follow"));
     world["follow"].finishes(CompletedStatus::timeout);
-    EXPECT_THAT(desk.heard(), ElementsAre("4 completed again TIMEOUT"));
+    EXPECT_THAT(desk.received(), ElementsAre("4 completed again TIMEOUT"));
     desk.execute(in_parallel({go("beside", "follow"), after(1s, named("now", stop("follow")))}), named("after", stop("follow")));
     world.advance(1s);
-    EXPECT_THAT(desk.heard(), ElementsAre("5 completed beside OK", "6 completed now OK", "7 completed after OK"))
+    EXPECT_THAT(desk.received(), ElementsAre("5 completed beside OK", "6 completed now OK", "7 completed after OK"))
         << "a stop in a parallel branch";
 }
 
@@ -221,19 +221,19 @@ TEST(Decision09, StopEndsStartReplacesAndSuspendHolds) {
         desk.execute(named(id, command(type, "navigation")));
     };
     for (auto const* type : {"suspend", "resume"}) say_it(type, type);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed suspend ERROR", "2 completed resume ERROR")) << "idle";
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed suspend ERROR", "2 completed resume ERROR")) << "idle";
     say_it("idle", "stop");
     desk.execute(go("here"));
     desk.execute(go("there"));
-    EXPECT_THAT(desk.heard(), ElementsAre("3 completed idle OK", "4 completed here ABORT"));
+    EXPECT_THAT(desk.received(), ElementsAre("3 completed idle OK", "4 completed here ABORT"));
     say_it("hold", "suspend");
     say_it("hold more", "suspend");
     say_it("on", "resume");
-    EXPECT_THAT(desk.heard(), ElementsAre("5 completed hold OK", "6 completed hold more ERROR", "7 completed on OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("5 completed hold OK", "6 completed hold more ERROR", "7 completed on OK"));
     say_it("halt", "stop");
-    EXPECT_THAT(desk.heard(), ElementsAre("8 completed there ABORT", "9 completed halt OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("8 completed there ABORT", "9 completed halt OK"));
     say_it("dock", "dock");
-    EXPECT_EQ(world["navigation"].told.back(), "dock") << "a command of its profile";
+    EXPECT_EQ(world["navigation"].calls.back(), "dock") << "a command of its profile";
     auto const refused = desk.execute(command("fly", "navigation"));
     EXPECT_EQ(refused.return_code, ReturnCode::bad_parameter);
 }

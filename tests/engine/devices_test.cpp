@@ -77,7 +77,7 @@ TEST_F(Devices, HaveATurnInATick) {
     desk.execute(named("one", start("machine")), named("two", start("machine")));
     world.advance(50ms);
     EXPECT_EQ(motor->turns, 1);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed one OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed one OK"));
 }
 
 TEST_F(Devices, MayHaveAnotherTurnAfterTheirReportsAreHandled) {
@@ -85,7 +85,7 @@ TEST_F(Devices, MayHaveAnotherTurnAfterTheirReportsAreHandled) {
     desk.execute(named("one", start("machine")), named("two", start("machine")), named("three", start("machine")));
     world.advance(50ms);
     EXPECT_EQ(motor->turns, 3);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed one OK", "2 completed two OK", "3 completed three OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed one OK", "2 completed two OK", "3 completed three OK"));
 }
 
 TEST_F(Devices, HaveALimitedNumberOfTurnsInATick) {
@@ -96,7 +96,7 @@ TEST_F(Devices, HaveALimitedNumberOfTurnsInATick) {
     EXPECT_EQ(motor->turns, 200) << "the rest is for the next ticks";
 }
 
-TEST_F(Devices, AreAdvancedByTheClockThatClientsLeaveThemTo) {
+TEST_F(Devices, AreAdvancedByTheClockAndNotByClients) {
     std::mutex mutex;
     std::unique_lock lock{mutex};
     world.engine->Engine::tick(world.now);

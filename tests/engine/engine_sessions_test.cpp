@@ -16,17 +16,17 @@ struct AnEngine : testing::Test {
 
 TEST_F(AnEngine, ReceivesTheStateOfEachComponent) {
     world.advance(50ms);
-    EXPECT_THAT(engine.heard(), ElementsAre("1 component_changed navigation READY", "2 component_changed speech READY"));
+    EXPECT_THAT(engine.received(), ElementsAre("1 component_changed navigation READY", "2 component_changed speech READY"));
     auto application = world.connect();
     application.bind("speech");
     engine.bind("navigation");
     world.advance(300ms);
-    EXPECT_THAT(engine.heard(), ElementsAre("3 component_changed speech BUSY")) << "its own binding changes nothing";
+    EXPECT_THAT(engine.received(), ElementsAre("3 component_changed speech BUSY")) << "its own binding changes nothing";
     world["speech"].status_now = ComponentStatus::error;
     application.release("speech");
     world.advance(300ms);
-    EXPECT_THAT(engine.heard(), ElementsAre("4 component_changed speech ERROR"));
-    EXPECT_THAT(application.heard(), IsEmpty()) << "of an application";
+    EXPECT_THAT(engine.received(), ElementsAre("4 component_changed speech ERROR"));
+    EXPECT_THAT(application.received(), IsEmpty()) << "of an application";
 }
 
 TEST_F(AnEngine, GetsTheTraitsOfComponents) {
@@ -57,42 +57,42 @@ TEST_F(AnEngine, ReceivesLocationsAndParameters) {
     world["navigation"].where->position = {1, 2, 0};
     world["navigation"].reads = ParameterList{texts("landmarks", {"desk"})};
     world.advance(300ms);
-    engine.heard();
+    engine.received();
     world["navigation"].reads = ParameterList{texts("landmarks", {"door"})};
     world["navigation"].where->position = {3, 4, 0};
     engine.bind("speech");  // the engine looks
     world.advance(300ms);
-    EXPECT_THAT(engine.heard(), ElementsAre(HasSubstr("component_changed navigation READY")));
-    auto const changed = engine.last_heard<ComponentChanged>();
+    EXPECT_THAT(engine.received(), ElementsAre(HasSubstr("component_changed navigation READY")));
+    auto const changed = engine.last_received<ComponentChanged>();
     ASSERT_EQ(changed.results.located.size(), 1u);
     EXPECT_THAT(changed.results.located.front().position, ElementsAre(3, 4, 0));
 }
 
 TEST_F(AnEngine, ReceivesChangesAtMostFiveTimesASecond) {
     world.advance(1s);
-    engine.heard();
+    engine.received();
     for (int i = 0; i < 100; ++i) {
         world["speech"].status_now = i % 2 == 0 ? ComponentStatus::warning : ComponentStatus::ready;
         engine.ask(GetProfile{});
         world.advance(50ms);
     }
-    auto const told = engine.heard();
-    EXPECT_LE(told.size(), 25u);
-    EXPECT_GE(told.size(), 20u);
+    auto const changes = engine.received();
+    EXPECT_LE(changes.size(), 25u);
+    EXPECT_GE(changes.size(), 20u);
     world.advance(200ms);
-    engine.heard();
-    EXPECT_EQ(engine.last_heard<ComponentChanged>().status, ComponentStatus::ready) << "the last state is not lost";
+    engine.received();
+    EXPECT_EQ(engine.last_received<ComponentChanged>().status, ComponentStatus::ready) << "the last state is not lost";
 }
 
 TEST_F(AnEngine, ReceivesTheStateOfNewComponents) {
     world.advance(50ms);
-    engine.heard();
+    engine.received();
     world.change({"speech"}, {detection});
     world.advance(50ms);
-    EXPECT_THAT(engine.heard(), ElementsAre("3 profile_changed", "4 component_changed detection READY"));
+    EXPECT_THAT(engine.received(), ElementsAre("3 profile_changed", "4 component_changed detection READY"));
     world.change({"detection"}, {speech});
     world.advance(1s);
-    EXPECT_THAT(engine.heard(), testing::Contains(HasSubstr("component_changed speech READY")))
+    EXPECT_THAT(engine.received(), testing::Contains(HasSubstr("component_changed speech READY")))
         << "another component of this name";
 }
 
@@ -118,20 +118,20 @@ TEST_F(AnEngine, GetsTheTextOfErrors) {
     auto application = world.connect();
     engine.bind("navigation");
     world["navigation"].reports(ErrorType::user_defined_error, "the bumper was touched");
-    engine.heard();
-    EXPECT_EQ(engine.last_heard<ReceiveError>().text, "the bumper was touched");
+    engine.received();
+    EXPECT_EQ(engine.last_received<ReceiveError>().text, "the bumper was touched");
     engine.release("navigation");
     application.bind("navigation");
     world["navigation"].reports(ErrorType::user_defined_error, "again");
-    application.heard();
-    EXPECT_EQ(application.last_heard<ReceiveError>().text, std::nullopt) << "of an application";
+    application.received();
+    EXPECT_EQ(application.last_received<ReceiveError>().text, std::nullopt) << "of an application";
 }
 
 TEST_F(AnEngine, ReceivesAtConnectThatEverythingIsStopped) {
     world.engine->stop_everything(world.now);
     auto another = world.connect(as_engine);
-    another.heard(1);
-    EXPECT_THAT(another.last_heard<ReceiveError>().text, testing::Optional(HasSubstr("stopped")));
+    another.received(1);
+    EXPECT_THAT(another.last_received<ReceiveError>().text, testing::Optional(HasSubstr("stopped")));
 }
 
 TEST_F(AnEngine, LosesItsSessionWhenItIsSilentThoughItsLinkIsOpen) {
@@ -173,9 +173,9 @@ TEST(Window, IsTheTimeAfterWhichASessionWithoutALinkEnds) {
     world.engine->link_opened(desk.session, LinkKind::websocket, world.now);
     world.engine->link_closed(desk.session, LinkKind::websocket, Closing::lost, world.now);
     world.advance(2900ms);
-    EXPECT_FALSE(desk.told_of_the_end());
+    EXPECT_FALSE(desk.notifications_closed());
     world.advance(200ms);
-    EXPECT_TRUE(desk.told_of_the_end());
+    EXPECT_TRUE(desk.notifications_closed());
 }
 
 TEST(Window, IsAgreedWithinLimits) {

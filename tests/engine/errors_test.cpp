@@ -22,15 +22,15 @@ TEST_F(Errors, OfAComponentDoNotGoToSubscribersOfAnother) {
     auto hall = two.connect();
     hall.subscribe("reached_target", equal("component_ref", "robot_a"));
     two["robot_b"].reports(ErrorType::user_defined_error, "a wheel is stuck");
-    EXPECT_THAT(hall.heard(), IsEmpty());
+    EXPECT_THAT(hall.received(), IsEmpty());
     two["robot_a"].reports(ErrorType::user_defined_error, "a wheel is stuck");
-    EXPECT_THAT(hall.heard(), ElementsAre("1 USER_DEFINED_ERROR robot_a"));
+    EXPECT_THAT(hall.received(), ElementsAre("1 USER_DEFINED_ERROR robot_a"));
 }
 
 TEST_F(Errors, HaveDetailsForTenMinutes) {
     robot.reports(ErrorType::component_not_responding, "the wheels are gone");
-    desk.heard();
-    auto const id = desk.last_heard<ReceiveError>().error_id;
+    desk.received();
+    auto const id = desk.last_received<ReceiveError>().error_id;
     EXPECT_EQ(in_words(desk.detail_of(id).results.parameters),
               "component_ref=navigation time=" + to_text(world.now.utc) + " text=the wheels are gone");
     EXPECT_THAT(desk.detail_of(id, equal("component_ref", "speech")).results.parameters, IsEmpty());
@@ -54,10 +54,10 @@ TEST_F(Errors, OfTheEngineGoToAll) {
     world.engine->add(broken);
     auto hall = world.connect();
     world.advance(200ms);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 ENGINE_INTERNAL_ERROR"));
-    EXPECT_THAT(hall.heard(), ElementsAre("1 ENGINE_INTERNAL_ERROR"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 ENGINE_INTERNAL_ERROR"));
+    EXPECT_THAT(hall.received(), ElementsAre("1 ENGINE_INTERNAL_ERROR"));
     EXPECT_EQ(broken->advanced, 4) << "it is advanced again, and reported once";
-    auto const detail = desk.detail_of(desk.last_heard<ReceiveError>().error_id);
+    auto const detail = desk.detail_of(desk.last_received<ReceiveError>().error_id);
     EXPECT_EQ(in_words(detail.results.parameters), "time=" + to_text(world.now.utc - 150ms) + " text=the floor is gone");
 }
 
@@ -67,7 +67,7 @@ TEST_F(Errors, OfADeviceThatThrowsAnotherTypeGoToAllToo) {
     };
     world.engine->add(std::make_shared<Broken>());
     world.advance(200ms);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 ENGINE_INTERNAL_ERROR"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 ENGINE_INTERNAL_ERROR"));
 }
 
 TEST_F(Errors, InAStartEndItsSequenceOnly) {
@@ -76,10 +76,10 @@ TEST_F(Errors, InAStartEndItsSequenceOnly) {
     hall.execute(say("say"));
     robot.throws_in = {"start"};
     desk.execute(go("go"), go("and on"));
-    EXPECT_THAT(desk.heard(),
+    EXPECT_THAT(desk.received(),
                 ElementsAre("1 completed go ERROR", "2 completed and on ABORT", "3 COMPONENT_INTERNAL_ERROR navigation"));
     EXPECT_EQ(hall.result_of("say"), "RUNNING");
-    EXPECT_THAT(hall.heard(), IsEmpty());
+    EXPECT_THAT(hall.received(), IsEmpty());
 }
 
 TEST_F(Errors, MakeTheStatusErrorUntilACommandSucceeds) {
@@ -102,37 +102,37 @@ TEST_F(Errors, InTheOtherCommandsEndThemWithError) {
     desk.execute(named("hold 2", suspend("navigation")));
     desk.execute(named("on", resume("navigation")));
     EXPECT_THAT(
-        desk.heard(),
+        desk.received(),
         ElementsAre("1 completed hold ERROR", "2 COMPONENT_INTERNAL_ERROR navigation", "3 completed store ERROR",
                     "4 COMPONENT_INTERNAL_ERROR navigation", "5 completed dock ERROR", "6 COMPONENT_INTERNAL_ERROR navigation",
                     "7 completed hold 2 OK", "8 completed on ERROR", "9 COMPONENT_INTERNAL_ERROR navigation"));
     robot.throws_in = {};
     desk.execute(named("on 2", resume("navigation")));
-    EXPECT_THAT(desk.heard(), ElementsAre("10 completed on 2 OK")) << "it was still held";
+    EXPECT_THAT(desk.received(), ElementsAre("10 completed on 2 OK")) << "it was still held";
 }
 
 TEST_F(Errors, ThatAreThrownAsAnotherTypeAreErrorsToo) {
     robot.throws_no_exception = true;
     robot.throws_in = {"query"};
     EXPECT_EQ(desk.query("route").return_code, ReturnCode::error);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
     robot.throws_in = {"start"};
     desk.execute(go("go"));
-    EXPECT_THAT(desk.heard(), ElementsAre("2 completed go ERROR", "3 COMPONENT_INTERNAL_ERROR navigation"));
+    EXPECT_THAT(desk.received(), ElementsAre("2 completed go ERROR", "3 COMPONENT_INTERNAL_ERROR navigation"));
 }
 
 TEST_F(Errors, ThatAnyClientCanCauseAreReportedOnceUntilASuccess) {
     auto hall = world.connect();
     robot.throws_in = {"query"};
     for (int i = 0; i < 2'000; ++i) hall.query("route");
-    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
     EXPECT_EQ(desk.status_of("navigation"), "ERROR");
     robot.throws_in = {};
     EXPECT_EQ(hall.query("route").return_code, ReturnCode::ok);
     EXPECT_EQ(desk.status_of("navigation"), "READY");
     robot.throws_in = {"query"};
     hall.query("route");
-    EXPECT_THAT(desk.heard(), ElementsAre("2 COMPONENT_INTERNAL_ERROR navigation"));
+    EXPECT_THAT(desk.received(), ElementsAre("2 COMPONENT_INTERNAL_ERROR navigation"));
 }
 
 // An error that went to no session, or to another one, is reported again after a binding.
@@ -141,17 +141,17 @@ TEST_F(Errors, ThatAnyClientCanCauseAreReportedAgainAfterABinding) {
     desk.release("navigation");
     robot.throws_in = {"query"};
     for (int i = 0; i < 2; ++i) EXPECT_EQ(desk.query("route").return_code, ReturnCode::error);
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "no session has bound it";
+    EXPECT_THAT(desk.received(), IsEmpty()) << "no session has bound it";
     hall.bind("navigation");
     for (int i = 0; i < 3; ++i) desk.query("route");
-    EXPECT_THAT(hall.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
+    EXPECT_THAT(hall.received(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
     hall.bind("navigation");
     desk.query("route");
-    EXPECT_THAT(hall.heard(), IsEmpty()) << "it was bound already";
+    EXPECT_THAT(hall.received(), IsEmpty()) << "it was bound already";
     hall.release("navigation");
     desk.bind("navigation");
     hall.query("route");
-    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
 }
 
 TEST_F(Errors, InTheStatusAreTheStatus) {
@@ -161,7 +161,7 @@ TEST_F(Errors, InTheStatusAreTheStatus) {
     EXPECT_EQ(hall.status_of("navigation"), "BUSY");
     EXPECT_THAT(desk.search(equal("status", "ERROR")), ElementsAre("navigation"));
     EXPECT_THAT(desk.search(equal("status", "READY")), ElementsAre("detection", "speech"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation")) << "asked three times, reported once";
+    EXPECT_THAT(desk.received(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation")) << "asked three times, reported once";
 }
 
 TEST_F(Errors, BeforeAnythingRunsAreTheAnswer) {
@@ -170,19 +170,19 @@ TEST_F(Errors, BeforeAnythingRunsAreTheAnswer) {
     EXPECT_EQ(executed.return_code, ReturnCode::error);
     EXPECT_EQ(executed.reason, "command_unit_list[1]: the component 'navigation' failed");
     EXPECT_EQ(desk.set_parameter("navigation", {}).return_code, ReturnCode::error);
-    EXPECT_THAT(robot.told, IsEmpty());
+    EXPECT_THAT(robot.calls, IsEmpty());
     EXPECT_EQ(in_words(desk.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time");
 }
 
 TEST_F(Errors, InASecondPreparationEndTheCommand) {
     desk.execute(after(200ms, go("go")), go("and on"));
     desk.set_parameter("navigation", {integer("time_limit", 1)});
-    desk.heard();
+    desk.received();
     robot.throws_in = {"prepare"};
     world.advance(200ms);
-    EXPECT_THAT(desk.heard(),
+    EXPECT_THAT(desk.received(),
                 ElementsAre("2 completed go ERROR", "3 completed and on ABORT", "4 COMPONENT_INTERNAL_ERROR navigation"));
-    EXPECT_THAT(robot.told, ElementsAre("parameters_changed"));
+    EXPECT_THAT(robot.calls, ElementsAre("parameters_changed"));
 }
 
 TEST_F(Errors, InReadingParametersLeaveTheLastOnes) {
@@ -190,7 +190,7 @@ TEST_F(Errors, InReadingParametersLeaveTheLastOnes) {
     world["speech"].throws_in = {"readable_parameters"};
     EXPECT_EQ(desk.status_of("speech"), "ERROR");
     EXPECT_THAT(in_words(desk.get_parameter("speech").parameters), HasSubstr("synthesizable_languages=en|ja"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR speech")) << "reported once";
+    EXPECT_THAT(desk.received(), ElementsAre("1 COMPONENT_INTERNAL_ERROR speech")) << "reported once";
 }
 
 TEST_F(Errors, AParameterThatIsNotInTheProfileIsLeftOut) {
@@ -209,8 +209,9 @@ TEST_F(Errors, InTheDescriptionComeTooLateToMatter) {
 TEST_F(Errors, AnEventThatIsNotInTheProfileIsDropped) {
     desk.subscribe("reached_target");
     robot.fires("fell_over");
-    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
-    EXPECT_THAT(in_words(desk.detail_of(desk.last_heard<ReceiveError>().error_id).results.parameters), HasSubstr("'fell_over'"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
+    EXPECT_THAT(in_words(desk.detail_of(desk.last_received<ReceiveError>().error_id).results.parameters),
+                HasSubstr("'fell_over'"));
 }
 
 TEST_F(Errors, AnEventWithWrongResultsIsDroppedAndReportedOnce) {
@@ -218,17 +219,17 @@ TEST_F(Errors, AnEventWithWrongResultsIsDroppedAndReportedOnce) {
     for (auto const& results : {ParameterList{text("target", "desk"), text("colour", "red")}, ParameterList{integer("target", 3)},
                                 ParameterList{value("is_final_target", "bool", {"perhaps"})}})
         robot.fires("reached_target", results);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
-    EXPECT_THAT(in_words(desk.detail_of(desk.last_heard<ReceiveError>().error_id).results.parameters), HasSubstr("'colour'"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
+    EXPECT_THAT(in_words(desk.detail_of(desk.last_received<ReceiveError>().error_id).results.parameters), HasSubstr("'colour'"));
     EXPECT_EQ(desk.status_of("navigation"), "ERROR");
     robot.fires("reached_target", {text("target", "desk")});
-    EXPECT_THAT(desk.heard(), ElementsAre("2 reached_target navigation"));
+    EXPECT_THAT(desk.received(), ElementsAre("2 reached_target navigation"));
 }
 
 TEST_F(Errors, WrongResultsOfACommandEndItWithError) {
     desk.execute(named("dock", command("dock", "navigation")), go("and on"));
     robot.finishes(CompletedStatus::ok, {{text("charge", "full")}, {}});
-    EXPECT_THAT(desk.heard(),
+    EXPECT_THAT(desk.received(),
                 ElementsAre("1 completed dock ERROR", "2 completed and on ABORT", "3 COMPONENT_INTERNAL_ERROR navigation"));
     EXPECT_EQ(desk.result_of("dock"), "ERROR");
 }
@@ -237,7 +238,7 @@ TEST_F(Errors, WrongResultsOfAQueryAreNoAnswer) {
     robot.throws_in = {"nothing right"};
     EXPECT_EQ(desk.query("route").return_code, ReturnCode::error);
     EXPECT_EQ(desk.query("route").return_code, ReturnCode::error);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
     robot.throws_in = {};
     EXPECT_EQ(desk.query("route").return_code, ReturnCode::ok);
     EXPECT_EQ(desk.status_of("navigation"), "READY");
@@ -249,7 +250,7 @@ TEST_F(Errors, ADoubleAnswerIsCountedAndDropped) {
     desk.execute(go("go"));
     robot.finishes();
     robot.finishes(CompletedStatus::error);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go OK"));
     EXPECT_EQ(world.stray_answers(), 1U);
 }
 
@@ -259,7 +260,7 @@ TEST_F(Errors, ALateAnswerIsCountedAndDropped) {
     world.advance(5s);
     robot.begins();
     robot.finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go TIMEOUT", "2 COMPONENT_NOT_RESPONDING navigation"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go TIMEOUT", "2 COMPONENT_NOT_RESPONDING navigation"));
     EXPECT_EQ(world.stray_answers(), 2U);
 }
 

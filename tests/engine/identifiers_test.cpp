@@ -58,7 +58,7 @@ TEST_F(Identifiers, OfMoreThan256CharactersAreRefusedInEveryUnitOfASequence) {
         EXPECT_THAT(outcome_of(Execute{{{unit}}}), is_too_long("command_id"));
     EXPECT_THAT(outcome_of(Execute{{{command(too_long, "navigation")}}}), is_too_long("command_type"));
     EXPECT_THAT(outcome_of(Execute{{{command("stop", too_long)}}}), is_too_long("component_ref"));
-    EXPECT_TRUE(desk.heard().empty()) << "nothing ran";
+    EXPECT_TRUE(desk.received().empty()) << "nothing ran";
 }
 
 TEST_F(Identifiers, OfMoreThan256CharactersAreRefusedInConditions) {

@@ -96,7 +96,7 @@ TEST_F(InMemory, NewSubscriptionsAreRefusedFrom80PercentOn) {
     EXPECT_EQ(desk.unsubscribe(known.subscribe_id), ReturnCode::ok);
 }
 
-TEST_F(InMemory, StopsWorkWithoutAnyLeft) {
+TEST_F(InMemory, StopsWorkAlsoIfTheMemoryBudgetIsExceeded) {
     desk.bind("navigation");
     desk.execute(go("a"));
     use(150);
@@ -109,7 +109,7 @@ TEST_F(InMemory, StopsWorkWithoutAnyLeft) {
     EXPECT_EQ(desk.ask(Disconnect{}).return_code, ReturnCode::ok);
 }
 
-TEST_F(InMemory, CommandsThatWaitAreFewWithoutAny) {
+TEST_F(InMemory, WaitingCommandsAreLimitedTo16AtTheMemoryBudget) {
     desk.bind("navigation");
     use(100);
     for (int i = 0; i < 16; ++i) EXPECT_EQ(desk.execute(after(1h, go(std::to_string(i)))).return_code, ReturnCode::ok) << i;
@@ -119,7 +119,7 @@ TEST_F(InMemory, CommandsThatWaitAreFewWithoutAny) {
     EXPECT_EQ(desk.execute(named("s", stop("navigation"))).return_code, ReturnCode::ok);
 }
 
-TEST_F(InMemory, CommandsThatOnlyStopAreFewWithoutAnyIfTheyAreDelayed) {
+TEST_F(InMemory, DelayedStopsAreLimitedTo16AtTheMemoryBudget) {
     desk.bind("navigation");
     use(100);
     for (int i = 0; i < 16; ++i) {
@@ -133,7 +133,7 @@ TEST_F(InMemory, CommandsThatOnlyStopAreFewWithoutAnyIfTheyAreDelayed) {
 TEST_F(InMemory, OldResultsAreDroppedWhenMemoryIsShort) {
     desk.bind("navigation");
     for (int i = 0; i < 200; ++i) desk.execute(named("s" + std::to_string(i), stop("navigation")));
-    desk.heard();
+    desk.received();
     desk.subscribe("reached_target");
     for (int i = 0; i < 200; ++i)
         world["navigation"].fires("reached_target", {text("target", "x"), boolean("is_final_target", true)});
@@ -141,24 +141,24 @@ TEST_F(InMemory, OldResultsAreDroppedWhenMemoryIsShort) {
     world.advance(50ms);
     EXPECT_EQ(desk.result_of("s0"), "BAD_PARAMETER") << "expired";
     EXPECT_EQ(desk.result_of("s199"), "OK");
-    auto const heard = desk.heard();
-    EXPECT_THAT(heard, SizeIs(65));
-    EXPECT_EQ(heard.front(), "336 lost 136");
+    auto const received = desk.received();
+    EXPECT_THAT(received, SizeIs(65));
+    EXPECT_EQ(received.front(), "336 lost 136");
     EXPECT_EQ(desk.ask(GetEventDetail{{"e-100"}, {}}).return_code, ReturnCode::bad_parameter);
     EXPECT_EQ(desk.ask(GetEventDetail{{"e-200"}, {}}).return_code, ReturnCode::ok);
 }
 
-TEST_F(InMemory, SessionsThatReadNothingEndWithoutAny) {
+TEST_F(InMemory, SessionsThatReadNoNotificationsEndAtTheMemoryBudget) {
     auto slow = world.connect();
     slow.bind("navigation");
     for (int i = 0; i < 257; ++i) slow.execute(stop("navigation"));
     use(100);
     world.advance(50ms);
-    EXPECT_TRUE(slow.told_of_the_end());
-    EXPECT_FALSE(desk.told_of_the_end());
+    EXPECT_TRUE(slow.notifications_closed());
+    EXPECT_FALSE(desk.notifications_closed());
 }
 
-TEST_F(InMemory, StatisticsReportWhatIsUsed) {
+TEST_F(InMemory, StatisticsReportTheUsedMemory) {
     use(85);
     world.say({}, Connect{});
     budget.refuse("");

@@ -194,7 +194,7 @@ Prepared ScriptedComponent::prepare(std::string_view command_type, ParameterList
 }
 
 void ScriptedComponent::start(CommandHandle command, ParameterList const& parameters) {
-    told.emplace_back("start");
+    calls.emplace_back("start");
     latest_ = command;
     started_with = parameters;
     called("start");
@@ -205,29 +205,29 @@ void ScriptedComponent::start(CommandHandle command, ParameterList const& parame
 }
 
 Halted ScriptedComponent::halt(Instant) {
-    told.emplace_back("halt");
+    calls.emplace_back("halt");
     called("halt");
     return halts_later ? Halted::not_yet : Halted::confirmed;
 }
 
 void ScriptedComponent::suspend(Instant) {
-    told.emplace_back("suspend");
+    calls.emplace_back("suspend");
     called("suspend");
 }
 
 void ScriptedComponent::resume(Instant) {
-    told.emplace_back("resume");
+    calls.emplace_back("resume");
     called("resume");
 }
 
 void ScriptedComponent::parameters_changed(ParameterList const& parameters, Instant) {
-    told.emplace_back("parameters_changed");
+    calls.emplace_back("parameters_changed");
     changed_to = parameters;
     called("parameters_changed");
 }
 
 void ScriptedComponent::perform(CommandHandle command, std::string_view command_type, ParameterList const& arguments) {
-    told.emplace_back(command_type);
+    calls.emplace_back(command_type);
     latest_ = command;
     started_with = arguments;
     called("perform");

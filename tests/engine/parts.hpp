@@ -56,7 +56,7 @@ public:
     std::set<std::string> throws_in;
     bool throws_no_exception = false;  // throws another type
     bool halts_later = false;          // `halt` returns `not_yet`
-    std::vector<std::string> told;     // the calls that it received
+    std::vector<std::string> calls;    // the calls that it received
     ParameterList started_with;
     ParameterList changed_to;            // by the last set_parameter, or the end of a binding
     std::optional<ParameterList> reads;  // result of readable_parameters, instead of the usual one

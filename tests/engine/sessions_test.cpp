@@ -62,15 +62,15 @@ TEST(Session, ReceivesNothingAfterItsEnd) {
     desk.subscribe("person_detected");
     desk.execute(go("go"), after(200ms, go("later")));
     desk.leave();
-    desk.heard();
+    desk.received();
     auto const notified = world.notified[desk.session];
     world["detection"].fires("person_detected");
     world["navigation"].finishes();
     world.advance(10s);
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
     EXPECT_EQ(world.notified[desk.session], notified);
     EXPECT_EQ(world.engine->statistics().subscriptions, 0U);
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("start", "halt", "parameters_changed"));
 }
 
 TEST(Session, MayLeaveItsCommandsRunning) {
@@ -82,10 +82,10 @@ TEST(Session, MayLeaveItsCommandsRunning) {
     desk.bind("speech");
     desk.execute(go("go"), say("say"));
     desk.leave();
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start"));
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("start"));
     world["navigation"].finishes();
-    EXPECT_THAT(world["speech"].told, ElementsAre("start"));
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(world["speech"].calls, ElementsAre("start"));
+    EXPECT_THAT(desk.received(), IsEmpty());
     EXPECT_EQ(world.stray_answers(), 0U);
 }
 
@@ -102,7 +102,7 @@ TEST(Session, CommandsThatContinueDoNotKeepTheirComponentFromTheNextSession) {
     hall.bind("speech");
     hall.execute(say("mine"));
     world["navigation"].finishes();
-    EXPECT_THAT(world["speech"].told, ElementsAre("start"));
+    EXPECT_THAT(world["speech"].calls, ElementsAre("start"));
     EXPECT_EQ(hall.result_of("mine"), "RUNNING");
 }
 
@@ -126,10 +126,10 @@ TEST(Link, AClientThatBindsAndVanishesIsStoppedWithinTheWindow) {
     desk.execute(go("go"));
     world.engine->link_closed(desk.session, LinkKind::websocket, Closing::lost, world.now);
     world.advance(29s);
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start"));
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("start"));
     world.advance(1s);
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT"));
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("start", "halt", "parameters_changed"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go ABORT"));
     EXPECT_EQ(world.connect().bind("navigation"), ReturnCode::ok);
 }
 
@@ -213,13 +213,13 @@ TEST(ShutDown, EndsAllSessionsAndRefusesNewOnes) {
     desk.execute(go("go"));
     hall.execute(say("say"));
     world.engine->shut_down(world.now);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT"));
-    EXPECT_THAT(hall.heard(), ElementsAre("1 completed say ABORT"));
-    EXPECT_TRUE(desk.told_of_the_end());
-    EXPECT_TRUE(hall.told_of_the_end());
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go ABORT"));
+    EXPECT_THAT(hall.received(), ElementsAre("1 completed say ABORT"));
+    EXPECT_TRUE(desk.notifications_closed());
+    EXPECT_TRUE(hall.notifications_closed());
     EXPECT_EQ(desk.refusal_of(Search{}), Refusal::shutting_down);
     EXPECT_EQ(std::get<Refusal>(world.say({}, Connect{})), Refusal::shutting_down);
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "halt", "parameters_changed"));
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("start", "halt", "halt", "parameters_changed"));
 }
 
 TEST(ShutDown, StopsCommandsWithoutASessionToo) {
@@ -232,8 +232,8 @@ TEST(ShutDown, StopsCommandsWithoutASessionToo) {
     desk.execute(start("detection"), go("go"), go("and on"));
     desk.leave();
     world.engine->shut_down(world.now);
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
-    EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("start", "halt"));
+    EXPECT_THAT(world["detection"].calls, ElementsAre("start", "halt"));
 }
 
 TEST(ShutDown, AnEngineMayBeDestroyedWhileItsCommandsRun) {
@@ -242,7 +242,7 @@ TEST(ShutDown, AnEngineMayBeDestroyedWhileItsCommandsRun) {
     desk.bind("navigation");
     desk.execute(go("go"), after(1h, go("later")));
     world.engine.reset();  // a leak sanitizer checks that all of it is freed
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
 }
 
 }  // namespace rois

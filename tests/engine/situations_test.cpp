@@ -28,25 +28,25 @@ TEST(ErrorsOfTheEngine, AreReportedFromConnectToDisconnect) {
     world.advance(100ms);
     auto late = world.connect();
     world.advance(100ms);
-    EXPECT_THAT(here.heard(), ElementsAre("1 ENGINE_INTERNAL_ERROR"));
-    EXPECT_THAT(gone.heard(), IsEmpty());
-    EXPECT_THAT(late.heard(), IsEmpty());
+    EXPECT_THAT(here.received(), ElementsAre("1 ENGINE_INTERNAL_ERROR"));
+    EXPECT_THAT(gone.received(), IsEmpty());
+    EXPECT_THAT(late.received(), IsEmpty());
 }
 
 TEST(ErrorsOfAComponent, AreReportedFromBindToRelease) {
     World world{navigation};
     auto desk = world.connect();
     reports(world, "navigation");
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
     desk.bind("navigation");
     reports(world, "navigation");
-    EXPECT_THAT(desk.heard(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
     desk.release("navigation");
     reports(world, "navigation");
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
     desk.bind_any();
     reports(world, "navigation");
-    EXPECT_THAT(desk.heard(), ElementsAre("2 USER_DEFINED_ERROR navigation"));
+    EXPECT_THAT(desk.received(), ElementsAre("2 USER_DEFINED_ERROR navigation"));
 }
 
 TEST(ErrorsOfAComponent, AreReportedFromSubscribeToUnsubscribe) {
@@ -54,10 +54,10 @@ TEST(ErrorsOfAComponent, AreReportedFromSubscribeToUnsubscribe) {
     auto desk = world.connect();
     auto const id = desk.subscribe("reached_target").subscribe_id;
     reports(world, "navigation");
-    EXPECT_THAT(desk.heard(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
     desk.unsubscribe(id);
     reports(world, "navigation");
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
 }
 
 TEST(ErrorsOfAComponent, HaveAnIdEach) {
@@ -67,8 +67,8 @@ TEST(ErrorsOfAComponent, HaveAnIdEach) {
     std::vector<std::string> ids;
     for (int i = 0; i < 2; ++i) {
         reports(world, "navigation");
-        desk.heard();
-        ids.push_back(desk.last_heard<ReceiveError>().error_id.text);
+        desk.received();
+        ids.push_back(desk.last_received<ReceiveError>().error_id.text);
     }
     EXPECT_NE(ids[0], ids[1]);
     for (auto const& id : ids) EXPECT_EQ(desk.detail_of(ErrorId{id}).return_code, ReturnCode::ok);
@@ -83,12 +83,12 @@ TEST(ErrorsOfAComponent, WhoseProcessIsGoneAreNotResponding) {
     desk.execute(go("go"), say("arrived"));
     world["navigation"].reports(ErrorType::component_not_responding, "the robot does not answer any more");
     world["navigation"].finishes(CompletedStatus::error);
-    EXPECT_THAT(desk.heard(),
+    EXPECT_THAT(desk.received(),
                 ElementsAre("1 COMPONENT_NOT_RESPONDING navigation", "2 completed go ERROR", "3 completed arrived ABORT"));
     EXPECT_EQ(desk.execute(say("still well")).return_code, ReturnCode::ok);
 }
 
-TEST(Settings, AreThoseOfTheDecisions) {
+TEST(Settings, HaveTheDefaultsOfTheDecisions) {
     EngineSettings const settings;
     EXPECT_EQ(settings.session_timeout, 60s);
     EXPECT_EQ(settings.resume_window, 30s);
@@ -146,8 +146,8 @@ TEST(AnnexB, TheSequenceRunsInItsOrder) {
     world["c"].finishes();
     EXPECT_EQ(running(), "F");
     world["a"].finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed A OK", "2 completed B OK", "3 completed E OK", "4 completed C OK",
-                                          "5 completed D OK", "6 completed F OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed A OK", "2 completed B OK", "3 completed E OK", "4 completed C OK",
+                                             "5 completed D OK", "6 completed F OK"));
 }
 
 // Annex B.2: set_parameter with an empty command_id, and a component_ref with more attributes than the code.
@@ -162,7 +162,7 @@ TEST(AnnexB, TheCommandMessageGetsItsId) {
     auto const ids = ids_of(reply.command_unit_list.command_unit_list);
     ASSERT_EQ(ids.size(), 1U) << reply.reason;
     EXPECT_NE(ids[0], "");
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed " + ids[0] + " OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed " + ids[0] + " OK"));
     EXPECT_EQ(in_words(desk.get_parameter("speech_synthesis").parameters), "speech_text=hello volume=10 language=en");
     auto const as_printed = set("speech_synthesis", {value("language", "Integer", {"en"})});
     EXPECT_THAT(desk.execute(as_printed).reason, HasSubstr("'language' is declared as 'Integer', its type is string"));

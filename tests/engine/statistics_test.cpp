@@ -37,7 +37,7 @@ TEST(Statistics, OfSessionsAreByTheirNumber) {
     EXPECT_EQ(all[1].commands, 2U);
     EXPECT_EQ(all[1].subscriptions, 1U);
     EXPECT_EQ(all[1].waiting_notifications, 1U);
-    guest.heard();
+    guest.received();
     world["navigation"].finishes();
     guest.release("speech");
     auto const later = world.engine->statistics().each_session[1];
@@ -69,9 +69,9 @@ TEST(Statistics, CountHowOftenALimitWasReached) {
     desk.subscribe("person_detected");
     for (int i = 0; i < 5; ++i) world["detection"].fires("person_detected");
     EXPECT_EQ(reached(world, "waiting_notifications"), 3U) << "events that were dropped";
-    desk.heard();
+    desk.received();
     for (int i = 0; i < 3; ++i) world["navigation"].reports(ErrorType::user_defined_error, "tired");
-    EXPECT_TRUE(desk.told_of_the_end());
+    EXPECT_TRUE(desk.notifications_closed());
     EXPECT_EQ(reached(world, "waiting_notifications"), 4U) << "and a session that had to end";
 }
 

@@ -33,16 +33,16 @@ TEST_P(Calendar, MovesNoTimeout) {
     desk.execute(go("go"));
     jump();
     world.advance(4950ms);
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
     world.advance(50ms);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go TIMEOUT", "2 COMPONENT_NOT_RESPONDING navigation"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go TIMEOUT", "2 COMPONENT_NOT_RESPONDING navigation"));
 }
 
 TEST_P(Calendar, EndsNoSessionAndForgetsNothing) {
     desk.subscribe("person_detected");
     world["detection"].fires("person_detected");
-    desk.heard();
-    auto const event = desk.last_heard<ReceiveEvent>().event_id;
+    desk.received();
+    auto const event = desk.last_received<ReceiveEvent>().event_id;
     desk.execute(named("stop", stop("navigation")));
     auto silent = world.connect_without_link();
     jump();
@@ -60,8 +60,8 @@ TEST_P(Calendar, IsShownInDocuments) {
     auto const before = world.now.utc;
     jump();
     world["navigation"].reports(ErrorType::user_defined_error, "late");
-    desk.heard();
-    auto const detail = desk.detail_of(desk.last_heard<ReceiveError>().error_id);
+    desk.received();
+    auto const detail = desk.detail_of(desk.last_received<ReceiveError>().error_id);
     EXPECT_EQ(find(detail.results.parameters, "time")->values.front(), to_text(before + GetParam()));
 }
 

@@ -88,7 +88,7 @@ GetErrorDetail::Reply Application::detail_of(ErrorId const& id, QueryExpression 
     return ask(GetErrorDetail{id, std::move(condition)});
 }
 
-std::vector<std::string> Application::heard(std::size_t most) {
+std::vector<std::string> Application::received(std::size_t most) {
     std::vector<std::string> words;
     for (auto const& [sequence, notification] : notifications_->read(after_, most)) {
         words.push_back(std::to_string(sequence) + " " + std::visit(InWords{}, notification->body));

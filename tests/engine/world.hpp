@@ -71,15 +71,15 @@ public:
 
     // The notifications since the last call, as text: "3 completed go OK", "4 reached_target navigation", "5
     // COMPONENT_INTERNAL_ERROR speech", "9 lost 5". Also works after the session's end.
-    std::vector<std::string> heard(std::size_t most = 100'000);
+    std::vector<std::string> received(std::size_t most = 100'000);
 
     // The last notification of this kind.
     template <class Kind>
-    Kind last_heard() const {
+    Kind last_received() const {
         return std::get<Kind>(last_);
     }
 
-    bool told_of_the_end() const { return notifications_->closed(); }
+    bool notifications_closed() const { return notifications_->closed(); }
     NotificationQueue& notifications() { return *notifications_; }
 
     static Identifier identifier(std::string const& code) {

@@ -25,14 +25,14 @@ struct Misbehaving : testing::Test {
         voice.on_start = OnStart::is_done;
     }
 
-    auto halts() { return std::ranges::count(robot.told, "halt"); }
+    auto halts() { return std::ranges::count(robot.calls, "halt"); }
 
     // A delay of another application ends in time, whatever the robot does.
     void expect_time_to_pass() {
         other.execute(after(100ms, say("")));
-        other.heard();
+        other.received();
         world.advance(100ms);
-        EXPECT_THAT(other.heard(), Contains(HasSubstr("completed")));
+        EXPECT_THAT(other.received(), Contains(HasSubstr("completed")));
     }
 };
 
@@ -69,7 +69,7 @@ TEST_F(Misbehaving, AComponentThatReportsAFalseEndIsHaltedWhenItsSessionEnds) {
     robot.finishes();  // reports the end, but drives on
     EXPECT_EQ(desk.result_of("go"), "OK");
     desk.leave();
-    EXPECT_THAT(robot.told, Contains("halt"));
+    EXPECT_THAT(robot.calls, Contains("halt"));
 }
 
 TEST_F(Misbehaving, AnswersTwiceAndLateAreCountedAndChangeNothing) {
@@ -93,10 +93,10 @@ TEST_F(Misbehaving, ACalendarThatJumpsMovesNoComponent) {
         desk.execute(go(""));
         world.set_calendar(day);
         expect_time_to_pass();
-        EXPECT_FALSE(desk.told_of_the_end());
+        EXPECT_FALSE(desk.notifications_closed());
         world.engine->link_closed(desk.session, LinkKind::websocket, Closing::lost, world.now);
         world.advance(300ms);
-        EXPECT_EQ(robot.told.back(), "suspend") << "its lease has ended";
+        EXPECT_EQ(robot.calls.back(), "suspend") << "its lease has ended";
         world.engine->link_opened(desk.session, LinkKind::websocket, world.now);
     }
 }
@@ -106,7 +106,7 @@ TEST_F(Misbehaving, AProcessSuspendedFor10SecondsHoldsMovingComponents) {
     other.execute(after(5s, say("say")));
     world.now = world.now + 10s;
     world.engine->tick(world.now);
-    EXPECT_EQ(robot.told.back(), "suspend");
+    EXPECT_EQ(robot.calls.back(), "suspend");
     EXPECT_EQ(other.result_of("say"), "OK") << "overdue actions are done";
     expect_time_to_pass();
 }

@@ -76,7 +76,7 @@ struct Hall {
             [this] { desk.value().execute(go("third", "arm"), go("fourth", "arm")); },
             [this] { tick([this] { arm->stand_still(); }); },
             [this] { world["speech"].reports(ErrorType::component_internal_error, "hoarse"); },
-            [this] { desk.value().heard(); },
+            [this] { desk.value().received(); },
             [this] { desk.value().release("base"); },
             [this] { guest.value().bind("base"); },
             [this] { guest.value().execute(go("mine", "base")); },
@@ -180,7 +180,7 @@ void expect_all_to_stand_still(Hall& hall, std::uint64_t n) {
 void expect_no_double_answers(Hall& hall, std::uint64_t n) {
     std::map<std::string, int> completed;
     if (!hall.desk) return;
-    for (auto const& words : hall.desk->heard()) {
+    for (auto const& words : hall.desk->received()) {
         auto const at = words.find("completed ");
         if (at == std::string::npos) continue;
         ASSERT_EQ(++completed[words.substr(at, words.rfind(' ') - at)], 1) << n << ": " << words;

@@ -45,9 +45,9 @@ void pass(TwoEngines& engines, std::chrono::milliseconds time) {
     }
 }
 
-std::size_t ends_of(std::vector<std::string> const& heard, std::string const& command) {
+std::size_t ends_of(std::vector<std::string> const& received, std::string const& command) {
     return static_cast<std::size_t>(
-        std::ranges::count_if(heard, [&](std::string const& each) { return each.find("completed " + command) != each.npos; }));
+        std::ranges::count_if(received, [&](std::string const& each) { return each.find("completed " + command) != each.npos; }));
 }
 
 }  // namespace
@@ -73,10 +73,10 @@ TEST(SubEngineWithoutMemory, EndsEveryCommandAndComesBack) {
         }
         has_failed = failing.left == 0;
         pass(engines, 31s);  // the longest time until the next attempt
-        EXPECT_EQ(ends_of(desk.heard(), "go"), accepted ? 1u : 0u) << "allocation " << n;
+        EXPECT_EQ(ends_of(desk.received(), "go"), accepted ? 1u : 0u) << "allocation " << n;
         EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::ok) << "allocation " << n;
         EXPECT_EQ(engines.execute(desk, go("again", "hall.navigation")).return_code, ReturnCode::ok) << "allocation " << n;
-        EXPECT_EQ(engines.hall["navigation"].told.back(), "start") << "allocation " << n;
+        EXPECT_EQ(engines.hall["navigation"].calls.back(), "start") << "allocation " << n;
     }
     EXPECT_GT(n, 100u);
 }

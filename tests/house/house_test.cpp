@@ -39,10 +39,10 @@ TEST_F(House, IsReadCompletely) {
 
 TEST_F(House, KeepsItsLayers) { EXPECT_EQ(list(against_layers(tree)), ""); }
 TEST_F(House, ReadsNoClockBelowTheNetwork) { EXPECT_EQ(list(against_passed_in_time(tree)), ""); }
-TEST_F(House, NamesWhatItAwaitsWith) { EXPECT_EQ(list(against_braces_in_awaits(tree)), ""); }
-TEST_F(House, HasShortFiles) { EXPECT_EQ(list(against_short_files(tree)), ""); }
+TEST_F(House, HasNoBracesInAwaits) { EXPECT_EQ(list(against_braces_in_awaits(tree)), ""); }
+TEST_F(House, HasFilesOf500LinesAtMost) { EXPECT_EQ(list(against_short_files(tree)), ""); }
 TEST_F(House, HasNoBrokenLinks) { EXPECT_EQ(list(against_links(tree)), ""); }
-TEST_F(House, ProvesWhatItClaims) { EXPECT_EQ(list(against_proof(tree)), ""); }
+TEST_F(House, HasATestForEachConformanceClaim) { EXPECT_EQ(list(against_proof(tree)), ""); }
 TEST_F(House, UsesOnlyPublicNamesOfBoostInTheNetwork) {
     for (auto const& [file, text] : tree) {
         if (file.starts_with("server/net/")) {

@@ -184,7 +184,7 @@ std::vector<std::string> Application::search(Xml const& condition) {
     return refs;
 }
 
-Document Application::hear() {
+Document Application::receive() {
     if (waiting_.empty()) {
         std::vector<std::string> news;
         wire_->wait(news);
@@ -195,27 +195,28 @@ Document Application::hear() {
     return history_.back();
 }
 
-std::optional<Document> Application::hear_now() {
+std::optional<Document> Application::receive_now() {
     if (waiting_.empty()) {
         std::vector<std::string> news;
         wire_->look(news);
         take(news);
     }
     if (waiting_.empty()) return {};
-    return hear();
+    return receive();
 }
 
-Document Application::hear_event(std::string const& type) {
+Document Application::next_event(std::string const& type) {
     while (true) {
-        auto heard = hear();
-        if (heard.text("event_type") == type) return heard;
+        auto notification = receive();
+        if (notification.text("event_type") == type) return notification;
     }
 }
 
 std::string Application::status_of(std::string const& command_id) {
     while (true) {
-        auto const heard = hear();
-        if (heard.name() == "completed" && heard.text("command_id") == command_id) return heard.text("status");
+        auto const notification = receive();
+        if (notification.name() == "completed" && notification.text("command_id") == command_id)
+            return notification.text("status");
     }
 }
 

@@ -62,14 +62,20 @@ public:
     Document get_event_detail(std::string const& id, Xml const& condition = {});
     std::vector<std::string> search(Xml const& condition = {});  // refs; "" for a refusal
 
-    // The next notification.
-    Document hear();
-    // The next notification if one has arrived. Over a WebSocket, only those before the last answer have.
-    std::optional<Document> hear_now();
-    // The next event of this type; skips other notifications.
-    Document hear_event(std::string const& type);
-    // The status with which a command completes; skips other notifications.
+    // Waits for the next notification and returns it.
+    Document receive();
+    // Returns the next notification, or nullopt if none has arrived. Over a WebSocket, only notifications that were sent before
+    // the last answer have arrived.
+    std::optional<Document> receive_now();
+    // Waits for the next event of this type and returns it. Skips other notifications.
+    Document next_event(std::string const& type);
+    // Waits until the command completes and returns its status. Skips other notifications.
     std::string status_of(std::string const& command_id);
+
+    // Other names of these functions, which tests/conformance uses.
+    Document hear() { return receive(); }
+    std::optional<Document> hear_now() { return receive_now(); }
+    Document hear_event(std::string const& type) { return next_event(type); }
 
     // All notifications so far, in order.
     std::vector<Document> const& history() const { return history_; }

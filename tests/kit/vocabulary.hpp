@@ -89,8 +89,8 @@ Xml pause(int delay);                                          // a unit that on
 Xml branch(std::vector<Command> const&);                       // commands one after the other
 Xml command_list(Command const&);                              // a branch of the flat form
 Xml concurrent(Xml const& branches);                           // the published parallel unit, of branches in either form
-Xml one_after_another(Xml const& units);                       // the seed's sequential unit
-Xml side_by_side(Xml const& units);                            // the seed's parallel unit
+Xml one_after_another(Xml const& units);                       // the sequential unit of RoIS 1.0 (2011)
+Xml side_by_side(Xml const& units);                            // the parallel unit of RoIS 1.0 (2011)
 Xml sequence(Xml const& units);                                // for execute
 std::vector<std::string> command_ids(Document const& answer);  // of an answer of execute, in document order
 

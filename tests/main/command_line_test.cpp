@@ -84,7 +84,7 @@ TEST(CommandLine, NeedsAReadableConfigurationFile) {
     expect_complaint(complaint({"--config", "/"}), "/: cannot be read");
 }
 
-TEST(CommandLine, DistinguishesWhatItIsAskedFor) {
+TEST(CommandLine, DistinguishesServingChecksAndPrintedAnswers) {
     using Wish = CommandLine::Wish;
     EXPECT_EQ(read({}).wish, Wish::serve);
     EXPECT_EQ(read({"--check-config"}).wish, Wish::check_config);

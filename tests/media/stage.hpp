@@ -27,9 +27,9 @@ public:
 inline Reception next_reception(Outlet& outlet) {
     auto const end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
     while (std::chrono::steady_clock::now() < end) {
-        if (auto const told = outlet.receptions(); !told.empty()) {
-            EXPECT_EQ(told.size(), 1u);
-            return told.back();
+        if (auto const changes = outlet.receptions(); !changes.empty()) {
+            EXPECT_EQ(changes.size(), 1u);
+            return changes.back();
         }
         std::this_thread::yield();
     }

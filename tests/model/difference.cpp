@@ -6,10 +6,10 @@ namespace rois::model {
 
 namespace {
 
-std::string in_words(int session, std::vector<std::string> const& told) {
+std::string in_words(int session, std::vector<std::string> const& notifications) {
     std::string text = "application " + std::to_string(session) + " receives";
-    for (auto const& one : told) text += " [" + one + "]";
-    return told.empty() ? text + " nothing" : text;
+    for (auto const& one : notifications) text += " [" + one + "]";
+    return notifications.empty() ? text + " nothing" : text;
 }
 
 // Returns the difference that the last step shows, if any.
@@ -17,11 +17,11 @@ std::optional<Difference> compare(Step const& step, Reference& reference, Subjec
     auto const expected = reference.take(step), found = subject.take(step);
     if (expected != found) return Difference{{}, expected, found};
     for (int i = 0; i < session_count; ++i) {
-        auto const due = reference.heard(i), told = subject.heard(i);
-        if (due != told)
+        auto const due = reference.received(i), notifications = subject.received(i);
+        if (due != notifications)
             return Difference{{},
                               in_words(i, due.value_or(std::vector<std::string>{})),
-                              in_words(i, told.value_or(std::vector<std::string>{}))};
+                              in_words(i, notifications.value_or(std::vector<std::string>{}))};
     }
     return {};
 }

@@ -42,7 +42,7 @@ std::string Reference::take(Step const& step) {
             return owner != -1 && owner != step.session ? "BUSY" : "READY";
         }
         case Kind::subscribe:
-            session->subscriptions = is(Flaw::subscribing_twice_is_heard_twice) ? session->subscriptions + 1 : 1;
+            session->subscriptions = is(Flaw::subscribing_twice_notifies_twice) ? session->subscriptions + 1 : 1;
             return "OK";
         case Kind::unsubscribe:
             session->subscriptions = 0;
@@ -53,7 +53,7 @@ std::string Reference::take(Step const& step) {
         case Kind::fire:
             for (int i = 0; i < session_count; ++i)
                 for (int n = sessions_[at(i)] ? sessions_[at(i)]->subscriptions : 0; n > 0; --n)
-                    tell(i, "person_detected detection");
+                    notify(i, "person_detected detection");
             break;
         case Kind::pass:
             pass(step.number);
@@ -63,10 +63,10 @@ std::string Reference::take(Step const& step) {
     return answer;
 }
 
-std::optional<std::vector<std::string>> Reference::heard(int session) {
+std::optional<std::vector<std::string>> Reference::received(int session) {
     auto& one = sessions_[at(session)];
     if (!one) return {};
-    return std::exchange(one->told, {});
+    return std::exchange(one->notifications, {});
 }
 
 std::string Reference::connect(int session) {
@@ -116,8 +116,8 @@ void Reference::end_binding(Component& component) const {
 std::string Reference::parameters_by_query(Step const& step) const {
     if (step.component == nobody || step.component == detection) return "UNSUPPORTED";
     auto const& component = components_[at(step.component)];
-    bool const is_told = component.bound_to == step.session || is(Flaw::anybody_reads_stored_values);
-    return "OK " + (is_told ? component.value : component.default_value);
+    bool const is_shown = component.bound_to == step.session || is(Flaw::anybody_reads_stored_values);
+    return "OK " + (is_shown ? component.value : component.default_value);
 }
 
 std::string Reference::parameters(Step const& step) {
@@ -128,7 +128,7 @@ std::string Reference::parameters(Step const& step) {
     if (step.number < 0 && !is(Flaw::bad_values_are_stored)) return "BAD_PARAMETER";
     component.value = std::to_string(step.number);
     auto& session = *sessions_[at(step.session)];
-    tell(step.session, "completed c OK");
+    notify(step.session, "completed c OK");
     session.ended.push_back('-');
     forget_old(session);
     return "OK";
@@ -271,7 +271,7 @@ void Reference::end(SharedCommand const& command, std::string const& status) {
     }
     command->state = status;
     auto& session = *sessions_[at(command->session)];
-    tell(command->session, std::string{"completed "} + command->name + " " + status);
+    notify(command->session, std::string{"completed "} + command->name + " " + status);
     session.ended.push_back(command->name);
     forget_old(session);
 
@@ -323,9 +323,9 @@ void Reference::pass(int ticks) {
     }
 }
 
-void Reference::tell(int session, std::string const& what) {
+void Reference::notify(int session, std::string const& what) {
     auto& one = *sessions_[at(session)];
-    one.told.push_back(std::to_string(++one.sequence) + " " + what);
+    one.notifications.push_back(std::to_string(++one.sequence) + " " + what);
 }
 
 void Reference::forget_old(Session& session) const {

@@ -25,7 +25,7 @@ enum class Flaw : std::uint8_t {
     a_delay_is_a_tick_longer,          // 15
     stop_completes_start_with_ok,      // 9
     results_are_kept_for_ever,         // 17
-    subscribing_twice_is_heard_twice,  // 20
+    subscribing_twice_notifies_twice,  // 20
     bad_values_are_stored,             // 26
     values_outlive_the_binding,        // 30
     anybody_reads_stored_values        // 30
@@ -41,7 +41,7 @@ public:
     // Returns the answer to the step.
     std::string take(Step const&);
     // Returns the notifications of the application since the last call, or nullopt if it has no session.
-    std::optional<std::vector<std::string>> heard(int session);
+    std::optional<std::vector<std::string>> received(int session);
 
 private:
     struct Execution;
@@ -80,7 +80,7 @@ private:
         std::deque<char> ended;  // '-' for commands without an id of the application
         int subscriptions = 0;
         std::uint64_t sequence = 0;
-        std::vector<std::string> told;
+        std::vector<std::string> notifications;
     };
     // A component's answer to a call, which it makes when all turns are over.
     struct Report {
@@ -115,7 +115,7 @@ private:
     void halt(Component&, std::string const& status_of_start);
     void settle();
     void pass(int ticks);
-    void tell(int session, std::string const& what);
+    void notify(int session, std::string const& what);
     void forget_old(Session&) const;
     bool is(Flaw flaw) const { return flaw_ == flaw; }
 

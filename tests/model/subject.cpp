@@ -111,12 +111,12 @@ std::string Subject::take(Step const& step) {
     return "happened";
 }
 
-std::optional<std::vector<std::string>> Subject::heard(int session) {
+std::optional<std::vector<std::string>> Subject::received(int session) {
     auto& seat = seats_[static_cast<std::size_t>(session)];
     if (!seat.is_connected) return {};
-    auto told = seat.application->heard();
-    for (auto& one : told) one = without_own_names(one);
-    return told;
+    auto notifications = seat.application->received();
+    for (auto& one : notifications) one = without_own_names(one);
+    return notifications;
 }
 
 std::variant<Reply, Refusal> Subject::say(Seat const& seat, Operation const& operation) {

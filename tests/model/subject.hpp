@@ -18,7 +18,7 @@ public:
     // Returns the answer to the step, in the reference's form.
     std::string take(Step const&);
     // Returns the notifications of the application since the last call, or nullopt if it has no session.
-    std::optional<std::vector<std::string>> heard(int session);
+    std::optional<std::vector<std::string>> received(int session);
 
 private:
     struct Seat {

@@ -39,7 +39,7 @@ TEST(WebFile, IsKeptForEverWhenItsNameChangesWithIt) {
     EXPECT_EQ(field(get("index.html"), "Cache-Control"), "no-cache");
 }
 
-TEST(WebFile, IsSentInTheFormThatIsTaken) {
+TEST(WebFile, IsSentCompressedIfTheClientAcceptsGzip) {
     auto const plain = get("assets/main-1a2b.js"), compressed = get("assets/main-1a2b.js", {{"Accept-Encoding", "br, gzip"}});
     EXPECT_EQ(plain.body, "let a = 1;");
     EXPECT_EQ(field(plain, "Content-Encoding"), "");
@@ -63,7 +63,7 @@ TEST(WebFile, IsNotSentAgainIfTheClientHasIt) {
     EXPECT_EQ(get("assets/main-1a2b.js", {{"If-None-Match", script}, {"Accept-Encoding", "gzip"}}).status, http::status::ok);
 }
 
-TEST(WebFile, MayUseNothingFromElsewhere) {
+TEST(WebFile, HasAPolicyAgainstContentOfOtherServers) {
     auto const page = get("index.html");
     EXPECT_EQ(field(page, "Content-Security-Policy"),
               "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self' "
@@ -73,7 +73,7 @@ TEST(WebFile, MayUseNothingFromElsewhere) {
     EXPECT_EQ(field(page, "Referrer-Policy"), "no-referrer");
 }
 
-TEST(WebFile, IsNamedExactly) {
+TEST(WebFile, IsNotFoundByOtherSpellingsOfItsPath) {
     for (auto const* path : {"assets/", "assets/main-1a2b.js.gz", "main-1a2b.js", "assets/../index.html", "", "INDEX.HTML"}) {
         auto const answer = get(path);
         EXPECT_EQ(answer.status, http::status::not_found) << path;

@@ -29,7 +29,7 @@ HttpAnswer answer_to(std::map<std::string, std::string> const& changed = {},
 unsigned status(HttpAnswer const& answer) { return static_cast<unsigned>(answer.status); }
 unsigned status(std::map<std::string, std::string> const& changed) { return status(answer_to(changed)); }
 
-TEST(Upgrade, IsAnsweredAsTheStandardSays) {
+TEST(Upgrade, IsAnsweredWithTheFieldsOfRfc6455) {
     auto const answer = answer_to();
     EXPECT_EQ(status(answer), 101U);
     EXPECT_EQ(field(answer, "Upgrade"), "websocket");

@@ -20,7 +20,7 @@ TEST(AProgramOfTheCppPsm, GreetsAVisitor) {
     EXPECT_EQ(ended.out, "greeted a visitor\n");
 }
 
-TEST(AProgramOfTheCppPsm, IsShortAndIncludesOnlyItsHeaders) {
+TEST(AProgramOfTheCppPsm, HasAtMost80LinesAndIncludesOnlyHeadersOfThePsm) {
     std::ifstream source{source_file};
     int lines = 0;
     for (std::string line; std::getline(source, line); ++lines) {

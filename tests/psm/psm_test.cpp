@@ -177,12 +177,12 @@ TEST_F(CppPsm, EventsAreReportedAndTheirDetailsGivenInsideTheNotification) {
     Person_Detection::Command detection;
     EXPECT_EQ(detection.start(), ok) << reason();
     ASSERT_TRUE(application.bell.await([&] { return !application.events.empty(); }));
-    auto const told = application.events.front();
-    EXPECT_EQ(told.type, "person_detected");
-    EXPECT_EQ(told.subscribe_id, id);
-    EXPECT_THAT(told.expire, testing::EndsWith("Z"));
-    EXPECT_EQ(told.code, ok);
-    EXPECT_THAT(told.details, Contains(Field(&Result::name, "number")));
+    auto const received = application.events.front();
+    EXPECT_EQ(received.type, "person_detected");
+    EXPECT_EQ(received.subscribe_id, id);
+    EXPECT_THAT(received.expire, testing::EndsWith("Z"));
+    EXPECT_EQ(received.code, ok);
+    EXPECT_THAT(received.details, Contains(Field(&Result::name, "number")));
     EXPECT_EQ(event.unsubscribe(id), ok);
     EXPECT_EQ(event.get_event_detail("nothing", "", results), BAD_PARAMETER);
 }

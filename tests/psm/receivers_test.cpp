@@ -126,11 +126,11 @@ TEST_F(CppPsm, ALostConnectionIsAnError) {
 // Counts events; each function call takes a moment.
 class Slow : public Person_Localization::Event, public RoIS_Service::ServiceApplicationBase {
 public:
-    explicit Slow(std::atomic<int>& heard) : heard_{&heard} {}
+    explicit Slow(std::atomic<int>& received) : received_{&received} {}
     ~Slow() override {
         Event::end_notifications();
         ServiceApplicationBase::end_notifications();
-        heard_ = nullptr;
+        received_ = nullptr;
     }
     void person_localized(std::string, RoIS_HRI::RoIS_IdentifierList, std::vector<std::string>) override { count(); }
     void completed(std::string, RoIS_Service::Completed_Status) override { count(); }
@@ -138,9 +138,9 @@ public:
 private:
     void count() {
         std::this_thread::sleep_for(1ms);
-        ++*heard_;
+        ++*received_;
     }
-    std::atomic<int>* heard_;
+    std::atomic<int>* received_;
 };
 
 TEST_F(CppPsm, ReceiversMayGoWhileNotificationsArrive) {
@@ -149,17 +149,17 @@ TEST_F(CppPsm, ReceiversMayGoWhileNotificationsArrive) {
     ASSERT_EQ(system.connect(), ok);
     Person_Localization::Command localization;
     EXPECT_EQ(localization.set_parameter(-1, 20), ok) << reason();
-    std::atomic<int> heard = 0;
+    std::atomic<int> received = 0;
     for (int i = 0; i < 50; ++i) {
-        Slow receiver{heard};
+        Slow receiver{received};
         EXPECT_EQ(localization.start(), ok) << reason();
         EXPECT_EQ(localization.stop(), ok) << reason();
     }
     EXPECT_EQ(system.disconnect(), ok);
-    auto const until_now = heard.load();
+    auto const until_now = received.load();
     EXPECT_GT(until_now, 0);
     std::this_thread::sleep_for(20ms);
-    EXPECT_EQ(heard, until_now) << "nothing is reported after a disconnect";
+    EXPECT_EQ(received, until_now) << "nothing is reported after a disconnect";
 }
 
 // Blocks in its function until it is released.
@@ -168,11 +168,11 @@ public:
     ~Stuck() override { end_notifications(); }
     void person_localized(std::string, RoIS_HRI::RoIS_IdentifierList, std::vector<std::string>) override {
         bell.await([&] { return free; });
-        ++heard;
+        ++received;
     }
     Bell bell;
     bool free = false;
-    std::atomic<std::size_t> heard = 0;
+    std::atomic<std::size_t> received = 0;
 };
 
 TEST_F(CppPsm, EventsThatWaitTooLongAreDroppedAndReportedOnce) {
@@ -188,8 +188,8 @@ TEST_F(CppPsm, EventsThatWaitTooLongAreDroppedAndReportedOnce) {
     EXPECT_EQ(localization.stop(), ok) << reason();
     receiver.bell.ring([&] { receiver.free = true; });
     EXPECT_EQ(system.disconnect(), ok);
-    EXPECT_GT(receiver.heard, 1'000);
-    EXPECT_LE(receiver.heard, 1'024 + 1) << "those that waited, and the one that was being delivered";
+    EXPECT_GT(receiver.received, 1'000);
+    EXPECT_LE(receiver.received, 1'024 + 1) << "those that waited, and the one that was being delivered";
     EXPECT_EQ(application.errors.size(), 1);
 }
 
@@ -228,9 +228,9 @@ TEST_F(CppPsm, OperationsOfManyThreadsShareTheSession) {
     std::vector<std::thread> threads;
     for (int i = 0; i < 4; ++i) {
         threads.emplace_back([&] {
-            RoIS_HRI::ResultList told;
+            RoIS_HRI::ResultList position;
             for (int n = 0; n < 20; ++n)
-                if (RoIS_HRI::QueryIF{}.query("robot_position", "", told) == ok) ++good;
+                if (RoIS_HRI::QueryIF{}.query("robot_position", "", position) == ok) ++good;
         });
     }
     for (auto& each : threads) each.join();

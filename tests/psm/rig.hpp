@@ -102,7 +102,7 @@ public:
         return results.empty() ? "" : results.front().value;
     }
 
-    struct Told {
+    struct ReceivedEvent {
         std::string type;
         std::string subscribe_id;
         std::string expire;
@@ -112,7 +112,7 @@ public:
     Bell bell;
     std::map<std::string, RoIS_Service::ErrorType> errors;
     std::map<std::string, RoIS_Service::Completed_Status> ended;
-    std::vector<Told> events;
+    std::vector<ReceivedEvent> events;
 };
 
 inline void use(std::string const& url) { setenv("ROIS_URL", url.c_str(), 1); }

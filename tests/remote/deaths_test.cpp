@@ -103,7 +103,7 @@ private:
     void finishes() {
         if (!acts()) return;
         robot().finishes();
-        robot().told.emplace_back("finished");
+        robot().calls.emplace_back("finished");
     }
 
     void begin(Operation const& operation) {
@@ -113,11 +113,11 @@ private:
 
     // The robot was started, and has neither ended nor been halted or suspended since.
     bool acts() {
-        auto const& told = robot().told;
-        auto const last = std::find_if(told.rbegin(), told.rend(), [](std::string const& call) {
+        auto const& calls = robot().calls;
+        auto const last = std::find_if(calls.rbegin(), calls.rend(), [](std::string const& call) {
             return call.starts_with("start") || call == "halt" || call == "suspend" || call == "resume" || call == "finished";
         });
-        return last != told.rend() && (last->starts_with("start") || *last == "resume");
+        return last != calls.rend() && (last->starts_with("start") || *last == "resume");
     }
 
     void pass(std::chrono::milliseconds time) {
@@ -144,7 +144,7 @@ private:
             for (auto const& id : ids_of(executed->command_unit_list.command_unit_list)) accepted_.insert(id);
         }
         std::erase_if(open_, [](auto const& operation) { return operation->said.has_value(); });
-        for (auto const& words : desk_->heard()) {
+        for (auto const& words : desk_->received()) {
             auto const at = words.find(" completed ");
             if (at == std::string::npos) continue;
             auto const id = words.substr(at + 11, words.rfind(' ') - at - 11);

@@ -9,7 +9,7 @@ struct ALyingSubEngine : testing::Test {
     TwoEngines engines{{navigation, speech}};
     Application desk = engines.main.connect();
 
-    // The components here, after the hall has told this profile.
+    // Returns the components of the main engine after the sub engine has sent this profile.
     std::vector<std::string> after(std::function<void(GetProfile::Reply&)> const& change) {
         engines.falsify = [&](Reply& reply) {
             if (auto* profile = std::get_if<GetProfile::Reply>(&reply)) change(*profile);
@@ -43,7 +43,7 @@ TEST_F(ALyingSubEngine, UnrequestedAnswersAreIgnored) {
     engines.inject(xml::encode(Reply{Bind::Reply{}}, "7000"));
     EXPECT_THAT(engines.asked(), IsEmpty()) << "nothing is begun again";
     EXPECT_EQ(engines.execute(desk, go("go", "hall.navigation")).return_code, ReturnCode::ok);
-    EXPECT_THAT(engines.hall["navigation"].told, testing::Contains("start"));
+    EXPECT_THAT(engines.hall["navigation"].calls, testing::Contains("start"));
 }
 
 TEST_F(ALyingSubEngine, EndsEachCommandOnce) {
@@ -58,10 +58,10 @@ TEST_F(ALyingSubEngine, EndsEachCommandOnce) {
     Completed unknown;
     unknown.command_id.text = "never";
     engines.inject(unknown);
-    EXPECT_THAT(desk.heard(), ElementsAre(HasSubstr("completed go ERROR")));
+    EXPECT_THAT(desk.received(), ElementsAre(HasSubstr("completed go ERROR")));
 }
 
-TEST_F(ALyingSubEngine, ReportsOnlyWhatItsProfileHas) {
+TEST_F(ALyingSubEngine, EventsThatItsProfileLacksAreDropped) {
     desk.subscribe("reached_target");
     ReceiveEvent event;
     event.event_id.text = "e1";
@@ -69,18 +69,18 @@ TEST_F(ALyingSubEngine, ReportsOnlyWhatItsProfileHas) {
     event.event_type = "reached_target";
     event.results = std::make_shared<Results const>();
     engines.inject(event);
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "of a component that it does not have";
+    EXPECT_THAT(desk.received(), IsEmpty()) << "of a component that it does not have";
     event.component_ref.code = "navigation";
     event.results = std::make_shared<Results const>(Results{{value("wrong", "int", {"1"})}, {}});
     engines.inject(event);
-    EXPECT_THAT(desk.heard(), testing::Each(testing::Not(HasSubstr("reached_target"))));
+    EXPECT_THAT(desk.received(), testing::Each(testing::Not(HasSubstr("reached_target"))));
     ComponentChanged changed;
     changed.component_ref.code = "elevator";
     engines.inject(changed);
     EXPECT_EQ(desk.search().size(), 2u);
 }
 
-TEST_F(ALyingSubEngine, IsRefusedWithNamesThatAreNone) {
+TEST_F(ALyingSubEngine, IsRefusedWithInvalidNames) {
     EXPECT_THAT(after([](auto& profile) { profile.components[0].ref = "other.navigation"; }), IsEmpty());
     EXPECT_EQ(reported(), "its component 'other.navigation' has a dot in its name, and is not of an engine with such a name");
 }
@@ -173,8 +173,8 @@ TEST_F(ALyingSubEngine, MayChangeAProfileWhileACommandRuns) {
             entry.profile = std::make_shared<ComponentProfile const>(changed);
         }
     });
-    EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("completed go ABORT")));
-    EXPECT_THAT(engines.hall["navigation"].told, testing::Contains("halt"));
+    EXPECT_THAT(desk.received(), testing::Contains(HasSubstr("completed go ABORT")));
+    EXPECT_THAT(engines.hall["navigation"].calls, testing::Contains("halt"));
     EXPECT_EQ(desk.search().size(), 3u);
 }
 

@@ -99,7 +99,7 @@ TEST_F(TheProgram, ThatCannotBeRunIsReported) {
     EXPECT_THAT(happened(1).at(0), HasSubstr("exit code 127"));
 }
 
-TEST_F(TheProgram, EndsWithASignalInTheReport) {
+TEST_F(TheProgram, ThatEndsByASignalIsReportedWithTheSignal) {
     run("kill -9 $$");
     EXPECT_THAT(happened(1).at(0), HasSubstr("ended by signal 9"));
 }
@@ -114,7 +114,7 @@ TEST_F(TheProgram, GoesOnWithTheSameSettings) {
     EXPECT_THAT(happened(0), ElementsAre());
 }
 
-TEST_F(TheProgram, EndsWithWhatItHasStarted) {
+TEST_F(TheProgram, EndsWithTheProcessesThatItHasStarted) {
     run("sleep 60 & echo $!; echo $$; wait");
     auto const pids = said(2);
     programs.reset();

@@ -40,10 +40,10 @@ TEST_F(SubEngines, PerformCommands) {
     engines.execute(desk, go("go", "hall.navigation"));
     EXPECT_EQ(desk.status_of("hall.navigation"), "READY");
     EXPECT_EQ(in_words(robot().started_with), in_words(engines.hall["navigation"].started_with));
-    EXPECT_THAT(robot().told, testing::Contains(HasSubstr("start")));
+    EXPECT_THAT(robot().calls, testing::Contains(HasSubstr("start")));
     robot().finishes();
     engines.settle();
-    EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("completed go OK")));
+    EXPECT_THAT(desk.received(), testing::Contains(HasSubstr("completed go OK")));
     engines.execute(desk, named("dock", command("dock", "hall.navigation")));
     robot().finishes(CompletedStatus::ok, {.parameters = {value("charge", "int", {"80"})}, .located = {}});
     engines.settle();
@@ -61,8 +61,8 @@ TEST_F(SubEngines, AreStopped) {
     engines.bind(desk, "hall.navigation");
     engines.execute(desk, go("go", "hall.navigation"));
     engines.execute(desk, named("stop", stop("hall.navigation")));
-    EXPECT_THAT(robot().told, testing::Contains("halt"));
-    EXPECT_THAT(desk.heard(), testing::IsSupersetOf({HasSubstr("completed go ABORT"), HasSubstr("completed stop OK")}));
+    EXPECT_THAT(robot().calls, testing::Contains("halt"));
+    EXPECT_THAT(desk.received(), testing::IsSupersetOf({HasSubstr("completed go ABORT"), HasSubstr("completed stop OK")}));
 }
 
 TEST_F(SubEngines, AnswerQueries) {
@@ -105,21 +105,21 @@ TEST_F(SubEngines, DoNotMindJumpsOfTheCalendar) {
     }
     robot().finishes();
     engines.advance(1s);
-    EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("completed go OK")));
+    EXPECT_THAT(desk.received(), testing::Contains(HasSubstr("completed go OK")));
 }
 
 TEST_F(SubEngines, ReportEvents) {
     desk.subscribe("reached_target");
     robot().fires("reached_target", {value("is_final_target", "bool", {"true"})});
     engines.settle();
-    EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("reached_target hall.navigation")));
+    EXPECT_THAT(desk.received(), testing::Contains(HasSubstr("reached_target hall.navigation")));
 }
 
 TEST_F(SubEngines, ReportErrors) {
     engines.bind(desk, "hall.navigation");
     robot().reports(ErrorType::user_defined_error, "the bumper was touched");
     engines.settle();
-    EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("USER_DEFINED_ERROR hall.navigation")));
+    EXPECT_THAT(desk.received(), testing::Contains(HasSubstr("USER_DEFINED_ERROR hall.navigation")));
 }
 
 TEST_F(SubEngines, ShowTheirState) {
@@ -155,20 +155,20 @@ TEST_F(SubEngines, LoseNothingIfTheLinkReturnsWithinTheWindow) {
     robot().finishes();
     engines.repair();
     engines.advance(1s);
-    EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("completed go OK")));
+    EXPECT_THAT(desk.received(), testing::Contains(HasSubstr("completed go OK")));
     EXPECT_EQ(desk.status_of("hall.navigation"), "READY");
 }
 
 TEST_F(SubEngines, AreGivenUpAfterTheWindow) {
     engines.bind(desk, "hall.navigation");
     engines.execute(desk, go("go", "hall.navigation"));
-    desk.heard();
+    desk.received();
     engines.cut();
     engines.advance(3100ms);
-    EXPECT_THAT(desk.heard(),
+    EXPECT_THAT(desk.received(),
                 testing::IsSupersetOf({HasSubstr("completed go ABORT"), HasSubstr("COMPONENT_NOT_RESPONDING hall.navigation")}));
     EXPECT_EQ(desk.status_of("hall.navigation"), "ERROR");
-    EXPECT_THAT(robot().told, testing::Contains("halt"));
+    EXPECT_THAT(robot().calls, testing::Contains("halt"));
     EXPECT_EQ(engines.execute(desk, go("again", "hall.navigation")).return_code, ReturnCode::error);
     engines.repair();
     engines.advance(5s);
@@ -196,7 +196,7 @@ TEST(SubEnginesThatReturn, MayLoseTheirLinkAfterEachDocument) {
             EXPECT_EQ(desk.status_of("hall.navigation"), "READY") << documents << " documents after " << missing.count() << " ms";
             engines.hall["navigation"].finishes();
             engines.advance(1s);
-            EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("completed go ")).Times(1)) << documents;
+            EXPECT_THAT(desk.received(), testing::Contains(HasSubstr("completed go ")).Times(1)) << documents;
             EXPECT_EQ(engines.execute(desk, go("again", "hall.navigation")).return_code, ReturnCode::ok) << documents;
         }
     }
@@ -242,17 +242,17 @@ TEST(AnEngineWhoseClockStandsStill, LeavesItsSubEnginesToHoldTheirRobots) {
     part.moves = true;
     TwoEngines engines{{part}};
     auto const desk = engines.main.connect();
-    auto const& told = engines.hall["navigation"].told;
+    auto const& calls = engines.hall["navigation"].calls;
     engines.bind(desk, "hall.navigation");
     engines.execute(desk, go("go", "hall.navigation"));
     for (int i = 0; i < 30; ++i) {
         engines.main.engine->note_pong(desk.session, engines.main.now);
         engines.advance(100ms);
     }
-    EXPECT_THAT(told, testing::Not(testing::Contains("suspend"))) << "the signs of life arrive";
+    EXPECT_THAT(calls, testing::Not(testing::Contains("suspend"))) << "the signs of life arrive";
     engines.main_is_alive = false;
     engines.advance(2s);
-    EXPECT_THAT(told, testing::Contains("suspend"));
+    EXPECT_THAT(calls, testing::Contains("suspend"));
 }
 
 TEST(ASubEngineWithAPlacement, HasItsPositionsInOurFrame) {
@@ -267,8 +267,8 @@ TEST(ASubEngineWithAPlacement, HasItsPositionsInOurFrame) {
         "person_localized",
         {value("person_ref", "RoISIdentifier[]", {"person-1"}), positions("position_data", {"100, 0, 0"}, "crs1")}, {found});
     engines.settle();
-    EXPECT_THAT(desk.heard(), testing::Contains(HasSubstr("person_localized hall.localization")));
-    auto const event = desk.last_heard<ReceiveEvent>();
+    EXPECT_THAT(desk.received(), testing::Contains(HasSubstr("person_localized hall.localization")));
+    auto const event = desk.last_received<ReceiveEvent>();
     ASSERT_EQ(event.results->located.size(), 1u);
     EXPECT_EQ(event.results->located[0].crs, "here");
     EXPECT_THAT(event.results->located[0].position, ElementsAre(1000, 100, 0));

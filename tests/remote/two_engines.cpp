@@ -104,9 +104,9 @@ private:
         if (resume != nullptr && std::get<Resume::Reply>(reply).return_code == ReturnCode::ok)
             join(resume->session, resume->last_sequence);
         if (std::holds_alternative<Disconnect::Reply>(reply)) session_ = {};
-        auto told = reply;
-        engines_.falsify(told);
-        inject(xml::encode(told, id));
+        auto sent = reply;
+        engines_.falsify(sent);
+        inject(xml::encode(sent, id));
     }
 
     void join(SessionId const& session, std::uint64_t after) {

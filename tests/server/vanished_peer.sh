@@ -47,8 +47,8 @@ held_after() {
     of_peer ip link set desk up
     session=$(ask "<connect $names/>" | sed 's/.*<session>//; s/<.*//')
     ask "<bind $names><component_ref rois:code='navigation'/></bind>" | grep -q 'return_code="OK"' || fail "$how: no bind"
-    of_peer curl -sSNv "$@" -H "RoIS-Session: $session" >"$work/heard" 2>&1 &
-    until grep -q '^> RoIS-Session' "$work/heard"; do  # the request was sent
+    of_peer curl -sSNv "$@" -H "RoIS-Session: $session" >"$work/received" 2>&1 &
+    until grep -q '^> RoIS-Session' "$work/received"; do  # the request was sent
         kill -0 $! || fail "$how: curl has ended"
         sleep 0.02
     done
@@ -60,7 +60,7 @@ held_after() {
     of_peer ip link set desk down
     begun=$(date +%s%N)
     while [[ $(errors) == "$before" ]]; do
-        (($(date +%s%N) - begun < 20000000000)) || { cat "$work/heard" "$work/rest"; fail "$how: the motion goes on after 20 s"; }
+        (($(date +%s%N) - begun < 20000000000)) || { cat "$work/received" "$work/rest"; fail "$how: the motion goes on after 20 s"; }
         sleep 0.05
     done
     echo "$how: held after $(((  $(date +%s%N) - begun) / 1000000)) ms"

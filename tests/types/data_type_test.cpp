@@ -123,7 +123,7 @@ TEST(DataType, IntHas32Bits) {
         EXPECT_FALSE(is("int", text)) << text;
 }
 
-TEST(DataType, DoubleIsThatOfXmlSchema) {
+TEST(DataType, DoubleHasTheValuesOfXmlSchema) {
     for (auto const* text : {"0", "-1.5", "+1.5", ".5", "5.", " 1e3 ", "1E-3", "1e+3", "INF", "-INF", "NaN", "1e308"})
         EXPECT_TRUE(is("double", text)) << text;
     for (auto const* text :
@@ -131,7 +131,7 @@ TEST(DataType, DoubleIsThatOfXmlSchema) {
         EXPECT_FALSE(is("double", text)) << text;
 }
 
-TEST(DataType, BoolIsThatOfXmlSchema) {
+TEST(DataType, BoolHasTheValuesOfXmlSchema) {
     for (auto const* text : {"true", "false", "1", "0", " true "}) EXPECT_TRUE(is("bool", text)) << text;
     for (auto const* text : {"", "True", "FALSE", "yes", "2", "true false"}) EXPECT_FALSE(is("bool", text)) << text;
 }

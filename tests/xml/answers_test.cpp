@@ -268,7 +268,7 @@ std::vector<Notification> notifications() {
             ProfileChanged{}};
 }
 
-TEST(NotificationDocument, EveryOneIsValid) {
+TEST(NotificationDocument, OfEachKindIsValid) {
     std::string all = notifications_begin();
     std::uint64_t sequence = 0;
     for (auto const& each : notifications()) {
@@ -333,7 +333,7 @@ TEST(EnginesDocument, IsValidAndReadBack) {
     EXPECT_FALSE(AnswerReader{}.read_engines(encode(StopState{true, {}})));
 }
 
-TEST(StopStateDocument, IsNoOtherDocument) {
+TEST(StopStateDocument, IsNotReadFromOtherDocuments) {
     AnswerReader reader;
     for (auto const& other :
          {std::string{}, std::string{"stopped\n"}, std::string{"<stop_state><stopped>true</stopped></stop_state>"},

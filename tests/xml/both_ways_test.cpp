@@ -69,23 +69,23 @@ TEST(BothWays, EverySampleAnswerRoundTrips) {
         }
         bool const expected = text.find("_response ") != text.npos || text.find("<fault ") != text.npos ||
                               (text.find(" sequence=") != text.npos && text.find("<notifications") == text.npos);
-        auto const heard = reader.read(text);
-        EXPECT_EQ(heard.has_value(), expected) << path;
-        if (!heard) continue;
+        auto const decoded = reader.read(text);
+        EXPECT_EQ(decoded.has_value(), expected) << path;
+        if (!decoded) continue;
         ++count;
         std::string written;
-        if (auto const* const answered = std::get_if<Answered>(&*heard)) {
+        if (auto const* const answered = std::get_if<Answered>(&*decoded)) {
             written = encode(answered->reply, answered->request_id);
-        } else if (auto const* const fault = std::get_if<Fault>(&*heard)) {
+        } else if (auto const* const fault = std::get_if<Fault>(&*decoded)) {
             written = encode(*fault);
         } else {
-            auto const& [sequence, notification] = std::get<NumberedNotification>(*heard);
+            auto const& [sequence, notification] = std::get<NumberedNotification>(*decoded);
             written = std::string{notification_head(notification)} + std::to_string(sequence) + notification_tail(notification);
         }
         EXPECT_EQ(problem(path, written), "") << written;
         auto const again = reader.read(written);
         ASSERT_TRUE(again) << written;
-        EXPECT_EQ(again->index(), heard->index()) << written;
+        EXPECT_EQ(again->index(), decoded->index()) << written;
     }
     EXPECT_THAT(count, Gt(15));
 }
@@ -159,7 +159,7 @@ TEST(BothWays, GroupsOfComponentsRoundTrip) {
     expect_both_ways(request(text), text);
 }
 
-TEST(BothWays, ThrowsForWhatXmlCannotExpress) {
+TEST(BothWays, ThrowsForConditionsThatXmlCannotExpress) {
     ComponentGroup const group{.types = {"Robot"}, .aliases = {}, .filter = {}, .members = {}};
     EXPECT_THROW(encode(search({NotUnderstood{"what"}})), std::invalid_argument);
     EXPECT_THROW(encode(search({PropertyIsNull{{NotUnderstood{"what"}}}})), std::invalid_argument);

@@ -77,7 +77,7 @@ TEST(Decision29, NamesOf2011AreRead) {
     EXPECT_EQ(std::get<EngineProfile>(engine.profile).components, (std::vector<std::string>{"lamp", "door"}));
 }
 
-TEST(Decision29, NotificationsHaveTheNamesOfTheSeed) {
+TEST(Decision29, NotificationsHaveTheNamesOf2011) {
     auto const written = [](Notification const& notification) {
         return std::string{notification_head(notification)} + "1" + notification_tail(notification);
     };

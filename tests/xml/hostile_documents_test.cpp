@@ -164,11 +164,11 @@ TEST(HostileDocument, EveryMutantIsAnswered) {
 TEST(HostileDocument, ThreadsReadWithTheSameSchemas) {
     auto const samples = all_samples();
     auto const compiled = schemas();
-    std::vector<std::vector<std::size_t>> heard(4);
+    std::vector<std::vector<std::size_t>> outcomes(4);
     {
         std::vector<std::jthread> threads;
-        threads.reserve(heard.size());
-        for (auto& mine : heard) {
+        threads.reserve(outcomes.size());
+        for (auto& mine : outcomes) {
             threads.emplace_back([&mine, &samples, &compiled] {
                 RequestReader reader{compiled};
                 for (int round = 0; round < 3; ++round) {
@@ -181,7 +181,7 @@ TEST(HostileDocument, ThreadsReadWithTheSameSchemas) {
             });
         }
     }
-    for (auto const& each : heard) EXPECT_EQ(each, heard[0]);
+    for (auto const& each : outcomes) EXPECT_EQ(each, outcomes[0]);
 }
 
 }  // namespace

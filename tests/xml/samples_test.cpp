@@ -18,7 +18,7 @@ std::set<std::filesystem::path> documents_in(std::filesystem::path const& folder
     return found;
 }
 
-TEST(Samples, ValidOnesAreValid) {
+TEST(Samples, InTheFolderValidAreValid) {
     auto const all = documents_in(samples() / "valid");
     EXPECT_GE(all.size(), 50u);
     for (auto const& path : all) EXPECT_EQ(problem(path.filename(), file(path)), "");
@@ -38,7 +38,7 @@ TEST(Samples, OnlyRequestsAreAccepted) {
     EXPECT_EQ(operations.size(), std::variant_size_v<Operation>) << "an operation has no sample";
 }
 
-TEST(Samples, InvalidOnesAreRefusedAtTheirLine) {
+TEST(Samples, InTheFolderInvalidAreRefusedAtTheirLine) {
     std::ifstream manifest{samples() / "invalid" / "manifest.tsv"};
     std::size_t checked = 0;
     for (std::string name, line, why;

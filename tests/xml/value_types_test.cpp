@@ -21,7 +21,7 @@ void PrintTo(TypeCase const& of, std::ostream* out) { *out << of.type; }
 
 class Type : public testing::TestWithParam<TypeCase> {};
 
-TEST_P(Type, AcceptsOnlyWhatXercesAccepts) {
+TEST_P(Type, AcceptsOnlyValuesThatXercesAccepts) {
     auto const& [type, accepted, left, refused] = GetParam();
     std::string declarations{R"(<xsd:simpleType name="T">)"};
     declarations.append(type)

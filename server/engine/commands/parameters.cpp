@@ -15,7 +15,7 @@ namespace {
 // Spellings in published profiles, and the names that the engine uses.
 struct Spelling {
     std::string_view published;
-    std::string_view seed;
+    std::string_view engine_name;
 };
 constexpr std::array<Spelling, 4> spellings{{{"target_positions", "target_position"},
                                              {"grammer", "grammar"},
@@ -64,12 +64,12 @@ std::optional<std::string> problem_of(ParameterList const& list, std::vector<Par
 
 ParameterProfile const* profile_for(std::vector<ParameterProfile> const& profiles, std::string_view name) {
     if (auto const* found = find_parameter(profiles, name)) return found;
-    return find_parameter(profiles, seed_spelling(name));
+    return find_parameter(profiles, engine_spelling(name));
 }
 
-std::string_view seed_spelling(std::string_view name) {
+std::string_view engine_spelling(std::string_view name) {
     for (auto const& spelling : spellings)
-        if (equal_ignoring_case(spelling.published, name)) return spelling.seed;
+        if (equal_ignoring_case(spelling.published, name)) return spelling.engine_name;
     return name;
 }
 

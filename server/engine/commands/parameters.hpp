@@ -15,8 +15,9 @@ namespace rois {
 // Finds the profile of a name: without regard to case, and with the spellings of other versions. Returns null if there is none.
 ParameterProfile const* profile_for(std::vector<ParameterProfile> const&, std::string_view name);
 
-// Returns the seed's name for a spelling of published profiles; any other name unchanged.
-std::string_view seed_spelling(std::string_view name);
+// Converts a spelling used in published profiles ("grammer") to the name that the engine uses ("grammar"). Returns other names
+// unchanged.
+std::string_view engine_spelling(std::string_view name);
 
 // Returns why the parameters do not fit the profiles (unknown, duplicated, wrong type), or nullopt.
 std::optional<std::string> why_not(std::vector<ParameterProfile> const&, ParameterList const&);

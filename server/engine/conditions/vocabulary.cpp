@@ -143,7 +143,7 @@ void Declarations::add(ParameterProfile const& profile) {
 
 Declarations::Declared const* Declarations::find(std::string_view name) const {
     auto found = by_name_.find(lower_case(name));
-    if (found == by_name_.end()) found = by_name_.find(lower_case(seed_spelling(name)));
+    if (found == by_name_.end()) found = by_name_.find(lower_case(engine_spelling(name)));
     return found == by_name_.end() ? nullptr : &found->second;
 }
 

@@ -182,12 +182,12 @@ void LogQueue::write(Line const& line) {
         if (is_terminal_) colour(text, begin, message);
     };
     auto const lost = dropped_.load();
-    if (lost > told_dropped_)
+    if (lost > reported_dropped_)
         append({line.time, spdlog::level::warn,
-                std::to_string(lost - told_dropped_) + " lines of the log were dropped: they could not be written"});
+                std::to_string(lost - reported_dropped_) + " lines of the log were dropped: they could not be written"});
     append(line);
     if (write({text.data(), text.size()}))
-        told_dropped_ = std::max(told_dropped_, lost);
+        reported_dropped_ = std::max(reported_dropped_, lost);
     else
         ++dropped_;
 }

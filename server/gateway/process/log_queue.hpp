@@ -77,7 +77,7 @@ private:
     std::atomic<std::uint64_t> dropped_ = 0;
     std::atomic<std::uint64_t> left_out_ = 0;
     std::atomic<Steady> give_up_{Steady::max()};  // writing, from then on
-    std::uint64_t told_dropped_ = 0;              // the thread's own
+    std::uint64_t reported_dropped_ = 0;          // dropped lines that the log has reported; only for the thread
 
     std::mutex mutex_;  // guards the members below
     std::condition_variable news_;

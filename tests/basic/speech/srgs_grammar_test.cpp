@@ -34,13 +34,13 @@ SrgsGrammar read(std::string_view rules) {
     return std::get<SrgsGrammar>(std::move(read));
 }
 
-std::vector<SrgsGrammar::Hypothesis> heard(std::string_view rules, std::string_view speech) {
+std::vector<SrgsGrammar::Hypothesis> hypotheses_of(std::string_view rules, std::string_view speech) {
     return read(rules).recognize("", speech, 5);
 }
 
 // The most likely text, or "nothing".
 std::string understood(std::string_view rules, std::string_view speech) {
-    auto const hypotheses = heard(rules, speech);
+    auto const hypotheses = hypotheses_of(rules, speech);
     return hypotheses.empty() ? "nothing" : hypotheses.front().text();
 }
 
@@ -69,7 +69,7 @@ TEST(SrgsGrammar, RecognizesSpeechThatMatchesItsRules) {
 }
 
 TEST(SrgsGrammar, ReturnsTheTags) {
-    auto const hypotheses = heard(order, "bring me two green tea");
+    auto const hypotheses = hypotheses_of(order, "bring me two green tea");
     ASSERT_THAT(hypotheses, SizeIs(1));
     EXPECT_THAT(hypotheses[0].tags, ElementsAre("2", "tea"));
     EXPECT_EQ(hypotheses[0].certainty, 1);
@@ -128,7 +128,7 @@ TEST(SrgsGrammar, FollowsRulesThatReferToThemselvesLater) {
 TEST(SrgsGrammar, ReturnsAllSimilarHypotheses) {
     constexpr std::string_view rules =
         "<rule id='top'><one-of><item>kitten</item><item>mitten</item><item>sitting</item><item>elephant</item></one-of></rule>";
-    auto const hypotheses = heard(rules, "kitten");
+    auto const hypotheses = hypotheses_of(rules, "kitten");
     ASSERT_THAT(hypotheses, SizeIs(2));
     EXPECT_EQ(hypotheses[0].text(), "kitten");
     EXPECT_EQ(hypotheses[0].certainty, 1);
@@ -141,7 +141,7 @@ TEST(SrgsGrammar, PrefersMoreLikelyAlternatives) {
         "<rule id='top'><one-of><item weight='1'>mitten</item><item weight='4'>bitten</item><item "
         "weight='0'>litten</item></one-of>"
         "</rule>";
-    auto const hypotheses = heard(rules, "kitten");
+    auto const hypotheses = hypotheses_of(rules, "kitten");
     ASSERT_THAT(hypotheses, SizeIs(2));
     EXPECT_EQ(hypotheses[0].text(), "bitten");
     EXPECT_NEAR(hypotheses[1].certainty, 5.0 / 6 / 4, 1e-9);
@@ -195,7 +195,7 @@ TEST(SrgsGrammar, AllowsSpacesAroundTokens) {
 }
 
 // Decision 28: languages are ISO 639-1.
-TEST(SrgsGrammar, IsInALanguageThatCanBeRecognized) {
+TEST(SrgsGrammar, RefusesLanguagesThatCannotBeRecognized) {
     auto const in = [](std::string const& language) {
         return flaw("<grammar xmlns='http://www.w3.org/2001/06/grammar' version='1.0' xml:lang='" + language +
                     "'><rule id='a'>x</rule></grammar>");

@@ -21,20 +21,20 @@ TEST_F(Commands, AnActionMayFail) {
     world["navigation"].finishes(CompletedStatus::timeout);
     desk.execute(say("say"));
     world["speech"].finishes(CompletedStatus::out_of_resources);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go TIMEOUT", "2 completed say OUT_OF_RESOURCES"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go TIMEOUT", "2 completed say OUT_OF_RESOURCES"));
 }
 
 TEST_F(Commands, StopEndsTheRunningAction) {
     desk.execute(go("go"));
     desk.execute(named("halt", stop("navigation")));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT", "2 completed halt OK"));
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go ABORT", "2 completed halt OK"));
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("start", "halt"));
 }
 
 TEST_F(Commands, AnActiveFunctionIsStartedAgainAfterAHalt) {
     desk.execute(named("look", start("detection")), named("again", start("detection")));
-    EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt", "start"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed look OK", "2 completed again OK"));
+    EXPECT_THAT(world["detection"].calls, ElementsAre("start", "halt", "start"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed look OK", "2 completed again OK"));
 }
 
 TEST_F(Commands, MayBeCheckedOnly) {
@@ -55,8 +55,8 @@ TEST_F(Commands, MayBeCheckedOnly) {
     auto wrong = set;
     wrong.parameters = {value("speed of light", "int", {"1"})};
     EXPECT_EQ(desk.ask(wrong).return_code, ReturnCode::bad_parameter);
-    EXPECT_THAT(desk.heard(), IsEmpty());
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start"));
+    EXPECT_THAT(desk.received(), IsEmpty());
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("start"));
     EXPECT_EQ(desk.result_of("go"), "RUNNING");
     auto other = world.connect();
     EXPECT_EQ(other.ask(set).return_code, ReturnCode::error) << "it is bound by another session";
@@ -69,9 +69,9 @@ TEST_F(Commands, SuspendAndResumeInAWrongStateFail) {
     desk.execute(named("not held", resume("navigation")));
     desk.execute(named("hold", suspend("navigation")));
     desk.execute(named("held already", suspend("navigation")));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed idle ERROR", "2 completed idle too ERROR", "3 completed not held ERROR",
-                                          "4 completed hold OK", "5 completed held already ERROR"));
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "suspend"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed idle ERROR", "2 completed idle too ERROR", "3 completed not held ERROR",
+                                             "4 completed hold OK", "5 completed held already ERROR"));
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("start", "suspend"));
 }
 
 TEST_F(Commands, ASuspensionEndsWithItsAction) {
@@ -80,13 +80,13 @@ TEST_F(Commands, ASuspensionEndsWithItsAction) {
     desk.execute(named("halt", stop("navigation")));
     desk.execute(go("again"));
     desk.execute(named("on", resume("navigation")));
-    EXPECT_THAT(desk.heard(),
+    EXPECT_THAT(desk.received(),
                 ElementsAre("1 completed hold OK", "2 completed go ABORT", "3 completed halt OK", "4 completed on ERROR"));
 }
 
 TEST_F(Commands, AFunctionThatIsActiveMayBeSuspended) {
     desk.execute(start("detection"), named("hold", suspend("detection")), named("on", resume("detection")));
-    EXPECT_THAT(world["detection"].told, ElementsAre("start", "suspend", "resume"));
+    EXPECT_THAT(world["detection"].calls, ElementsAre("start", "suspend", "resume"));
 }
 
 TEST_F(Commands, AFunctionMayBecomeActiveWhileItIsHeld) {
@@ -95,7 +95,7 @@ TEST_F(Commands, AFunctionMayBecomeActiveWhileItIsHeld) {
     desk.execute(named("hold", suspend("detection")));
     world["detection"].finishes(CompletedStatus::ok, {}, Afterwards::active);
     desk.execute(named("on", resume("detection")));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed hold OK", "2 completed look OK", "3 completed on OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed hold OK", "2 completed look OK", "3 completed on OK"));
 }
 
 TEST_F(Commands, OfTheProfileMayMakeTheComponentActive) {
@@ -104,9 +104,9 @@ TEST_F(Commands, OfTheProfileMayMakeTheComponentActive) {
     desk.execute(named("hold", suspend("navigation")), named("on", resume("navigation")));
     desk.execute(named("halt", stop("navigation")));
     desk.execute(named("idle", suspend("navigation")));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock OK", "2 completed hold OK", "3 completed on OK",
-                                          "4 completed halt OK", "5 completed idle ERROR"));
-    EXPECT_THAT(world["navigation"].told, ElementsAre("dock", "suspend", "resume", "halt"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed dock OK", "2 completed hold OK", "3 completed on OK",
+                                             "4 completed halt OK", "5 completed idle ERROR"));
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("dock", "suspend", "resume", "halt"));
 }
 
 TEST_F(Commands, OfTheProfileMayMakeTheComponentIdle) {
@@ -114,9 +114,9 @@ TEST_F(Commands, OfTheProfileMayMakeTheComponentIdle) {
         desk.execute(command("dock", "navigation"));
         world["navigation"].finishes(CompletedStatus::ok, {}, afterwards);
     }
-    desk.heard();
+    desk.received();
     desk.execute(named("idle", suspend("navigation")));
-    EXPECT_THAT(desk.heard(), ElementsAre("4 completed idle ERROR"));
+    EXPECT_THAT(desk.received(), ElementsAre("4 completed idle ERROR"));
 }
 
 TEST_F(Commands, OfTheProfileLeaveAnActiveFunctionUnchanged) {
@@ -126,9 +126,9 @@ TEST_F(Commands, OfTheProfileLeaveAnActiveFunctionUnchanged) {
     world["navigation"].finishes();
     desk.execute(command("dock", "navigation"));
     world["navigation"].finishes(CompletedStatus::error, {}, Afterwards::idle);
-    desk.heard();
+    desk.received();
     desk.execute(named("hold", suspend("navigation")));
-    EXPECT_THAT(desk.heard(), ElementsAre("4 completed hold OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("4 completed hold OK"));
 }
 
 TEST_F(Commands, OfTheProfileDoNotEndAStartThatRuns) {
@@ -140,14 +140,14 @@ TEST_F(Commands, OfTheProfileDoNotEndAStartThatRuns) {
     }
     world["navigation"].answers(start);
     desk.execute(named("idle", suspend("navigation")));
-    EXPECT_THAT(desk.heard(), ElementsAre(testing::_, testing::_, "3 completed go OK", "4 completed idle ERROR"));
+    EXPECT_THAT(desk.received(), ElementsAre(testing::_, testing::_, "3 completed go OK", "4 completed idle ERROR"));
 }
 
 TEST_F(Commands, AFunctionThatACommandOfTheProfileMadeActiveEndsWithTheBinding) {
     desk.execute(command("dock", "navigation"));
     world["navigation"].finishes(CompletedStatus::ok, {}, Afterwards::active);
     desk.release("navigation");
-    EXPECT_THAT(world["navigation"].told, ElementsAre("dock", "halt"));
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("dock", "halt"));
 }
 
 TEST_F(Commands, AFunctionThatFailsToStartIsNotActive) {
@@ -155,7 +155,7 @@ TEST_F(Commands, AFunctionThatFailsToStartIsNotActive) {
     desk.execute(named("look", start("detection")));
     world["detection"].finishes(CompletedStatus::error, {}, Afterwards::active);
     desk.execute(named("hold", suspend("detection")));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed look ERROR", "2 completed hold ERROR"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed look ERROR", "2 completed hold ERROR"));
 }
 
 TEST_F(Commands, OfTheComponentsOwnProfileHaveArgumentsAndResults) {
@@ -163,7 +163,7 @@ TEST_F(Commands, OfTheComponentsOwnProfileHaveArgumentsAndResults) {
     EXPECT_EQ(in_words(world["navigation"].started_with), "side=right times=1") << "missing arguments have their default values";
     EXPECT_EQ(desk.result_of("dock"), "RUNNING");
     world["navigation"].finishes(CompletedStatus::ok, {{integer("charge", 80)}, {}});
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed dock OK"));
     EXPECT_EQ(desk.result_of("dock"), "OK charge=80");
     EXPECT_EQ(in_words(desk.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time")
         << "arguments of a command are not parameters";
@@ -187,12 +187,12 @@ TEST(Follow, EndsWithOkWhenItIsStopped) {
     desk.bind("follow");
     desk.execute(go("follow", "follow"));
     desk.execute(named("enough", stop("follow")));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed follow OK", "2 completed enough OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed follow OK", "2 completed enough OK"));
     desk.execute(go("follow again", "follow"));
     desk.execute(go("somebody else", "follow"));
-    EXPECT_THAT(desk.heard(), ElementsAre("3 completed follow again ABORT")) << "replaced is not stopped";
+    EXPECT_THAT(desk.received(), ElementsAre("3 completed follow again ABORT")) << "replaced is not stopped";
     desk.release("follow");
-    EXPECT_THAT(desk.heard(), ElementsAre("4 completed somebody else ABORT"));
+    EXPECT_THAT(desk.received(), ElementsAre("4 completed somebody else ABORT"));
 }
 
 // --- Starting in time (decision 16) ---
@@ -203,16 +203,16 @@ TEST_F(Commands, ThatHaveBegunMayTakeAsLongAsTheyNeed) {
     world.advance(1900ms);
     world["speech"].begins();
     world.advance(1h);
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
     world["speech"].finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed say OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed say OK"));
 }
 
 TEST_F(Commands, OfTheComponentsOwnMustBeginInTimeToo) {
     desk.execute(named("dock", command("dock", "navigation")));
     world.advance(500ms);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock TIMEOUT", "2 COMPONENT_NOT_RESPONDING navigation"));
-    EXPECT_EQ(world["navigation"].told.back(), "halt");
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed dock TIMEOUT", "2 COMPONENT_NOT_RESPONDING navigation"));
+    EXPECT_EQ(world["navigation"].calls.back(), "halt");
 }
 
 TEST_F(Commands, TimeoutsEndWithTheCommand) {
@@ -222,9 +222,9 @@ TEST_F(Commands, TimeoutsEndWithTheCommand) {
     desk.execute(say("again"));
     world.advance(1s);
     world["speech"].begins();
-    desk.heard();
+    desk.received();
     world.advance(10s);
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
 }
 
 // --- Results (decision 17) ---

@@ -131,7 +131,7 @@ private:
     }
 
     void listen(Attendant& one) {
-        for (auto const& words : one.application.heard()) {
+        for (auto const& words : one.application.received()) {
             auto const begin = words.find(" completed ");
             if (begin == std::string::npos) continue;
             auto const id = words.substr(begin + 11, words.rfind(' ') - begin - 11);

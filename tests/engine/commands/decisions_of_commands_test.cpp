@@ -55,8 +55,8 @@ TEST_F(Decision10, OneBadUnitAndNothingRuns) {
         EXPECT_THAT(reply.reason, testing::AllOf(StartsWith(path), HasSubstr(reason))) << "the first in document order";
     }
     world.advance(1min);
-    for (auto const* ref : {"navigation", "speech"}) EXPECT_THAT(world[ref].told, IsEmpty()) << ref;
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    for (auto const* ref : {"navigation", "speech"}) EXPECT_THAT(world[ref].calls, IsEmpty()) << ref;
+    EXPECT_THAT(desk.received(), IsEmpty());
 }
 
 TEST_F(Decision11, EveryCommandHasAnIdThatTheAnswerReturns) {
@@ -75,42 +75,43 @@ TEST_F(Decision12, EveryCommandCompletesOnceWhateverHappens) {
     world["speech"].throws_in = {"start"};
     world["navigation"].finishes();
     world["navigation"].finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed goes OK", "2 completed crashes ERROR", "3 completed never ABORT",
-                                          "4 COMPONENT_INTERNAL_ERROR speech"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed goes OK", "2 completed crashes ERROR", "3 completed never ABORT",
+                                             "4 COMPONENT_INTERNAL_ERROR speech"));
     world["speech"].throws_in = {};
     world["speech"].on_start = OnStart::stays_silent;
     desk.execute(say("is silent"));
     world.advance(5s);
     world["speech"].finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("5 completed is silent TIMEOUT", "6 COMPONENT_NOT_RESPONDING speech"));
+    EXPECT_THAT(desk.received(), ElementsAre("5 completed is silent TIMEOUT", "6 COMPONENT_NOT_RESPONDING speech"));
     desk.execute(go("goes away"));
     world.change({"navigation"}, {});
-    EXPECT_THAT(desk.heard(), ElementsAre("7 completed goes away ABORT", "8 profile_changed"));
+    EXPECT_THAT(desk.received(), ElementsAre("7 completed goes away ABORT", "8 profile_changed"));
     world["speech"].on_start = OnStart::acts;
     desk.execute(say("is left"));
     world.engine->end(desk.session, world.now);
-    EXPECT_THAT(desk.heard(), ElementsAre("9 completed is left ABORT"));
-    EXPECT_TRUE(desk.told_of_the_end());
+    EXPECT_THAT(desk.received(), ElementsAre("9 completed is left ABORT"));
+    EXPECT_TRUE(desk.notifications_closed());
 }
 
 TEST_F(Decision13, ACommandThatIsNotOkEndsItsSequence) {
     desk.execute(branches({{go("a"), go("b")}, {say("c"), say("d")}}), go("e"));
     world["navigation"].finishes(CompletedStatus::timeout);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed a TIMEOUT", "2 completed b ABORT"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed a TIMEOUT", "2 completed b ABORT"));
     world["speech"].finishes();
     world["speech"].finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("3 completed c OK", "4 completed d OK", "5 completed e ABORT"))
+    EXPECT_THAT(desk.received(), ElementsAre("3 completed c OK", "4 completed d OK", "5 completed e ABORT"))
         << "the other branch continues, then the unit counts as failed";
     desk.execute(go("f"), say("g"), go("h"));
     desk.release("speech");
     world["navigation"].finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("6 completed f OK", "7 completed g ABORT", "8 completed h ABORT")) << "a lost binding";
+    EXPECT_THAT(desk.received(), ElementsAre("6 completed f OK", "7 completed g ABORT", "8 completed h ABORT"))
+        << "a lost binding";
     desk.bind("speech");
     desk.execute(go("i"), say("j"));
     desk.release("speech");
     desk.bind("speech");
     world["navigation"].finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("9 completed i OK", "10 completed j ABORT")) << "a new binding does not change that";
+    EXPECT_THAT(desk.received(), ElementsAre("9 completed i OK", "10 completed j ABORT")) << "a new binding does not change that";
 }
 
 TEST_F(Decision14, AllFormsOfSequencesAreAccepted) {
@@ -159,16 +160,16 @@ TEST_F(Decision15, ADelayCountsFromTheUnitsTurn) {
 TEST_F(Decision16, ACommandMustHaveStartedWithinItsTimeout) {
     for (auto const* ref : {"speech", "navigation"}) world[ref].on_start = OnStart::stays_silent;
     desk.execute(in_parallel({say("two seconds"), go("five"), named("half", stop("detection"))}));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed half OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed half OK"));
     world.advance(1'950ms);
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
     world.advance(50ms);
-    EXPECT_THAT(desk.heard(), ElementsAre("2 completed two seconds TIMEOUT", "3 COMPONENT_NOT_RESPONDING speech"))
+    EXPECT_THAT(desk.received(), ElementsAre("2 completed two seconds TIMEOUT", "3 COMPONENT_NOT_RESPONDING speech"))
         << "the timeout of its profile";
     world.advance(2'950ms);
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
     world.advance(50ms);
-    EXPECT_THAT(desk.heard(), ElementsAre("4 completed five TIMEOUT", "5 COMPONENT_NOT_RESPONDING navigation"))
+    EXPECT_THAT(desk.received(), ElementsAre("4 completed five TIMEOUT", "5 COMPONENT_NOT_RESPONDING navigation"))
         << "five seconds without one";
     world["navigation"].on_start = OnStart::acts;
     desk.execute(go("begun"));
@@ -178,11 +179,11 @@ TEST_F(Decision16, ACommandMustHaveStartedWithinItsTimeout) {
     EXPECT_EQ(desk.result_of("begun"), "TIMEOUT") << "the component has its own time limit";
     world["navigation"].throws_in = {"start"};
     desk.execute(go("broken"));
-    EXPECT_THAT(desk.heard(),
+    EXPECT_THAT(desk.received(),
                 ElementsAre("6 completed begun TIMEOUT", "7 completed broken ERROR", "8 COMPONENT_INTERNAL_ERROR navigation"));
 }
 
-TEST_F(Decision17, ResultsSayHowFarACommandIs) {
+TEST_F(Decision17, ResultsReportTheStateOfACommand) {
     desk.execute(named("dock", command("dock", "navigation")), say("say"));
     EXPECT_EQ(desk.result_of("dock"), "RUNNING");
     EXPECT_EQ(desk.result_of("say"), "WAITING");
@@ -194,7 +195,7 @@ TEST_F(Decision17, ResultsSayHowFarACommandIs) {
     EXPECT_EQ(desk.result_of("dock"), "BAD_PARAMETER") << "expired";
     EXPECT_EQ(desk.result_of("say"), "RUNNING");
     world["speech"].finishes();
-    for (int i = 0; i < 1'000; ++i) desk.execute(stop("speech")), desk.heard();
+    for (int i = 0; i < 1'000; ++i) desk.execute(stop("speech")), desk.received();
     EXPECT_EQ(desk.result_of("say"), "BAD_PARAMETER") << "a thousand commands came after it";
 }
 
@@ -206,10 +207,10 @@ TEST(Decision33, MotionIsHeldWhenItsApplicationIsSilent) {
     desk.bind("navigation");
     desk.execute(go("go"));
     world.advance(2s);
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "suspend"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("start", "suspend"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
     desk.execute(named("on", resume("navigation")));
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "suspend", "resume"));
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("start", "suspend", "resume"));
 }
 
 TEST(Decision34, StopForEverythingNeedsNoSessionAndLastsUntilItIsCleared) {
@@ -218,8 +219,8 @@ TEST(Decision34, StopForEverythingNeedsNoSessionAndLastsUntilItIsCleared) {
     desk.bind("navigation");
     desk.execute(go("go"));
     world.engine->stop_everything(world.now);
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
-    EXPECT_THAT(world["speech"].told, ElementsAre("halt"));
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("start", "halt"));
+    EXPECT_THAT(world["speech"].calls, ElementsAre("halt"));
     EXPECT_EQ(desk.execute(go("again")).return_code, ReturnCode::error);
     world.engine->clear();
     EXPECT_EQ(desk.execute(go("again")).return_code, ReturnCode::ok);
@@ -230,11 +231,11 @@ TEST(Decision35, StopAlwaysReachesTheComponentAndIsOkOnlyWhenThatStandsStill) {
     auto desk = world.connect();
     desk.bind("navigation");
     desk.execute(named("idle", stop("navigation")));
-    EXPECT_THAT(world["navigation"].told, ElementsAre("halt"));
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("halt"));
     world["navigation"].throws_in = {"halt"};
     desk.execute(named("fails", stop("navigation")));
     EXPECT_EQ(desk.status_of("navigation"), "ERROR");
-    EXPECT_THAT(desk.heard(),
+    EXPECT_THAT(desk.received(),
                 ElementsAre("1 completed idle OK", "2 completed fails ERROR", "3 COMPONENT_INTERNAL_ERROR navigation"));
     world["navigation"].throws_in = {};
     world.advance(200ms);

@@ -10,7 +10,7 @@ class Halting : public testing::Test {
 protected:
     Halting() { desk.bind("navigation"); }
 
-    auto halts() { return std::ranges::count(robot.told, "halt"); }
+    auto halts() { return std::ranges::count(robot.calls, "halt"); }
 
     World world{navigation, speech};
     ScriptedComponent& robot = world["navigation"];
@@ -22,24 +22,24 @@ protected:
 TEST_F(Halting, IsTheFirstCallToEveryComponent) {
     robot.halts_later = true;
     world.engine->begin(world.now);
-    EXPECT_THAT(world["speech"].told, ElementsAre("halt"));
+    EXPECT_THAT(world["speech"].calls, ElementsAre("halt"));
     EXPECT_THAT(world.engine->not_halted(), ElementsAre("navigation"));
     desk.execute(go("go"));
-    EXPECT_THAT(robot.told, ElementsAre("halt")) << "nothing starts before";
+    EXPECT_THAT(robot.calls, ElementsAre("halt")) << "nothing starts before";
     robot.stands_still();
-    EXPECT_THAT(robot.told, ElementsAre("halt", "start"));
+    EXPECT_THAT(robot.calls, ElementsAre("halt", "start"));
 }
 
 TEST_F(Halting, IsTheFirstCallToANewComponent) {
     world.change({}, {named("arm", navigation)});
-    EXPECT_THAT(world["arm"].told, ElementsAre("halt"));
+    EXPECT_THAT(world["arm"].calls, ElementsAre("halt"));
 }
 
 TEST_F(Halting, StopReachesACommandOfTheComponentsOwn) {
     desk.execute(named("dock", command("dock", "navigation")));
     desk.execute(named("stop", stop("navigation")));
-    EXPECT_THAT(robot.told, ElementsAre("dock", "halt"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock ABORT", "2 completed stop OK"));
+    EXPECT_THAT(robot.calls, ElementsAre("dock", "halt"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed dock ABORT", "2 completed stop OK"));
     EXPECT_EQ(desk.reason_of("dock"), "it was stopped");
     robot.finishes();
     EXPECT_EQ(world.stray_answers(), 1) << "the command has ended already";
@@ -51,8 +51,8 @@ TEST_F(Halting, SuspendReachesACommandOfTheComponentsOwn) {
     desk.execute(named("on", resume("navigation")));
     robot.finishes();
     desk.execute(named("over", suspend("navigation")));
-    EXPECT_THAT(robot.told, ElementsAre("dock", "suspend", "resume"));
-    EXPECT_THAT(desk.heard(),
+    EXPECT_THAT(robot.calls, ElementsAre("dock", "suspend", "resume"));
+    EXPECT_THAT(desk.received(),
                 ElementsAre("1 completed hold OK", "2 completed on OK", "3 completed dock OK", "4 completed over ERROR"));
 }
 
@@ -60,7 +60,7 @@ TEST_F(Halting, ThatFailsMakesStopFailAndTheStatusError) {
     robot.throws_in = {"halt"};
     desk.execute(go("go"));
     desk.execute(named("stop", stop("navigation")));
-    EXPECT_THAT(desk.heard(),
+    EXPECT_THAT(desk.received(),
                 ElementsAre("1 completed go ABORT", "2 completed stop ERROR", "3 COMPONENT_INTERNAL_ERROR navigation"));
     EXPECT_THAT(desk.reason_of("stop"), HasSubstr("failed to halt"));
     EXPECT_EQ(desk.status_of("navigation"), "ERROR");
@@ -71,10 +71,10 @@ TEST_F(Halting, ThatFailsMakesStopFailAndTheStatusError) {
 TEST_F(Halting, ThatFailsIsRepeatedUntilItSucceeds) {
     robot.throws_in = {"halt"};
     desk.execute(named("stop", stop("navigation")));
-    desk.heard();
+    desk.received();
     world.advance(1s);
     EXPECT_EQ(halts(), 1 + 5) << "every 0.2 s";
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "it is reported once";
+    EXPECT_THAT(desk.received(), IsEmpty()) << "it is reported once";
     robot.throws_in = {};
     world.advance(200ms);
     EXPECT_EQ(desk.status_of("navigation"), "READY");
@@ -88,14 +88,14 @@ TEST_F(Halting, ThatFailsPreventsStarts) {
     desk.execute(named("stop", stop("navigation")));
     desk.execute(go("go"), named("dock", command("dock", "navigation")));
     desk.execute(named("on", resume("navigation")));
-    EXPECT_THAT(robot.told, ElementsAre("halt"));
-    desk.heard();
+    EXPECT_THAT(robot.calls, ElementsAre("halt"));
+    desk.received();
     EXPECT_EQ(desk.result_of("go"), "ERROR");
     EXPECT_THAT(desk.reason_of("go"), HasSubstr("failed to halt"));
     robot.throws_in = {};
     desk.execute(named("stop 2", stop("navigation")));
     desk.execute(go("go 2"));
-    EXPECT_THAT(robot.told, ElementsAre("halt", "halt", "start"));
+    EXPECT_THAT(robot.calls, ElementsAre("halt", "halt", "start"));
     EXPECT_EQ(desk.result_of("stop 2"), "OK");
 }
 
@@ -128,11 +128,11 @@ TEST_F(Halting, IsConfirmedLater) {
     robot.halts_later = true;
     desk.execute(go("go"));
     desk.execute(named("stop", stop("navigation")));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go ABORT"));
     EXPECT_EQ(desk.result_of("stop"), "RUNNING");
     world.advance(450ms);
     robot.stands_still();
-    EXPECT_THAT(desk.heard(), ElementsAre("2 completed stop OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("2 completed stop OK"));
     world.advance(1s);
     EXPECT_EQ(halts(), 1);
     EXPECT_EQ(desk.status_of("navigation"), "READY");
@@ -142,9 +142,9 @@ TEST_F(Halting, ThatIsNotConfirmedIsATimeout) {
     robot.halts_later = true;
     desk.execute(go("go"));
     desk.execute(named("stop", stop("navigation")));
-    desk.heard();
+    desk.received();
     world.advance(500ms);
-    EXPECT_THAT(desk.heard(), ElementsAre("2 completed stop TIMEOUT", "3 COMPONENT_NOT_RESPONDING navigation"));
+    EXPECT_THAT(desk.received(), ElementsAre("2 completed stop TIMEOUT", "3 COMPONENT_NOT_RESPONDING navigation"));
     EXPECT_EQ(desk.status_of("navigation"), "ERROR");
     world.advance(400ms);
     EXPECT_EQ(halts(), 3);
@@ -158,9 +158,9 @@ TEST_F(Halting, AStartThatTakesThePlaceOfAnotherOneWaitsForIt) {
     desk.execute(go("go"));
     robot.halts_later = true;
     desk.execute(go("go 2"));
-    EXPECT_THAT(robot.told, ElementsAre("start", "halt"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "halt"));
     robot.stands_still();
-    EXPECT_THAT(robot.told, ElementsAre("start", "halt", "start"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "halt", "start"));
     EXPECT_EQ(desk.result_of("go 2"), "RUNNING");
 }
 
@@ -170,13 +170,13 @@ TEST_F(Halting, AStartThatWaitsForItIsStoppedToo) {
     desk.execute(go("go 2"));
     desk.execute(named("stop", stop("navigation")));
     robot.stands_still();
-    EXPECT_THAT(robot.told, ElementsAre("start", "halt", "halt"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT", "2 completed go 2 ABORT", "3 completed stop OK"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "halt", "halt"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go ABORT", "2 completed go 2 ABORT", "3 completed stop OK"));
 }
 
 TEST_F(Halting, AtTheEndOfASessionReachesAnIdleComponent) {
     desk.leave();
-    EXPECT_THAT(robot.told, ElementsAre("halt"));
+    EXPECT_THAT(robot.calls, ElementsAre("halt"));
 }
 
 TEST_F(Halting, AtTheEndOfASessionIsRepeatedUntilItIsConfirmed) {
@@ -199,9 +199,9 @@ TEST_F(Halting, ThatIsUnderWayLetsOthersBindAndTheirCommandsWaitForIt) {
     EXPECT_EQ(hall.bind_any(equal("component_ref", "navigation")), "navigation");
     hall.execute(go("go"), named("dock", command("dock", "navigation")));
     hall.execute(named("beside", command("dock", "navigation")));
-    EXPECT_THAT(robot.told, ElementsAre("start", "halt", "parameters_changed"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "halt", "parameters_changed"));
     robot.stands_still();
-    EXPECT_THAT(robot.told, ElementsAre("start", "halt", "parameters_changed", "start", "dock"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "halt", "parameters_changed", "start", "dock"));
 }
 
 TEST_F(Halting, ThatIsUnderWayAndFailsEndsTheCommandsThatWaitForIt) {
@@ -210,10 +210,10 @@ TEST_F(Halting, ThatIsUnderWayAndFailsEndsTheCommandsThatWaitForIt) {
     desk.execute(named("stop", stop("navigation")));
     desk.execute(named("dock", command("dock", "navigation")));
     desk.execute(go("go 2"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go ABORT"));
     world.advance(500ms);
-    EXPECT_THAT(desk.heard(), ElementsAre("2 completed stop TIMEOUT", "3 completed dock TIMEOUT", "4 completed go 2 TIMEOUT",
-                                          "5 COMPONENT_NOT_RESPONDING navigation"));
+    EXPECT_THAT(desk.received(), ElementsAre("2 completed stop TIMEOUT", "3 completed dock TIMEOUT", "4 completed go 2 TIMEOUT",
+                                             "5 COMPONENT_NOT_RESPONDING navigation"));
 }
 
 TEST_F(Halting, ASecondStopEndsTheCommandsThatWaitForTheFirst) {
@@ -223,9 +223,9 @@ TEST_F(Halting, ASecondStopEndsTheCommandsThatWaitForTheFirst) {
     desk.execute(named("dock", command("dock", "navigation")));
     desk.execute(named("stop 2", stop("navigation")));
     robot.stands_still();
-    EXPECT_THAT(desk.heard(),
+    EXPECT_THAT(desk.received(),
                 ElementsAre("1 completed go ABORT", "2 completed dock ABORT", "3 completed stop OK", "4 completed stop 2 OK"));
-    EXPECT_THAT(robot.told, ElementsAre("start", "halt", "halt"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "halt", "halt"));
 }
 
 TEST_F(Halting, ThatIsUnderWayLeavesTheEngineReadyUnlessItFails) {
@@ -256,7 +256,7 @@ TEST_F(Halting, IsAwaitedOnceBeforeTheEngineIsReady) {
 TEST_F(Halting, AtTheEndOfTheEngineReachesEveryComponent) {
     world.engine->shut_down(world.now);
     EXPECT_GE(halts(), 1);
-    EXPECT_THAT(world["speech"].told, ElementsAre("halt"));
+    EXPECT_THAT(world["speech"].calls, ElementsAre("halt"));
 }
 
 TEST_F(Halting, OfEverythingReachesEveryComponentAndLetsNothingStart) {
@@ -265,10 +265,10 @@ TEST_F(Halting, OfEverythingReachesEveryComponentAndLetsNothingStart) {
     hall.execute(say("say"));
     desk.execute(go("go"), after(1s, go("later")));
     world.engine->stop_everything(world.now);
-    EXPECT_THAT(robot.told, ElementsAre("start", "halt"));
-    EXPECT_THAT(world["speech"].told, ElementsAre("start", "halt"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT", "2 completed later ABORT", "3 USER_DEFINED_ERROR"));
-    EXPECT_THAT(hall.heard(), ElementsAre("1 completed say ABORT", "2 USER_DEFINED_ERROR"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "halt"));
+    EXPECT_THAT(world["speech"].calls, ElementsAre("start", "halt"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go ABORT", "2 completed later ABORT", "3 USER_DEFINED_ERROR"));
+    EXPECT_THAT(hall.received(), ElementsAre("1 completed say ABORT", "2 USER_DEFINED_ERROR"));
     for (auto const& unit : {go("again"), command("dock", "navigation"), resume("navigation")}) {
         auto const reply = desk.execute(stop("navigation"), unit);
         EXPECT_EQ(reply.return_code, ReturnCode::error);
@@ -276,12 +276,12 @@ TEST_F(Halting, OfEverythingReachesEveryComponentAndLetsNothingStart) {
     }
     EXPECT_EQ(desk.execute(stop("navigation")).return_code, ReturnCode::ok);
     world.advance(5s);
-    EXPECT_THAT(robot.told, ElementsAre("start", "halt", "halt"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "halt", "halt"));
     auto later = world.connect();
-    EXPECT_THAT(later.heard(), ElementsAre("1 USER_DEFINED_ERROR"));
+    EXPECT_THAT(later.received(), ElementsAre("1 USER_DEFINED_ERROR"));
     world.engine->clear();
     EXPECT_EQ(desk.execute(go("again")).return_code, ReturnCode::ok);
-    EXPECT_THAT(robot.told, ElementsAre("start", "halt", "halt", "start"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "halt", "halt", "start"));
 }
 
 TEST_F(Halting, OfEverythingIsReportedToASessionOnceASecondAtMost) {
@@ -289,21 +289,21 @@ TEST_F(Halting, OfEverythingIsReportedToASessionOnceASecondAtMost) {
         world.engine->stop_everything(world.now);
         world.engine->clear();
     }
-    EXPECT_THAT(desk.heard(), ElementsAre("1 USER_DEFINED_ERROR"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 USER_DEFINED_ERROR"));
     world.advance(1s);
     world.engine->stop_everything(world.now);
-    EXPECT_THAT(desk.heard(), ElementsAre("2 USER_DEFINED_ERROR"));
+    EXPECT_THAT(desk.received(), ElementsAre("2 USER_DEFINED_ERROR"));
 }
 
 TEST_F(Halting, OfEverythingIsReportedALittleLaterIfTheLastReportWasJustBefore) {
     world.engine->stop_everything(world.now);
     world.engine->clear();
     world.engine->stop_everything(world.now);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 USER_DEFINED_ERROR"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 USER_DEFINED_ERROR"));
     world.advance(1s);
-    EXPECT_THAT(desk.heard(), ElementsAre("2 USER_DEFINED_ERROR"));
+    EXPECT_THAT(desk.received(), ElementsAre("2 USER_DEFINED_ERROR"));
     world.advance(5s);
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
 }
 
 TEST_F(Halting, ThatFailsIsInTheJournalOnceUntilItSucceeds) {
@@ -344,7 +344,7 @@ TEST_F(Halting, EndsWithAComponentThatGoes) {
     desk.execute(go("go"));
     desk.execute(named("stop", stop("navigation")));
     world.change({"navigation"}, {});
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT", "2 completed stop ABORT", "3 profile_changed"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go ABORT", "2 completed stop ABORT", "3 profile_changed"));
     world.advance(1s);
 }
 

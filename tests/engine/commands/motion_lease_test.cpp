@@ -38,14 +38,14 @@ TEST_F(Lease, OfASilentWebSocketHoldsTheMotion) {
     open();
     desk.execute(go("go"));
     world.advance(1950ms);
-    EXPECT_THAT(robot.told, ElementsAre("start"));
+    EXPECT_THAT(robot.calls, ElementsAre("start"));
     world.advance(50ms);
-    EXPECT_THAT(robot.told, ElementsAre("start", "suspend"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
-    auto const detail = desk.detail_of(desk.last_heard<ReceiveError>().error_id);
+    EXPECT_THAT(robot.calls, ElementsAre("start", "suspend"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
+    auto const detail = desk.detail_of(desk.last_received<ReceiveError>().error_id);
     EXPECT_THAT(in_words(detail.results.parameters), HasSubstr("its application gave no sign of life"));
     world.advance(1s);
-    EXPECT_THAT(robot.told, ElementsAre("start", "suspend")) << "once is enough";
+    EXPECT_THAT(robot.calls, ElementsAre("start", "suspend")) << "once is enough";
 }
 
 TEST_F(Lease, IsRenewedByPongsAndRequests) {
@@ -57,7 +57,7 @@ TEST_F(Lease, IsRenewedByPongsAndRequests) {
         world.advance(1900ms);
         desk.query("route");
     }
-    EXPECT_THAT(robot.told, ElementsAre("start"));
+    EXPECT_THAT(robot.calls, ElementsAre("start"));
 }
 
 TEST_F(Lease, MayBeRenewedByRequestsAlone) {
@@ -68,7 +68,7 @@ TEST_F(Lease, MayBeRenewedByRequestsAlone) {
     world.advance(1900ms);
     pong();
     world.advance(100ms);
-    EXPECT_THAT(robot.told, ElementsAre("start", "suspend"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "suspend"));
 }
 
 TEST_F(Lease, OfAnOpenStreamMayBeRenewedByRequestsAlone) {
@@ -80,9 +80,9 @@ TEST_F(Lease, OfAnOpenStreamMayBeRenewedByRequestsAlone) {
     world.advance(1900ms);
     desk.query("route");
     world.advance(1950ms);
-    EXPECT_THAT(robot.told, ElementsAre("start"));
+    EXPECT_THAT(robot.calls, ElementsAre("start"));
     world.advance(50ms);
-    EXPECT_THAT(robot.told, ElementsAre("start", "suspend"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "suspend"));
 }
 
 TEST_F(Lease, IsNotRenewedByTheAnswerToALongPollWhereRequestsAloneCount) {
@@ -94,9 +94,9 @@ TEST_F(Lease, IsNotRenewedByTheAnswerToALongPollWhereRequestsAloneCount) {
     world.advance(1s);
     close(LinkKind::stream, Closing::answered);
     world.advance(1950ms);
-    EXPECT_THAT(robot.told, ElementsAre("start"));
+    EXPECT_THAT(robot.calls, ElementsAre("start"));
     world.advance(50ms);
-    EXPECT_THAT(robot.told, ElementsAre("start", "suspend"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "suspend"));
 }
 
 TEST_F(Lease, OfAWebSocketThatClosesEndsAtOnce) {
@@ -104,9 +104,9 @@ TEST_F(Lease, OfAWebSocketThatClosesEndsAtOnce) {
     desk.execute(go("go"));
     close();
     world.advance(200ms);
-    EXPECT_THAT(robot.told, ElementsAre("start"));
+    EXPECT_THAT(robot.calls, ElementsAre("start"));
     world.advance(50ms);
-    EXPECT_THAT(robot.told, ElementsAre("start", "suspend"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "suspend"));
 }
 
 TEST_F(Lease, GoesOnWithALinkThatTakesThePlaceOfAnotherOne) {
@@ -116,17 +116,17 @@ TEST_F(Lease, GoesOnWithALinkThatTakesThePlaceOfAnotherOne) {
     world.advance(200ms);
     open();
     world.advance(1900ms);
-    EXPECT_THAT(robot.told, ElementsAre("start"));
+    EXPECT_THAT(robot.calls, ElementsAre("start"));
 }
 
 TEST_F(Lease, OfAnOpenStreamLastsAsLongAsTheStream) {
     open(LinkKind::stream);
     desk.execute(go("go"));
     world.advance(60s);
-    EXPECT_THAT(robot.told, ElementsAre("start"));
+    EXPECT_THAT(robot.calls, ElementsAre("start"));
     close(LinkKind::stream);
     world.advance(250ms);
-    EXPECT_THAT(robot.told, ElementsAre("start", "suspend"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "suspend"));
 }
 
 TEST_F(Lease, GoesOnBetweenTwoLongPolls) {
@@ -137,9 +137,9 @@ TEST_F(Lease, GoesOnBetweenTwoLongPolls) {
         close(LinkKind::stream, Closing::answered);
         world.advance(9900ms);
     }
-    EXPECT_THAT(robot.told, ElementsAre("start"));
+    EXPECT_THAT(robot.calls, ElementsAre("start"));
     world.advance(100ms);
-    EXPECT_THAT(robot.told, ElementsAre("start", "suspend"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "suspend"));
 }
 
 TEST_F(Lease, OfRequestsAloneIsLonger) {
@@ -147,9 +147,9 @@ TEST_F(Lease, OfRequestsAloneIsLonger) {
     world.advance(9900ms);
     desk.query("route");
     world.advance(9950ms);
-    EXPECT_THAT(robot.told, ElementsAre("start"));
+    EXPECT_THAT(robot.calls, ElementsAre("start"));
     world.advance(50ms);
-    EXPECT_THAT(robot.told, ElementsAre("start", "suspend"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "suspend"));
 }
 
 TEST_F(Lease, MayBeShorter) {
@@ -157,11 +157,11 @@ TEST_F(Lease, MayBeShorter) {
               ReturnCode::ok);
     desk.execute(go("go"));
     world.advance(3s);
-    EXPECT_THAT(robot.told, ElementsAre("start", "suspend"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "suspend"));
     open();
     desk.execute(resume("navigation"));
     world.advance(1s);
-    EXPECT_THAT(robot.told, ElementsAre("start", "suspend", "resume", "suspend"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "suspend", "resume", "suspend"));
 }
 
 TEST_F(Lease, IsNeitherLongerThanTheGatewaysNorTooShort) {
@@ -180,7 +180,7 @@ TEST_F(Lease, HoldsOnlyComponentsThatMove) {
     desk.release("navigation");
     desk.execute(say("say"));
     world.advance(20s);
-    EXPECT_THAT(world["speech"].told, ElementsAre("start"));
+    EXPECT_THAT(world["speech"].calls, ElementsAre("start"));
     EXPECT_FALSE(is_asked());
 }
 
@@ -188,14 +188,14 @@ TEST_F(Lease, HoldsACommandOfTheComponentsOwn) {
     desk.execute(command("dock", "navigation"));
     robot.begins();
     world.advance(10s);
-    EXPECT_THAT(robot.told, ElementsAre("dock", "suspend"));
+    EXPECT_THAT(robot.calls, ElementsAre("dock", "suspend"));
 }
 
 TEST_F(Lease, HaltsAComponentThatCannotBeSuspended) {
     robot.throws_in = {"suspend"};
     desk.execute(go("go"));
     world.advance(10s);
-    EXPECT_THAT(robot.told, ElementsAre("start", "suspend", "halt"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "suspend", "halt"));
     EXPECT_EQ(desk.result_of("go"), "ABORT");
 }
 
@@ -204,19 +204,19 @@ TEST_F(Lease, ThatHasEndedLetsOnlyResumeOrANewCommandGoOn) {
     world.advance(10s);
     desk.query("route");
     world.advance(1s);
-    EXPECT_THAT(robot.told, ElementsAre("start", "suspend"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "suspend"));
     desk.execute(named("on", resume("navigation")));
-    EXPECT_THAT(robot.told, ElementsAre("start", "suspend", "resume"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "suspend", "resume"));
     world.advance(10s);
     desk.execute(go("elsewhere"));
-    EXPECT_THAT(robot.told, ElementsAre("start", "suspend", "resume", "suspend", "halt", "start"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "suspend", "resume", "suspend", "halt", "start"));
 }
 
 TEST_F(Lease, ThatHasEndedLetsNothingBeginByItself) {
     desk.execute(after(11s, go("late")));
     world.advance(11s);
-    EXPECT_THAT(robot.told, IsEmpty());
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed late ABORT"));
+    EXPECT_THAT(robot.calls, IsEmpty());
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed late ABORT"));
     EXPECT_THAT(desk.reason_of("late"), HasSubstr("gave no sign of life"));
 }
 
@@ -240,10 +240,10 @@ TEST_F(Lease, EndsForAllWhenTheEngineItselfStoodStill) {
     world.now = world.now + 10s;
     desk.query("route");
     world.advance(50ms);
-    EXPECT_THAT(robot.told, ElementsAre("start", "suspend"));
-    auto const last = desk.heard();
+    EXPECT_THAT(robot.calls, ElementsAre("start", "suspend"));
+    auto const last = desk.received();
     EXPECT_THAT(last, ElementsAre("1 USER_DEFINED_ERROR navigation"));
-    EXPECT_THAT(in_words(desk.detail_of(desk.last_heard<ReceiveError>().error_id).results.parameters),
+    EXPECT_THAT(in_words(desk.detail_of(desk.last_received<ReceiveError>().error_id).results.parameters),
                 HasSubstr("the engine stood still for 10 s"));
 }
 
@@ -254,7 +254,7 @@ TEST_F(Lease, DoesNotDependOnTheCalendar) {
     world.advance(1s);
     world.set_calendar(std::chrono::hours{-48});
     world.advance(1s);
-    EXPECT_THAT(robot.told, ElementsAre("start"));
+    EXPECT_THAT(robot.calls, ElementsAre("start"));
 }
 
 TEST_F(Lease, CoversCommandsThatBeginWhileOthersAreHeld) {
@@ -264,7 +264,7 @@ TEST_F(Lease, CoversCommandsThatBeginWhileOthersAreHeld) {
     desk.execute(command("dock", "navigation"));
     robot.begins();
     world.advance(2s);
-    EXPECT_THAT(robot.told, ElementsAre("start", "suspend", "dock", "suspend"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "suspend", "dock", "suspend"));
 }
 
 TEST_F(Lease, CoversAStartWhileACommandOfItsOwnIsSuspended) {
@@ -274,10 +274,10 @@ TEST_F(Lease, CoversAStartWhileACommandOfItsOwnIsSuspended) {
     desk.execute(suspend("navigation"));
     desk.execute(go("go"));
     world.advance(2s);
-    EXPECT_THAT(robot.told, ElementsAre("dock", "suspend", "start", "suspend"));
+    EXPECT_THAT(robot.calls, ElementsAre("dock", "suspend", "start", "suspend"));
 }
 
-TEST_F(Lease, IsOverWhenTheSessionEndsWhateverElseMayRunOn) {
+TEST_F(Lease, EndsWithTheSessionAlsoIfItsCommandsContinue) {
     EngineSettings settings;
     settings.on_session_end = OnSessionEnd::continue_;
     World lasting{{moving(navigation), speech}, settings};
@@ -289,15 +289,15 @@ TEST_F(Lease, IsOverWhenTheSessionEndsWhateverElseMayRunOn) {
     visitor.execute(after(1s, go("later")));
     visitor.leave();
     lasting.advance(2s);
-    EXPECT_THAT(lasting["navigation"].told, ElementsAre("start", "halt"));
-    EXPECT_THAT(lasting["speech"].told, ElementsAre("start"));
+    EXPECT_THAT(lasting["navigation"].calls, ElementsAre("start", "halt"));
+    EXPECT_THAT(lasting["speech"].calls, ElementsAre("start"));
 }
 
 TEST_F(Lease, IsNotNeededByAnActionThatFailedToBegin) {
     robot.throws_in = {"start", "perform"};
     desk.execute(go("go"));
     desk.execute(command("dock", "navigation"));
-    EXPECT_THAT(robot.told, ElementsAre("start", "halt", "dock", "halt")) << "it may have begun nevertheless";
+    EXPECT_THAT(robot.calls, ElementsAre("start", "halt", "dock", "halt")) << "it may have begun nevertheless";
 }
 
 }  // namespace rois

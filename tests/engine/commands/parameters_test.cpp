@@ -30,13 +30,13 @@ Part detection_with_threshold() {
 
 }  // namespace
 
-TEST_F(Lamp, KeepsWhatIsSetInTheOrderOfItsProfile) {
+TEST_F(Lamp, StoresParametersInTheOrderOfItsProfile) {
     auto const reply = desk.set_parameter("lamp", {text("label", "night"), integer("count", 7)});
     EXPECT_EQ(reply.return_code, ReturnCode::ok);
     EXPECT_EQ(stored(), "count=7 label=night counts=1 2 labels=red|green");
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed " + reply.command_id.text + " OK"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed " + reply.command_id.text + " OK"));
     EXPECT_EQ(desk.result_of(reply.command_id.text), "OK");
-    EXPECT_THAT(world["lamp"].told, ElementsAre("parameters_changed"));
+    EXPECT_THAT(world["lamp"].calls, ElementsAre("parameters_changed"));
 }
 
 TEST_F(Lamp, TakesNamesAndTypesInAnyCase) {
@@ -60,8 +60,8 @@ TEST_F(Lamp, RefusesTextsThatAreNotOfTheType) {
     EXPECT_THAT(set(value("since", "DateTime", {"yesterday"})), HasSubstr("'yesterday' is not of the type DateTime"));
     EXPECT_THAT(set(value("counts", "int[]", {"1 two"})), HasSubstr("'two' is not of the type int"));
     EXPECT_EQ(stored(), "counts=1 2 labels=red|green");
-    EXPECT_TRUE(world["lamp"].told.empty());
-    EXPECT_TRUE(desk.heard().empty());
+    EXPECT_TRUE(world["lamp"].calls.empty());
+    EXPECT_TRUE(desk.received().empty());
 }
 
 TEST_F(Lamp, RefusesTheWrongDeclaredType) {
@@ -159,7 +159,7 @@ TEST(Parameters, OfAForeignCodebookEndASequenceBeforeItBegins) {
         EXPECT_THAT(reply.reason, testing::StartsWith("command_unit_list[2]: parameter 'owner': 'tanaka' is from the codebook"))
             << type;
     }
-    EXPECT_THAT(desk.heard(), testing::IsEmpty());
+    EXPECT_THAT(desk.received(), testing::IsEmpty());
     EXPECT_EQ(desk.execute(command("give", "lamp", {reference("owner", "tanaka")})).return_code, ReturnCode::ok);
 }
 
@@ -173,7 +173,7 @@ TEST(Parameters, ThatAreMandatoryMustBeThereByTheStart) {
     auto const places = texts("target_positions", {"0, 0, 0"});
     EXPECT_EQ(desk.execute(set("navigation", {places}), start("navigation")).return_code, ReturnCode::ok)
         << "values that an earlier unit stores count";
-    EXPECT_EQ(world["navigation"].told, (std::vector<std::string>{"parameters_changed", "start"}));
+    EXPECT_EQ(world["navigation"].calls, (std::vector<std::string>{"parameters_changed", "start"}));
 }
 
 TEST(Parameters, ThatReplaceOneAnotherDoSo) {
@@ -192,13 +192,13 @@ TEST(Parameters, AreTheDefaultsAgainAfterARelease) {
     desk.bind("navigation");
     desk.set_parameter("navigation", {integer("time_limit", 9)});
     desk.release("navigation");
-    EXPECT_THAT(world["navigation"].told, ElementsAre("parameters_changed", "halt", "parameters_changed"))
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("parameters_changed", "halt", "parameters_changed"))
         << "the component receives the defaults";
     EXPECT_EQ(in_words(world["navigation"].changed_to), "time_limit=0 routing_policy=time");
     desk.bind("navigation");
     EXPECT_EQ(in_words(desk.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time");
     desk.release("navigation");
-    EXPECT_EQ(world["navigation"].told.back(), "halt") << "without a change there is no call";
+    EXPECT_EQ(world["navigation"].calls.back(), "halt") << "without a change there is no call";
 }
 
 TEST(Parameters, AreTheDefaultsAgainAfterASession) {
@@ -211,7 +211,7 @@ TEST(Parameters, AreTheDefaultsAgainAfterASession) {
         if (std::string{end} == "disconnect") desk.leave();
         if (std::string{end} == "link lost") world.advance(10min);
         if (std::string{end} == "ended by the engine") world.engine->end(desk.session, world.now);
-        EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed")) << end;
+        EXPECT_THAT(world["navigation"].calls, ElementsAre("start", "halt", "parameters_changed")) << end;
         auto hall = world.connect();
         for (auto const* ref : {"navigation", "speech"}) hall.bind(ref);
         EXPECT_EQ(in_words(hall.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time") << end;
@@ -267,10 +267,10 @@ TEST(Parameters, OfAnApplicationDecideOnlyWhichEventsItReceives) {
     desk.bind("detection");
     for (auto* application : {&desk, &hall}) application->subscribe("person_detected", equal("Property/threshold", "70"), true);
     desk.set_parameter("detection", {integer("threshold", 70)});
-    desk.heard();
+    desk.received();
     world["detection"].fires("person_detected", {integer("number", 1)});
-    EXPECT_THAT(desk.heard(), ElementsAre("2 person_detected detection number=1"));
-    EXPECT_THAT(hall.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), ElementsAre("2 person_detected detection number=1"));
+    EXPECT_THAT(hall.received(), IsEmpty());
 }
 
 // A component may report a value that an application has set (its volume, say), as well as read-only ones.
@@ -299,7 +299,7 @@ TEST(Parameters, MayBeSetWhileTheActionRuns) {
     desk.bind("speech");
     desk.execute(say("say"));
     desk.set_parameter("speech", {integer("volume", 10)});
-    EXPECT_THAT(world["speech"].told, ElementsAre("start", "parameters_changed"));
+    EXPECT_THAT(world["speech"].calls, ElementsAre("start", "parameters_changed"));
     EXPECT_EQ(desk.result_of("say"), "RUNNING");
 }
 

@@ -83,19 +83,19 @@ TEST_F(Sequence, WithADuplicateCommandIdIsRefused) {
 TEST_F(Sequence, EndsWithTheFirstCommandThatIsNotOk) {
     desk.execute(go("go"), in_parallel({say("a"), in_sequence({go("b"), pause(1s)})}), go("c"));
     robot.finishes(CompletedStatus::error);
-    EXPECT_THAT(desk.heard(),
+    EXPECT_THAT(desk.received(),
                 ElementsAre("1 completed go ERROR", "2 completed a ABORT", "3 completed b ABORT", "4 completed c ABORT"));
     world.advance(10s);
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
 }
 
 TEST_F(Sequence, FailsUpwardsThroughEveryLevel) {
     desk.execute(in_parallel({in_sequence({in_parallel({go("go")}), say("a")}), in_sequence({pause(1s), say("b")})}), say("c"));
     robot.finishes(CompletedStatus::error);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ERROR", "2 completed a ABORT"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go ERROR", "2 completed a ABORT"));
     world.advance(1s);
     voice.finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("3 completed b OK", "4 completed c ABORT"));
+    EXPECT_THAT(desk.received(), ElementsAre("3 completed b OK", "4 completed c ABORT"));
 }
 
 TEST_F(Sequence, EndsWhereItsBindingIsLost) {
@@ -104,33 +104,33 @@ TEST_F(Sequence, EndsWhereItsBindingIsLost) {
     desk.release("speech");
     hall.bind("speech");
     robot.finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go OK", "2 completed say ABORT", "3 completed back ABORT"));
-    EXPECT_THAT(voice.told, ElementsAre("halt"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go OK", "2 completed say ABORT", "3 completed back ABORT"));
+    EXPECT_THAT(voice.calls, ElementsAre("halt"));
 }
 
 TEST_F(Sequence, EndsWhenItsStartIsReplaced) {
     desk.execute(go("go"), say("say"));
     desk.execute(go("elsewhere"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT", "2 completed say ABORT"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go ABORT", "2 completed say ABORT"));
 }
 
 TEST_F(Sequence, MayBeStoppedFromItsOwnParallelBranch) {
     desk.execute(in_parallel({go("go"), in_sequence({pause(1s), named("stop", stop("navigation"))})}), say("say"));
     world.advance(1s);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT", "2 completed stop OK", "3 completed say ABORT"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go ABORT", "2 completed stop OK", "3 completed say ABORT"));
 }
 
 TEST_F(Sequence, OfAThousandCommandsRunsThrough) {
     std::vector<CommandUnit> many;
     for (int i = 0; i < 1'000; ++i) many.push_back(stop("navigation"));
     desk.execute(in_sequence(many), go("go"));
-    EXPECT_EQ(desk.heard().size(), 1'000U);
+    EXPECT_EQ(desk.received().size(), 1'000U);
     EXPECT_EQ(desk.result_of("go"), "RUNNING");
 }
 
 // --- Delays (decision 15) ---
 
-TEST_F(Sequence, DelaysWholeUnitsAndWhatIsInThem) {
+TEST_F(Sequence, DelaysUnitsAndTheCommandsInsideThem) {
     desk.execute(after(100ms, branches({{after(100ms, go("go"))}, {say("say")}})));
     world.advance(50ms);
     EXPECT_EQ(desk.result_of("say"), "WAITING");
@@ -169,7 +169,7 @@ TEST_F(Sequence, ThatHasFailedDoesNotWakeAfterItsDelay) {
     desk.execute(in_parallel({go("go"), after(1s, say("say"))}));
     desk.leave();
     world.advance(2s);
-    EXPECT_THAT(voice.told, ElementsAre("halt"));
+    EXPECT_THAT(voice.calls, ElementsAre("halt"));
 }
 
 // The number of live commands of a session is limited.

@@ -156,7 +156,7 @@ TEST_F(Comparisons, NullIsWithoutAValue) {
     EXPECT_THAT(reason({PropertyIsNull{literal("5")}}), HasSubstr("value reference"));
 }
 
-TEST_F(Comparisons, NilMaySayWhyThereIsNoValue) {
+TEST_F(Comparisons, NilMayRequireTheReasonOfAMissingValue) {
     set("dim", "count", "int", {"5"});
     EXPECT_THAT(found(is_nil("count", "")), ElementsAre("bright", "navigation"));
     EXPECT_THAT(found(is_nil("count", "missing")), ElementsAre("bright"));

@@ -213,11 +213,11 @@ namespace {
 // The subscriptions of an application, by their meaning, and the events that it received, as text.
 class Subscriber {
 public:
-    explicit Subscriber(World& world) : told_to_{world.connect()} {}
+    explicit Subscriber(World& world) : application_{world.connect()} {}
 
     // Returns whether the subscription was accepted.
     bool subscribe(int number, std::string const& event_type, Condition condition) {
-        auto const reply = told_to_.subscribe(event_type, std::move(condition));
+        auto const reply = application_.subscribe(event_type, std::move(condition));
         if (reply.return_code == ReturnCode::ok) numbers_.emplace_back(reply.subscribe_id, number);
         return reply.return_code == ReturnCode::ok;
     }
@@ -225,13 +225,13 @@ public:
     void unsubscribe(std::size_t place) {
         if (numbers_.empty()) return;
         auto const id = numbers_[place % numbers_.size()].first;
-        told_to_.unsubscribe(id);
+        application_.unsubscribe(id);
         std::erase_if(numbers_, [&](auto const& each) { return each.first == id; });
     }
 
-    std::vector<std::string> heard() {
+    std::vector<std::string> received() {
         std::vector<std::string> words;
-        for (auto const& [sequence, notification] : told_to_.notifications().read(after_, 100'000)) {
+        for (auto const& [sequence, notification] : application_.notifications().read(after_, 100'000)) {
             after_ = sequence;
             if (auto const* error = std::get_if<ReceiveError>(&notification->body))
                 words.push_back("error of " + error->component_ref->code);
@@ -244,7 +244,7 @@ public:
     }
 
 private:
-    Application told_to_;
+    Application application_;
     std::uint64_t after_ = 0;
     std::vector<std::pair<SubscribeId, int>> numbers_;
 };
@@ -252,7 +252,7 @@ private:
 }  // namespace
 
 TEST(LookingUp, NotifiesTheSameSessionsAsASearchOfAll) {
-    std::size_t heard = 0;
+    std::size_t received = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         Changing changing{seed};
         auto& drawing = changing.drawing;
@@ -272,12 +272,12 @@ TEST(LookingUp, NotifiesTheSameSessionsAsASearchOfAll) {
             component.fires("person_localized");
             component.fires("reached_target");
             component.reports(ErrorType::user_defined_error, "it broke");
-            auto const words = one.heard();
-            ASSERT_EQ(words, other.heard()) << "seed " << seed << ", " << i;
-            heard += words.size();
+            auto const words = one.received();
+            ASSERT_EQ(words, other.received()) << "seed " << seed << ", " << i;
+            received += words.size();
         }
     }
-    EXPECT_GT(heard, 1'000u) << "otherwise the test proves little";
+    EXPECT_GT(received, 1'000u) << "otherwise the test proves little";
 }
 
 TEST(Subscriptions, ByRefAndByTypeAreNotifiedInTheOrderOfSubscribing) {
@@ -289,15 +289,15 @@ TEST(Subscriptions, ByRefAndByTypeAreNotifiedInTheOrderOfSubscribing) {
     desk.subscribe(4, "person_detected", either({equal("name", "detection"), of_type("PERSONDETECTION")}));
     desk.subscribe(5, "person_detected", either({equal("name", "other"), equal("name", "detection")}));
     world["detection"].fires("person_detected");
-    EXPECT_THAT(desk.heard(), ElementsAre("person_detected of detection by 1", "person_detected of detection by 2",
-                                          "person_detected of detection by 3", "person_detected of detection by 4",
-                                          "person_detected of detection by 5"));
+    EXPECT_THAT(desk.received(), ElementsAre("person_detected of detection by 1", "person_detected of detection by 2",
+                                             "person_detected of detection by 3", "person_detected of detection by 4",
+                                             "person_detected of detection by 5"));
     for (auto const place : {3, 2, 1}) desk.unsubscribe(static_cast<std::size_t>(place));
     world["other"].fires("person_detected");
-    EXPECT_THAT(desk.heard(), ElementsAre("person_detected of other by 5"));
+    EXPECT_THAT(desk.received(), ElementsAre("person_detected of other by 5"));
     desk.unsubscribe(1);
     world["other"].fires("person_detected");
-    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(desk.received(), IsEmpty());
 }
 
 }  // namespace rois

@@ -138,14 +138,14 @@ TEST_F(Hall, DistanceIsAlsoAValue) {
         HasSubstr("two arguments"));
 }
 
-TEST_F(Hall, TheNearestComesFirst) {
+TEST_F(Hall, TheNearestComponentComesFirst) {
     EXPECT_THAT(found(sorted(distance("location", {spot(10'000, 10'000)}))), ElementsAre("far", "near", "localization", "lost"))
         << "a component without a position comes last";
     EXPECT_THAT(found(sorted(distance("location", {spot(10'000, 10'000)}), SortOrder::descending)),
                 ElementsAre("near", "far", "localization", "lost"));
 }
 
-TEST_F(Hall, TheNearestFreeOneIsBound) {
+TEST_F(Hall, TheNearestFreeComponentIsBound) {
     auto const nearest = sorted(distance("location", literal("desk")));
     EXPECT_EQ(desk.bind_any(nearest), "near");
     auto hall = world.connect();
@@ -196,13 +196,13 @@ Located person(std::string ref, double x, double y) {
 
 struct People : Hall {
     // Returns whether a subscriber with this condition receives an event with these results.
-    bool told(Condition condition, ParameterList results, std::vector<Located> located = {}) {
+    bool is_received(Condition condition, ParameterList results, std::vector<Located> located = {}) {
         auto const id = desk.subscribe("person_localized", std::move(condition));
         EXPECT_EQ(id.return_code, ReturnCode::ok) << id.reason;
         world["localization"].fires("person_localized", std::move(results), std::move(located));
-        bool const heard = !desk.heard().empty();
+        bool const arrived = !desk.received().empty();
         desk.unsubscribe(id.subscribe_id);
-        return heard;
+        return arrived;
     }
 
     std::string const noon = "2026-11-20T12:00:00Z";
@@ -210,46 +210,46 @@ struct People : Hall {
     std::vector<Located> both_of_them{person("p-1", 1'000.4, 1'000), person("p-2", 8'000, 8'000)};
 };
 
-TEST_F(People, OneWithinTheBoxIsEnough) {
-    EXPECT_TRUE(told(within("position_data", literal("desk")), two));
-    EXPECT_FALSE(told(within("position_data", {box(3'000, 3'000, 4'000, 4'000)}), two));
-    EXPECT_TRUE(told(within("position_data", {box(7'999, 7'999, 8'000, 8'000)}), two));
+TEST_F(People, OnePersonWithinTheBoxIsEnough) {
+    EXPECT_TRUE(is_received(within("position_data", literal("desk")), two));
+    EXPECT_FALSE(is_received(within("position_data", {box(3'000, 3'000, 4'000, 4'000)}), two));
+    EXPECT_TRUE(is_received(within("position_data", {box(7'999, 7'999, 8'000, 8'000)}), two));
 }
 
-TEST_F(People, TheStructuredFormIsTheExactOne) {
-    EXPECT_TRUE(told(within("position_data", {box(0, 0, 1'000, 1'000)}), two));
-    EXPECT_FALSE(told(within("position_data", {box(0, 0, 1'000, 1'000)}), two, both_of_them));
+TEST_F(People, LocatedElementsTakePrecedenceOverTexts) {
+    EXPECT_TRUE(is_received(within("position_data", {box(0, 0, 1'000, 1'000)}), two));
+    EXPECT_FALSE(is_received(within("position_data", {box(0, 0, 1'000, 1'000)}), two, both_of_them));
     Geometry const at_head_height{.crs = "hall", .low = {0, 0, 1'600}, .high = {2'000, 2'000, 1'800}, .dimensions = 3};
-    EXPECT_TRUE(told(within("position_data", {at_head_height}), two, both_of_them));
+    EXPECT_TRUE(is_received(within("position_data", {at_head_height}), two, both_of_them));
 }
 
 TEST_F(People, DisjointAndBeyondMustHoldForAllPositions) {
-    EXPECT_FALSE(told(spatial(SpatialRelation::disjoint, {reference("position_data"), literal("desk")}), two));
-    EXPECT_FALSE(told(beyond("position_data", literal("desk"), 100), two));
-    EXPECT_TRUE(told(beyond("position_data", {spot(0, 9'999)}, 100), two));
+    EXPECT_FALSE(is_received(spatial(SpatialRelation::disjoint, {reference("position_data"), literal("desk")}), two));
+    EXPECT_FALSE(is_received(beyond("position_data", literal("desk"), 100), two));
+    EXPECT_TRUE(is_received(beyond("position_data", {spot(0, 9'999)}, 100), two));
 }
 
-TEST_F(People, OneOfThemIsNamed) {
+TEST_F(People, APersonIsSelectedByTheirRef) {
     auto const first_at_desk = within("position_data[@ref='p-1']", literal("desk"));
-    EXPECT_TRUE(told(first_at_desk, two, both_of_them));
-    EXPECT_FALSE(told(within("position_data[@ref='p-2']", literal("desk")), two, both_of_them));
-    EXPECT_TRUE(told(within("located[@ref='p-1']", literal("desk")), two, both_of_them));
-    EXPECT_FALSE(told(within("located[@of='robot_position']", literal("hall")), two, both_of_them));
-    EXPECT_TRUE(told(equal("person_ref", "p-2"), two));
-    EXPECT_TRUE(told(equal("located/@ref", "p-2"), two, both_of_them));
-    EXPECT_TRUE(told(equal("position_data[@ref='p-2']", "8000, 8000, 0"), two, both_of_them));
+    EXPECT_TRUE(is_received(first_at_desk, two, both_of_them));
+    EXPECT_FALSE(is_received(within("position_data[@ref='p-2']", literal("desk")), two, both_of_them));
+    EXPECT_TRUE(is_received(within("located[@ref='p-1']", literal("desk")), two, both_of_them));
+    EXPECT_FALSE(is_received(within("located[@of='robot_position']", literal("hall")), two, both_of_them));
+    EXPECT_TRUE(is_received(equal("person_ref", "p-2"), two));
+    EXPECT_TRUE(is_received(equal("located/@ref", "p-2"), two, both_of_them));
+    EXPECT_TRUE(is_received(equal("position_data[@ref='p-2']", "8000, 8000, 0"), two, both_of_them));
 }
 
 TEST_F(People, OneOperandIsComparedWithThePositionsOfTheEvent) {
-    EXPECT_TRUE(told(spatial(SpatialRelation::intersects, {literal("desk")}), two, {person("p-1", 1, 1)}));
-    EXPECT_FALSE(told(spatial(SpatialRelation::intersects, {literal("desk")}), two, {person("p-1", 5'000, 1)}));
+    EXPECT_TRUE(is_received(spatial(SpatialRelation::intersects, {literal("desk")}), two, {person("p-1", 1, 1)}));
+    EXPECT_FALSE(is_received(spatial(SpatialRelation::intersects, {literal("desk")}), two, {person("p-1", 5'000, 1)}));
 }
 
 TEST_F(People, ThePositionOfTheRobotCountsToo) {
     world["localization"].where = at(500, 500, "robot3");
-    EXPECT_TRUE(told(within("location", literal("desk")), two));
+    EXPECT_TRUE(is_received(within("location", literal("desk")), two));
     world["localization"].where = at(5'000, 500, "robot3");
-    EXPECT_FALSE(told(within("location", literal("desk")), two));
+    EXPECT_FALSE(is_received(within("location", literal("desk")), two));
 }
 
 // --- Time ---
@@ -258,7 +258,7 @@ struct Times : People {
     Period const morning{*to_utc("2026-11-20T09:00:00Z"), *to_utc("2026-11-20T12:00:00Z")};
 
     bool holds(TemporalRelation relation, Expression other, std::string const& time) {
-        return told(temporal(relation, {reference("timestamp"), std::move(other)}), found_people(time, {}, {}));
+        return is_received(temporal(relation, {reference("timestamp"), std::move(other)}), found_people(time, {}, {}));
     }
 };
 
@@ -267,8 +267,8 @@ TEST_F(Times, DuringExcludesTheEnds) {
     EXPECT_TRUE(holds(TemporalRelation::during, {morning}, "2026-11-20T20:59:59+09:00"));
     EXPECT_FALSE(holds(TemporalRelation::during, {morning}, "2026-11-20T09:00:00Z"));
     EXPECT_FALSE(holds(TemporalRelation::during, {morning}, "2026-11-20T12:00:00Z"));
-    EXPECT_TRUE(told(temporal(TemporalRelation::during, {{morning}, reference("timestamp")}),
-                     found_people("2026-11-20T10:00:00Z", {}, {})))
+    EXPECT_TRUE(is_received(temporal(TemporalRelation::during, {{morning}, reference("timestamp")}),
+                            found_people("2026-11-20T10:00:00Z", {}, {})))
         << "the period may be the first operand";
 }
 
@@ -277,8 +277,8 @@ TEST_F(Times, AfterAndBeforeLookBeyondThePeriod) {
     EXPECT_FALSE(holds(TemporalRelation::after, {morning}, noon));
     EXPECT_TRUE(holds(TemporalRelation::before, {morning}, "2026-11-20T08:59:59Z"));
     EXPECT_FALSE(holds(TemporalRelation::before, {morning}, "2026-11-20T09:00:00Z"));
-    EXPECT_TRUE(told(temporal(TemporalRelation::before, {{morning}, reference("timestamp")}),
-                     found_people("2026-11-20T13:00:00Z", {}, {})))
+    EXPECT_TRUE(is_received(temporal(TemporalRelation::before, {{morning}, reference("timestamp")}),
+                            found_people("2026-11-20T13:00:00Z", {}, {})))
         << "the morning is before 13:00";
 }
 
@@ -350,14 +350,14 @@ TEST_F(Times, OfEventsMeetEachOperator) {
     EXPECT_TRUE(holds(TemporalRelation::ends, {morning}, noon));
     EXPECT_TRUE(holds(TemporalRelation::any_interacts, {morning}, noon));
     EXPECT_FALSE(holds(TemporalRelation::any_interacts, {morning}, "2026-11-20T12:00:00.001Z"));
-    EXPECT_TRUE(told(temporal(TemporalRelation::t_contains, {{morning}, reference("timestamp")}),
-                     found_people("2026-11-20T10:00:00Z", {}, {})));
+    EXPECT_TRUE(is_received(temporal(TemporalRelation::t_contains, {{morning}, reference("timestamp")}),
+                            found_people("2026-11-20T10:00:00Z", {}, {})));
     EXPECT_FALSE(holds(TemporalRelation::t_contains, {morning}, "2026-11-20T10:00:00Z")) << "a moment contains no period";
     EXPECT_FALSE(holds(TemporalRelation::meets, {morning}, "2026-11-20T09:00:00Z")) << "only periods meet";
 }
 
 TEST_F(Times, OneOperandIsComparedWithTheTimeOfTheEvent) {
-    EXPECT_TRUE(told(temporal(TemporalRelation::during, {{morning}}), found_people("2026-11-20T10:00:00Z", {}, {})));
+    EXPECT_TRUE(is_received(temporal(TemporalRelation::during, {{morning}}), found_people("2026-11-20T10:00:00Z", {}, {})));
     EXPECT_THAT(reason(temporal(TemporalRelation::during, {{morning}})), HasSubstr("one operand"));
 }
 

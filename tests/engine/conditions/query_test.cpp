@@ -191,7 +191,7 @@ struct TwoRobots : testing::Test {
 
 }  // namespace
 
-TEST_F(TwoRobots, TellTheirPositionsTogether) {
+TEST_F(TwoRobots, ReportTheirPositionsInOneAnswer) {
     one.knows = {position("4", "robot1", "1, 2, 0")};
     other.knows = {position("3", "robot2", "3, 4, 0")};
     for (auto const& whole :

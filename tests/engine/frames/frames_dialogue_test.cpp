@@ -60,8 +60,8 @@ struct TwoFrames : testing::Test {
 TEST_F(TwoFrames, EventsAreConvertedToTheEnginesFrame) {
     desk.subscribe("person_localized", {}, true);
     see("3000, 0, 30", "map", {at(3'000, 0, "map", {100, 0, 0, 400})});
-    EXPECT_THAT(desk.heard(), ElementsAre("1 person_localized robot2.localization position_data=1000, 5000, 120"));
-    auto const results = *desk.last_heard<ReceiveEvent>().results;
+    EXPECT_THAT(desk.received(), ElementsAre("1 person_localized robot2.localization position_data=1000, 5000, 120"));
+    auto const results = *desk.last_received<ReceiveEvent>().results;
     EXPECT_EQ(results.parameters.front().data_type_ref.codebook_ref, "hall");
     EXPECT_THAT(results.located, ElementsAre(at(1'000, 5'000, "hall", {400, 0, 0, 100})));
 }
@@ -69,15 +69,15 @@ TEST_F(TwoFrames, EventsAreConvertedToTheEnginesFrame) {
 TEST_F(TwoFrames, PositionsInAnUnknownFrameAreReportedUnchanged) {
     desk.subscribe("person_localized", {}, true);
     see("3000, 0", "street", {at(3'000, 0, "street")});
-    EXPECT_THAT(desk.heard(), ElementsAre("1 person_localized robot2.localization position_data=3000, 0"));
-    EXPECT_THAT(desk.last_heard<ReceiveEvent>().results->located, ElementsAre(at(3'000, 0, "street")));
+    EXPECT_THAT(desk.received(), ElementsAre("1 person_localized robot2.localization position_data=3000, 0"));
+    EXPECT_THAT(desk.last_received<ReceiveEvent>().results->located, ElementsAre(at(3'000, 0, "street")));
 }
 
 TEST_F(TwoFrames, EventsThatCannotBeConvertedAreDropped) {
     desk.subscribe("person_localized");
     see("3000, 0", "map", {at(3'000, 0, "map", {1, 2, 3})});
-    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR robot2.localization"));
-    auto const detail = desk.detail_of(desk.last_heard<ReceiveError>().error_id);
+    EXPECT_THAT(desk.received(), ElementsAre("1 COMPONENT_INTERNAL_ERROR robot2.localization"));
+    auto const detail = desk.detail_of(desk.last_received<ReceiveError>().error_id);
     EXPECT_THAT(in_words(detail.results.parameters), HasSubstr("a covariance of 3 numbers"));
 }
 
@@ -92,7 +92,7 @@ TEST_F(TwoFrames, ACommandWhoseResultsCannotBeConvertedFails) {
     desk.execute(named("dock", command("dock", "robot2.navigation")));
     far.finishes(CompletedStatus::ok, {{integer("charge", 80)}, {at(3'000, 0, "map", {1, 2, 3})}});
     EXPECT_EQ(desk.result_of("dock"), "ERROR");
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock ERROR", "2 COMPONENT_INTERNAL_ERROR robot2.navigation"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed dock ERROR", "2 COMPONENT_INTERNAL_ERROR robot2.navigation"));
 }
 
 TEST_F(TwoFrames, TargetsAreConvertedToTheComponentsFrame) {
@@ -125,7 +125,7 @@ TEST_F(TwoFrames, TargetsMustBeInAKnownFrame) {
     auto const set = desk.set_parameter("robot2.navigation", target("1, 2", "street"));
     EXPECT_EQ(set.return_code, ReturnCode::bad_parameter);
     EXPECT_THAT(set.reason, HasSubstr("expected one of hall, map"));
-    EXPECT_THAT(far.told, IsEmpty());
+    EXPECT_THAT(far.calls, IsEmpty());
 }
 
 TEST_F(TwoFrames, ConditionsFindARobotThatReportsInItsOwnFrame) {
@@ -150,8 +150,8 @@ TEST_F(TwoFrames, EventsAreSelectedByTheirPositionInEitherFrame) {
     see("3000, 0", "map");
     see("1000, 5000", "map");
     see("1000, 5000", "hall");
-    EXPECT_THAT(desk.heard(), ElementsAre("1 person_localized robot2.localization position_data=1000, 5000",
-                                          "2 person_localized robot2.localization position_data=1000, 5000"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 person_localized robot2.localization position_data=1000, 5000",
+                                             "2 person_localized robot2.localization position_data=1000, 5000"));
 }
 
 TEST_F(TwoFrames, TwoBoxesOfAConditionMustShareAFrame) {

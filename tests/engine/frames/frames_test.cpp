@@ -83,7 +83,7 @@ TEST(Frames, ConvertTexts) {
     EXPECT_EQ(text_in(frames, "desk", "map", "hall"), "desk") << "a name is not a point";
 }
 
-TEST(Frames, LeavePositionsInUnknownFrames) {
+TEST(Frames, LeavePositionsInUnknownFramesUnchanged) {
     Frames const frames{"hall", {map()}};
     auto parameter = positions("target_position", {"1, 2"}, "street");
     frames.change(parameter, "hall", Frames::Rounding::thousandth);
@@ -114,7 +114,7 @@ TEST(Frames, AddTheUncertaintyOfTheirPlacement) {
 
 // The inverse: x' = y, y' = -x. If the map turns to the left, the point moves to the right, as seen from the map: -52.35988 mm a
 // degree along its y axis, and -1 degree. var x' = 100 + 100; var y' = 400 + 100 + 10966.227; cov(y', yaw') = +209.440.
-TEST(Frames, AddThatUncertaintyInBothDirections) {
+TEST(Frames, AddTheUncertaintyOfTheirPlacementInBothDirections) {
     Frames const frames{"hall", {uncertain_map()}};
     auto const there = changed(frames, entity("hall", {1'000, 5'000, 0}, {0, 0, 120}, {400, 0, 0, 0, 100, 0, 0, 0, 9}), "map");
     EXPECT_THAT(there.position, ElementsAre(3'000, 0, 0));
@@ -150,7 +150,7 @@ TEST(Frames, MayBeTiltedInSpace) {
     EXPECT_THAT(rows(changed(frames, entity("wall", {1, 2, 3}, {0, 0, 0}, all), "hall")), ElementsAreArray(expected));
 }
 
-TEST(Frames, LeaveTheFormOfACovariance) {
+TEST(Frames, ConversionKeepsTheDimensionsOfACovariance) {
     Frames const frames{"hall", {map()}};
     EXPECT_THAT(rows(changed(frames, entity("map", {0, 0, 0}, {}, {1, 0, 0, 2}), "hall")), ElementsAre(2, 0, 0, 1)) << "x, y";
     EXPECT_THAT(rows(changed(frames, entity("map", {0, 0, 0}, {}, {1, 0, 0, 0, 2, 0, 0, 0, 3}), "hall")),
@@ -162,7 +162,7 @@ TEST(Frames, LeaveTheFormOfACovariance) {
         << "x, y, z, yaw";
 }
 
-TEST(Frames, LeaveAReliability) {
+TEST(Frames, LeaveAReliabilityUnchanged) {
     Frames const frames{"hall", {uncertain_map()}};
     auto sure = entity("map", {0, 0, 0}, {});
     sure.certainty = Located::Reliability{0.9};

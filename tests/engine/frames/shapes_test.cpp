@@ -49,7 +49,7 @@ Geometry const disc = circle(0, 0, 500);
 
 }  // namespace
 
-TEST(Points, AreWithinOrTouchOrApart) {
+TEST(Points, AreWithinTouchingOrDisjoint) {
     EXPECT_EQ(relations(spot(1, 2), spot(1, 2)), "equals within contains");
     EXPECT_EQ(relations(spot(1, 2), spot(1, 3)), "disjoint");
     for (auto const& area : {square, triangle, circle(0, 0, 1'000)}) EXPECT_EQ(relations(spot(100, 200), area), "within");
@@ -112,7 +112,7 @@ TEST(Lines, CrossAreasAndOneAnother) {
     EXPECT_EQ(relations(line({{1'000, -100}, {1'000, 1'100}}), square), "touches");
 }
 
-TEST(Circles, AreExact) {
+TEST(Circles, AreComparedExactlyAndNotAsPolygons) {
     double const at_45_degrees = 500 / std::numbers::sqrt2;
     EXPECT_EQ(relations(spot(at_45_degrees, at_45_degrees), disc), "touches within");
     EXPECT_EQ(relations(spot(at_45_degrees - 0.001, at_45_degrees), disc), "within");
@@ -142,7 +142,7 @@ TEST(Distances, AreFromEdgeToEdge) {
     EXPECT_DOUBLE_EQ(distance(triangle, box(1'300, 0, 2'000, 400)), 300);
 }
 
-TEST(Geometries, ThatAreInvalidSayWhy) {
+TEST(Geometries, ThatAreInvalidReportTheReason) {
     EXPECT_EQ(why_invalid(triangle), std::nullopt);
     EXPECT_EQ(why_invalid(frame), std::nullopt);
     EXPECT_THAT(why_invalid(polygon({{0, 0}, {1, 1}, {1, 0}, {0, 1}, {0, 0}})).value_or(""), HasSubstr("edges cross or touch"));

@@ -36,8 +36,8 @@ struct Details : testing::Test {
     // The results that the condition selects of an event.
     Results left_of(Condition condition, ParameterList results, std::vector<Located> located = {}) {
         world["localization"].fires("person_localized", std::move(results), std::move(located));
-        desk.heard();
-        auto reply = desk.detail_of(desk.last_heard<ReceiveEvent>().event_id, std::move(condition));
+        desk.received();
+        auto reply = desk.detail_of(desk.last_received<ReceiveEvent>().event_id, std::move(condition));
         EXPECT_EQ(reply.return_code, ReturnCode::ok) << reply.reason;
         return std::move(reply.results);
     }
@@ -117,8 +117,8 @@ TEST_F(Details, OfListsOfNumbersArePackedAgain) {
     auto watcher = counting.connect();
     watcher.subscribe("person_detected");
     counting["counter"].fires("person_detected", {value("numbers", "int[]", {"5 6 7"}), texts("names", {"a", "b", "c"})});
-    watcher.heard();
-    auto const left = watcher.detail_of(watcher.last_heard<ReceiveEvent>().event_id, greater("numbers", "5"));
+    watcher.received();
+    auto const left = watcher.detail_of(watcher.last_received<ReceiveEvent>().event_id, greater("numbers", "5"));
     EXPECT_EQ(in_words(left.results.parameters), "numbers=6 7 names=b|c");
 }
 

@@ -20,7 +20,7 @@ TEST_F(Events, MayBeChosenByTheirResults) {
     world["detection"].fires("person_detected");
     world["detection_2"].fires("person_detected", people(2));
     world["detection"].fires("person_detected", people(2));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection"));
+    EXPECT_THAT(desk.received(), ElementsAre("1 person_detected detection"));
 }
 
 TEST_F(Events, MayBeSelectedByTheStatusThatTheSubscriberSees) {
@@ -29,8 +29,8 @@ TEST_F(Events, MayBeSelectedByTheStatusThatTheSubscriberSees) {
     desk.subscribe("person_detected", equal("status", "BUSY"));
     hall.subscribe("person_detected", equal("status", "BUSY"));
     world["detection"].fires("person_detected");
-    EXPECT_THAT(desk.heard(), IsEmpty());
-    EXPECT_THAT(hall.heard(), ElementsAre("1 person_detected detection"));
+    EXPECT_THAT(desk.received(), IsEmpty());
+    EXPECT_THAT(hall.received(), ElementsAre("1 person_detected detection"));
 }
 
 TEST_F(Events, ThatNoComponentHasAreUnsupported) {
@@ -70,10 +70,10 @@ TEST_F(Events, OfTwoSubscriptionsAreReceivedForEachWithOneEventId) {
     auto const all = desk.subscribe("person_detected").subscribe_id;
     auto const one = desk.subscribe("person_detected", equal("component_ref", "detection")).subscribe_id;
     world["detection"].fires("person_detected");
-    desk.heard(1);
-    auto const first = desk.last_heard<ReceiveEvent>();
-    desk.heard(1);
-    auto const second = desk.last_heard<ReceiveEvent>();
+    desk.received(1);
+    auto const first = desk.last_received<ReceiveEvent>();
+    desk.received(1);
+    auto const second = desk.last_received<ReceiveEvent>();
     EXPECT_EQ(first.event_id, second.event_id);
     EXPECT_THAT((std::vector{first.subscribe_id, second.subscribe_id}), testing::UnorderedElementsAre(all, one));
 }
@@ -88,8 +88,8 @@ TEST_F(Events, AreReceivedByTheRemainingSubscribers) {
     applications[3].subscribe("person_detected");
     world["detection"].fires("person_detected");
     for (std::size_t const i : {1U, 2U, 3U, 4U})
-        EXPECT_THAT(applications[i].heard(), ElementsAre("1 person_detected detection")) << i;
-    for (std::size_t const i : {0U, 6U}) EXPECT_THAT(applications[i].heard(), IsEmpty()) << i;
+        EXPECT_THAT(applications[i].received(), ElementsAre("1 person_detected detection")) << i;
+    for (std::size_t const i : {0U, 6U}) EXPECT_THAT(applications[i].received(), IsEmpty()) << i;
 }
 
 TEST_F(Events, AreOneNotificationForAllSessionsOfASubscription) {
@@ -113,8 +113,8 @@ TEST_F(Events, ThatNeverWereHaveNoDetails) {
 TEST_F(Events, HaveDetailsThatAConditionChoosesFrom) {
     desk.subscribe("person_detected");
     world["detection"].fires("person_detected", people(2));
-    desk.heard();
-    auto const id = desk.last_heard<ReceiveEvent>().event_id;
+    desk.received();
+    auto const id = desk.last_received<ReceiveEvent>().event_id;
     EXPECT_EQ(in_words(desk.detail_of(id, equal("number", "2")).results.parameters), "number=2");
     auto const none = desk.detail_of(id, equal("number", "3"));
     EXPECT_EQ(none.return_code, ReturnCode::ok);
@@ -128,8 +128,8 @@ TEST_F(Events, WithoutSubscribersAreNotKept) {
     world["detection"].fires("person_detected", people(1));
     desk.subscribe("person_detected");
     world["detection"].fires("person_detected", people(2));
-    desk.heard();
-    EXPECT_EQ(desk.last_heard<ReceiveEvent>().event_id.text, "e-1");
+    desk.received();
+    EXPECT_EQ(desk.last_received<ReceiveEvent>().event_id.text, "e-1");
     EXPECT_EQ(world.engine->statistics().events, 2U);
 }
 

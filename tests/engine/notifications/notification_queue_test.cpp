@@ -157,7 +157,7 @@ TEST_F(Queue, CountsSkippedNotificationsAsSent) {
 
 // --- Holds: an answer comes before what it causes ---
 
-TEST_F(Queue, NumbersWhatAHoldHasHeldWhenItIsReleased) {
+TEST_F(Queue, NumbersHeldNotificationsWhenTheHoldIsReleased) {
     events(1);
     auto const hold = queue.hold();
     EXPECT_EQ(push(Completed{}), NotificationQueue::Pushed::held);
@@ -169,7 +169,7 @@ TEST_F(Queue, NumbersWhatAHoldHasHeldWhenItIsReleased) {
     EXPECT_THAT(read(1), ElementsAre("2 c", "3 e"));
 }
 
-TEST_F(Queue, HoldsBackOnlyWhatAnOperationCauses) {
+TEST_F(Queue, HoldsBackOnlyNotificationsThatTheOperationCauses) {
     auto const slow = queue.hold();
     queue.leave(slow);
     events(1);
@@ -289,7 +289,7 @@ TEST(OutgoingNotification, IsEncodedOnce) {
     EXPECT_EQ(encoded, 1);
 }
 
-TEST_F(Queue, ReleaseReturnsWhetherTheHoldHasHiddenSomething) {
+TEST_F(Queue, ReleaseReturnsWhetherTheHoldHasHiddenNotifications) {
     auto const before_nothing = queue.hold();
     EXPECT_FALSE(queue.release(before_nothing));
     auto const first = queue.hold();

@@ -32,28 +32,28 @@ TEST(Notifications, ThatMustNotBeLostEndASessionThatNeverReads) {
     desk.execute(go("go"));
     desk.bind("speech");
     for (auto const* id : {"1", "2", "3"}) desk.execute(named(id, stop("speech")));
-    EXPECT_FALSE(desk.told_of_the_end());
+    EXPECT_FALSE(desk.notifications_closed());
     EXPECT_EQ(desk.execute(named("4", stop("speech"))).return_code, ReturnCode::ok) << "it still gets an answer";
-    EXPECT_TRUE(desk.told_of_the_end());
+    EXPECT_TRUE(desk.notifications_closed());
     EXPECT_EQ(desk.refusal_of(Search{}), Refusal::no_session);
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
+    EXPECT_THAT(world["navigation"].calls, ElementsAre("start", "halt", "parameters_changed"));
     EXPECT_EQ(hall.bind("navigation"), ReturnCode::ok);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed 1 OK", "2 completed 2 OK", "3 completed 3 OK", "4 completed 4 OK",
-                                          "5 completed go ABORT"))
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed 1 OK", "2 completed 2 OK", "3 completed 3 OK", "4 completed 4 OK",
+                                             "5 completed go ABORT"))
         << "each command completes, read or not";
 }
 
 TEST(Notifications, OfOtherSessionsAreNotAffectedByOneThatNeverReads) {
     World world{{navigation, detection}, few(3)};
-    auto deaf = world.connect(), desk = world.connect();
-    deaf.bind("detection");
+    auto never_reads = world.connect(), desk = world.connect();
+    never_reads.bind("detection");
     desk.subscribe("person_detected");
     for (int i = 1; i <= 5; ++i) {
         world["detection"].reports(ErrorType::user_defined_error, "dust");
-        EXPECT_EQ(desk.heard().size(), 1U);
+        EXPECT_EQ(desk.received().size(), 1U);
     }
-    EXPECT_TRUE(deaf.told_of_the_end());
-    EXPECT_FALSE(desk.told_of_the_end());
+    EXPECT_TRUE(never_reads.notifications_closed());
+    EXPECT_FALSE(desk.notifications_closed());
 }
 
 TEST(Notifications, AreCountedInTheStatistics) {

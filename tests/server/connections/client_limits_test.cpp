@@ -231,15 +231,16 @@ TEST_F(OpenFiles, TooFewAreLoggedInOneLine) {
         setrlimit(RLIMIT_NOFILE, &low);
         GatewayProcess gateway{{"--max-connections", "1000", "--threads", "1"}};
         auto const log = gateway.log_with("listening on");
-        bool const told = log.find(
-                              "the limit of open files is 200 and cannot be raised to 1072, which max_connections = 1000 needs: "
-                              "at most 128 connections are accepted") != std::string::npos;
-        return told && HttpClient{gateway}.get("/healthz").status == 200 ? 0 : 1;
+        bool const is_logged =
+            log.find(
+                "the limit of open files is 200 and cannot be raised to 1072, which max_connections = 1000 needs: "
+                "at most 128 connections are accepted") != std::string::npos;
+        return is_logged && HttpClient{gateway}.get("/healthz").status == 200 ? 0 : 1;
     };
     EXPECT_EXIT(std::_Exit(starts()), testing::ExitedWithCode(0), "");
 }
 
-TEST(Networks, HoldTheirAddresses) {
+TEST(Networks, ContainTheAddressesOfTheirPrefix) {
     auto const holds = [](std::string_view network, std::string_view address) {
         return read_network(network).value().contains(read_address(address).value());
     };
@@ -260,7 +261,7 @@ TEST(Networks, HoldTheirAddresses) {
         EXPECT_EQ(text_of(read_network(text).value()), text);
 }
 
-TEST(Limits, AreByAddress) {
+TEST(Limits, DependOnTheAddress) {
     std::vector<Network> const proxies{read_network("192.0.2.0/24").value()};
     auto const of = [&](std::string_view address) { return limits_of(read_address(address).value(), proxies); };
     for (auto const* loopback : {"127.0.0.1", "127.1.2.3", "::1", "::ffff:127.0.0.1"})

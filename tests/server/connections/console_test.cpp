@@ -80,7 +80,7 @@ TEST_F(Console, AnswersOtherPathsWithNotFound) {
 }
 
 // The size of all files in their sent form.
-TEST_F(Console, IsSmall) {
+TEST_F(Console, TakesLessThan300KiBCompressed) {
     constexpr std::size_t most = 300 * 1024;
     std::size_t sent = 0;
     for (auto const& [name, bytes] : files::console()) {

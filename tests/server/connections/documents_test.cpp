@@ -110,7 +110,7 @@ TEST(FloorMap, OfAnEngineWithoutOneIsNotFound) {
     EXPECT_THAT(answer.body, HasSubstr("this engine has no floor map"));
 }
 
-TEST(Page, LinksToAllOfItAndShowsTheRealAddress) {
+TEST(Page, LinksToExistingDocumentsAndShowsTheAddressOfTheRequest) {
     GatewayProcess const gateway{{"--hosts", "robot.example"}};
     HttpClient client{gateway};
     auto const page = client.say("GET /plain HTTP/1.1\r\nHost: robot.example:8080\r\n\r\n");
@@ -204,18 +204,18 @@ TEST(Metrics, HaveTheLimitsAndHowOftenTheyWereReached) {
 }
 
 // docs/metrics.md has a line for each family of metrics, and no other lines.
-TEST(Metrics, AreInTheirDocument) {
+TEST(Metrics, AreAllDocumented) {
     GatewayProcess gateway;
     HttpClient client{gateway};
     client.call("connect");
-    std::set<std::string> told, written;
+    std::set<std::string> served, documented;
     std::istringstream text{client.get("/metrics").body};
     for (std::string line; std::getline(text, line);)
-        if (line.starts_with("# TYPE ")) told.insert(line.substr(7, line.find(' ', 7) - 7));
+        if (line.starts_with("# TYPE ")) served.insert(line.substr(7, line.find(' ', 7) - 7));
     std::ifstream document{ROIS_SOURCE_DIR "/docs/metrics.md"};
     for (std::string line; std::getline(document, line);)
-        if (line.starts_with("| `")) written.insert(line.substr(3, line.find_first_of("{`", 3) - 3));
-    EXPECT_EQ(told, written);
+        if (line.starts_with("| `")) documented.insert(line.substr(3, line.find_first_of("{`", 3) - 3));
+    EXPECT_EQ(served, documented);
 }
 
 }  // namespace

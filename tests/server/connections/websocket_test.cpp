@@ -31,7 +31,7 @@ TEST(Handshake, IsAnsweredWithTheSubprotocol) {
 }
 
 // tests/net/upgrade_test.cpp has all reasons for a refusal.
-TEST(Handshake, IsPossibleAfterARefusedOne) {
+TEST(Handshake, IsPossibleAfterARefusedHandshake) {
     HttpClient http;
     auto const reply = shake_hands(http, {{"Sec-WebSocket-Version", "8"}});
     EXPECT_EQ(reply.status, 426);
@@ -41,7 +41,7 @@ TEST(Handshake, IsPossibleAfterARefusedOne) {
     EXPECT_EQ(shake_hands(http).status, 101);
 }
 
-TEST(Handshake, LeavesNothingBehindOfItsHead) {
+TEST(Handshake, ReleasesTheMemoryOfItsHead) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "memory that was given back still counts";
 #endif
@@ -59,7 +59,7 @@ TEST(Handshake, LeavesNothingBehindOfItsHead) {
     EXPECT_LT((gateway.resident_bytes() - before) / 200, 9'000U);
 }
 
-TEST(Handshake, IsForPagesOfThisServerAndThoseAllowed) {
+TEST(Handshake, AcceptsOnlyPagesOfThisServerAndAllowedOrigins) {
     GatewayProcess gateway{{"--allowed-origins", "https://console.example http://other.example:81"}};
     for (auto const* origin : {"http://localhost", "HTTP://LocalHost:80", "https://console.example", "http://other.example:81"}) {
         HttpClient http{gateway};

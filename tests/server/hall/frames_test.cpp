@@ -77,7 +77,7 @@ TEST_P(FramesOfRobots, AreTakenFromApplications) {
     EXPECT_THAT(desk.subscribe("reached_target", "", true), IsOk());
     EXPECT_THAT(drive_to("6000, 5000", map_frame), IsOk());
     desk.execute(Command{.component = "robot2.navigation", .id = "go"});
-    EXPECT_THAT(desk.hear_event("reached_target").values(), Contains(Pair("target", ElementsAre("15000, 6000"))));
+    EXPECT_THAT(desk.next_event("reached_target").values(), Contains(Pair("target", ElementsAre("15000, 6000"))));
     EXPECT_EQ(desk.status_of("go"), "OK");
     auto const there = box("14900 5900", "15100 6100"), mapped = box("5900 4900", "6100 5100", map_frame);
     auto const within = [&](Xml const& where_) {

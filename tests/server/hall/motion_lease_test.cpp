@@ -30,7 +30,7 @@ public:
     // Returns why the motion was held, and when.
     std::string held() {
         while (true) {
-            auto const notification = hear();
+            auto const notification = receive();
             if (notification.name() != "receive_error") continue;
             held_at = Clock::now();
             return ask("get_error_detail", text_element("error_id", notification.text("error_id"))).values()["text"].at(0);
@@ -73,10 +73,10 @@ TEST_F(Drive, IsHeldWhenAWebSocketIsSilent) {
     WebSocketClient driver{gateway};
     driver.call("connect", {}, {{"motion_lease", "1000"}});
     set_out(driver);
-    auto const heard_at = Clock::now();
+    auto const last_sign_of_life = Clock::now();
     watcher.held();
-    EXPECT_GT(watcher.held_at - heard_at, 900ms);
-    EXPECT_LT(watcher.held_at - heard_at, 3s);
+    EXPECT_GT(watcher.held_at - last_sign_of_life, 900ms);
+    EXPECT_LT(watcher.held_at - last_sign_of_life, 3s);
 }
 
 TEST_F(Drive, GoesOnWhileAWebSocketAnswersPings) {
@@ -89,7 +89,7 @@ TEST_F(Drive, GoesOnWhileAWebSocketAnswersPings) {
         driver.send(frame.payload, kit::Kind::pong);
         ++pings;
     }
-    EXPECT_FALSE(watcher.hear_now());
+    EXPECT_FALSE(watcher.receive_now());
 }
 
 TEST_F(Drive, IsHeldDespitePongsWithoutAPing) {
@@ -125,10 +125,10 @@ TEST_F(Drive, IsHeldWhenOnlyTheRequestsStop) {
     HttpClient driver{gateway};
     driver.call("connect", {}, {{"motion_lease_http", "1000"}});
     set_out(driver);
-    auto const heard_at = Clock::now();
+    auto const last_sign_of_life = Clock::now();
     watcher.held();
-    EXPECT_GT(watcher.held_at - heard_at, 900ms);
-    EXPECT_LT(watcher.held_at - heard_at, 3s);
+    EXPECT_GT(watcher.held_at - last_sign_of_life, 900ms);
+    EXPECT_LT(watcher.held_at - last_sign_of_life, 3s);
     EXPECT_EQ(driver.call("query", "<query_type>robot_position</query_type>").status, 200);
 }
 
@@ -143,7 +143,7 @@ TEST_F(Drive, GoesOnWithAnEventStreamAndIsHeldWhenThatCloses) {
     Application other{Way::http, gateway};
     other.connect();
     for (auto const until = Clock::now() + 1500ms; Clock::now() < until;) other.query("robot_position");
-    EXPECT_FALSE(watcher.hear_now());
+    EXPECT_FALSE(watcher.receive_now());
     stream.reset();
     auto const gone_at = Clock::now();
     watcher.held();
@@ -221,7 +221,7 @@ TEST_F(Drive, IsStoppedByStopForEverythingAndNothingStartsUntilItIsCleared) {
     desk.connect();
     desk.bind("speech_synthesis");
     EXPECT_THAT(desk.execute(speak("Hello.")), IsRefused("ERROR", "everything was stopped"));
-    EXPECT_EQ(desk.hear().name(), "receive_error");
+    EXPECT_EQ(desk.receive().name(), "receive_error");
     auto const cleared = anybody.get("/rois/clear", {}, "POST");
     EXPECT_EQ(cleared.status, 200);
     EXPECT_EQ(what_is_wrong_with(cleared), "") << cleared.body;

@@ -123,7 +123,7 @@ TEST_P(ProfilesOfUsers, BrakeAWheelchair) {
     desk.connect();
     for (auto const* ref : {"wheelchair_robot", "speech_synthesis"}) desk.bind(ref);
     desk.subscribe("wc_status_change", "", true);
-    auto const hear_status = [&] { return desk.hear_event("wc_status_change").values().at("wc_status").at(0); };
+    auto const next_status = [&] { return desk.next_event("wc_status_change").values().at("wc_status").at(0); };
     auto const brake = [&](std::string const& status) {
         desk.execute(Command{"wheelchair_robot", "brake", "brake " + status, {{"status", "bool", {status}}}});
         EXPECT_EQ(desk.status_of("brake " + status), "OK");
@@ -131,7 +131,7 @@ TEST_P(ProfilesOfUsers, BrakeAWheelchair) {
     std::vector<std::string> there_and_back;
     for (int i = 0; i < 25; ++i) there_and_back.insert(there_and_back.end(), {"meeting_room", "cloakroom"});
     desk.execute(Command{"wheelchair_robot", "start", "drive", {target_position(there_and_back)}});
-    EXPECT_EQ(hear_status(), "running");
+    EXPECT_EQ(next_status(), "running");
     brake("true");
     auto const held = desk.query("wc_status_change").values();
     EXPECT_THAT(held.at("brake_status"), ElementsAre("true"));
@@ -173,7 +173,7 @@ TEST_P(ProfilesOfUsers, AreReadAgainAfterAHangUp) {
 
     folder_.put("fan.xml", fan());
     gateway.signal(SIGHUP);
-    EXPECT_EQ(desk.hear().name(), "profile_changed");
+    EXPECT_EQ(desk.receive().name(), "profile_changed");
     EXPECT_THAT(desk.search(), AllOf(testing::Contains("fan"), testing::Contains("lamp")));
     EXPECT_EQ(desk.execute(Command{"lamp", "start", "still mine"}).return_code(), "OK") << "the lamp has not changed";
     EXPECT_EQ(desk.status_of("still mine"), "OK");
@@ -182,7 +182,7 @@ TEST_P(ProfilesOfUsers, AreReadAgainAfterAHangUp) {
 
     folder_.put("lamp.xml", lamp("green"));
     gateway.signal(SIGHUP);
-    EXPECT_EQ(desk.hear().name(), "profile_changed");
+    EXPECT_EQ(desk.receive().name(), "profile_changed");
     EXPECT_EQ(desk.execute(Command{"lamp"}).return_code(), "ERROR") << "another lamp is not bound";
     EXPECT_THAT(desk.query("light").values().at("colour"), ElementsAre("green"));
     EXPECT_NE(client.get("/rois/profile/lamp").header("ETag"), lamp_before);
@@ -190,7 +190,7 @@ TEST_P(ProfilesOfUsers, AreReadAgainAfterAHangUp) {
     folder_.remove("lamp.xml");
     folder_.remove("fan.xml");
     gateway.signal(SIGHUP);
-    EXPECT_EQ(desk.hear().name(), "profile_changed");
+    EXPECT_EQ(desk.receive().name(), "profile_changed");
     EXPECT_EQ(desk.bind("lamp").return_code(), "BAD_PARAMETER");
     EXPECT_EQ(client.get("/rois/profile/lamp").status, 404);
 }
@@ -205,7 +205,7 @@ TEST_P(ProfilesOfUsers, ThatAreInvalidLeaveTheComponentsUnchanged) {
     folder_.put("lamp.xml", lamp("red") + "<and/>");
     folder_.put("broken.xml", fan());
     gateway.signal(SIGHUP);
-    EXPECT_EQ(desk.hear().name(), "profile_changed");
+    EXPECT_EQ(desk.receive().name(), "profile_changed");
     EXPECT_EQ(desk.execute(Command{"lamp", "start", "on"}).return_code(), "OK") << "it is still there and bound";
     EXPECT_EQ(desk.bind("fan").return_code(), "OK");
     desk.disconnect();
@@ -225,7 +225,7 @@ TEST_P(ProfilesOfUsers, WithOneNameReplaceEachOther) {
     EXPECT_THAT(desk.search(lamps_of_b), testing::IsEmpty());
     folder_.remove("a.xml");
     gateway.signal(SIGHUP);
-    EXPECT_EQ(desk.hear().name(), "profile_changed");
+    EXPECT_EQ(desk.receive().name(), "profile_changed");
     EXPECT_THAT(desk.search(lamps_of_b), ElementsAre("lamp"));
 }
 

@@ -39,8 +39,8 @@ Pose place_before(Pose const& person, double turn) {
 double distance(Pose const& a, Pose const& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 std::ostream& operator<<(std::ostream& out, Received const& received) {
-    out << "{" << received.visitor << ", told \"" << received.told << "\", heard";
-    for (auto const& words : received.heard) out << " \"" << words << "\"";
+    out << "{" << received.visitor << ", message \"" << received.message << "\", answers";
+    for (auto const& words : received.answers) out << " \"" << words << "\"";
     return out << "}";
 }
 
@@ -60,12 +60,12 @@ Received Reception::receive() {
     auto const person = approach();
     Received received;
     received.visitor = identify();
-    received.told = "Welcome. How can I help you?";
+    received.message = "Welcome. How can I help you?";
     if (!received.visitor.empty()) {
-        auto const message = messages_.find(received.visitor);
-        received.told = message == messages_.end() ? "Welcome. There is no message for you today." : message->second;
+        auto const own = messages_.find(received.visitor);
+        received.message = own == messages_.end() ? "Welcome. There is no message for you today." : own->second;
     }
-    received.heard = say_and_listen(received.told);
+    received.answers = say_and_listen(received.message);
     bow();
     run({{.component = "speech_synthesis", .id = fresh_id("say"), .arguments = {speech_text("Goodbye.")}}});
     received_.push_back(person);
@@ -84,18 +84,18 @@ Pose Reception::where() { return pose_of(engine_.query("robot_position").values(
 
 void Reception::wait_for_a_person() {
     run({{.component = "person_detection", .id = fresh_id("detect")}});
-    while (engine_.hear_event("person_detected").values()["number"].at(0) == "0") {
+    while (engine_.next_event("person_detected").values()["number"].at(0) == "0") {
     }
     run({{.component = "person_detection", .type = "stop", .id = fresh_id("detected")}});
 }
 
 std::vector<Reception::Person> Reception::standing() {
-    auto const heard =
+    auto const notifications =
         run({{.component = "person_localization", .id = fresh_id("locate")},
              {.component = "person_localization", .type = "stop", .id = fresh_id("located"), .delay = watches_for}});
     std::map<std::string, Pose> first;
     std::vector<Person> here;  // at the last notification
-    for (auto const& one : heard) {
+    for (auto const& one : notifications) {
         if (one.text("event_type") != "person_localized") continue;
         here.clear();
         auto const results = one.values();
@@ -134,27 +134,27 @@ Pose Reception::approach() {
 bool Reception::go_to(Pose const& pose) {
     auto const id = fresh_id("go");
     driven_.push_back(id);
-    auto const heard =
+    auto const notifications =
         run({{.component = "navigation", .id = id, .arguments = {target_position({text_of(pose)}), time_limit("90000")}}});
-    return heard.back().text("status") == "OK";
+    return notifications.back().text("status") == "OK";
 }
 
 std::string Reception::identify() {
-    auto const heard =
+    auto const notifications =
         run({{.component = "person_identification", .id = fresh_id("identify")},
              {.component = "person_identification", .type = "stop", .id = fresh_id("identified"), .delay = looks_for}});
-    for (auto const& one : heard)
+    for (auto const& one : notifications)
         if (one.text("event_type") == "person_identified") return one.values()["person_ref"].at(0);
     return "";
 }
 
 std::vector<std::string> Reception::say_and_listen(std::string const& text) {
-    auto const heard =
+    auto const notifications =
         run({{.component = "speech_recognition", .id = fresh_id("listen")},
              {.component = "speech_synthesis", .id = fresh_id("say"), .arguments = {speech_text(text)}},
              {.component = "speech_recognition", .type = "stop", .id = fresh_id("listened"), .delay = listens_for}});
     std::vector<std::string> words;
-    for (auto const& one : heard)
+    for (auto const& one : notifications)
         if (one.text("event_type") == "speech_recognized") words.push_back(one.values()["recognized_text"].at(0));
     return words;
 }

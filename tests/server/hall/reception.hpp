@@ -12,9 +12,9 @@ namespace rois::test {
 
 // The outcome for one visitor.
 struct Received {
-    std::string visitor;             // the permanent id; empty if the visitor was not identified
-    std::string told;                // words of the robot
-    std::vector<std::string> heard;  // words of the visitor
+    std::string visitor;               // the permanent id; empty if the visitor was not identified
+    std::string message;               // words of the robot
+    std::vector<std::string> answers;  // words of the visitor
 
     bool operator==(Received const&) const = default;
 };

@@ -28,23 +28,23 @@ std::vector<std::string> completed(std::vector<Document> const& history) {
 }
 
 // Returns the notifications after the previous `completed` up to that of this command.
-std::vector<Document> told_by(std::string const& id, std::vector<Document> const& history) {
-    std::vector<Document> told;
+std::vector<Document> notifications_of(std::string const& id, std::vector<Document> const& history) {
+    std::vector<Document> notifications;
     for (auto const& one : history) {
-        told.push_back(one);
+        notifications.push_back(one);
         if (!is_completed(one)) continue;
-        if (one.text("command_id") == id) return told;
-        told.clear();
+        if (one.text("command_id") == id) return notifications;
+        notifications.clear();
     }
     return {};
 }
 
 void expect_targets_before_their_completed(Reception const& reception) {
     for (auto const& id : reception.driven()) {
-        auto const told = lines(told_by(id, reception.history()));
-        auto const arrived = told.back() == "completed " + id + " OK";
+        auto const received = lines(notifications_of(id, reception.history()));
+        auto const arrived = received.back() == "completed " + id + " OK";
         bool const unsubscribed = id == reception.driven().back();
-        EXPECT_EQ(std::ranges::count(told, "reached_target"), arrived && !unsubscribed ? 1 : 0) << id;
+        EXPECT_EQ(std::ranges::count(received, "reached_target"), arrived && !unsubscribed ? 1 : 0) << id;
     }
 }
 
@@ -56,7 +56,7 @@ TEST_P(TheReception, ReceivesFourVisitors) {
     Reception reception{GetParam(), gateway, {{"tanaka", message_for_tanaka}}};
     std::vector<Received> received;
     for (int i = 0; i < 4; ++i) received.push_back(reception.receive());
-    auto const heard_until_closed = reception.history().size();
+    auto const received_until_closed = reception.history().size();
     reception.close();
 
     Received const tanaka{"tanaka", message_for_tanaka, {"Room 3, thank you."}};
@@ -67,7 +67,7 @@ TEST_P(TheReception, ReceivesFourVisitors) {
 
     EXPECT_EQ(completed(reception.history()), reception.commanded()) << "each once, and in the order commanded";
     expect_targets_before_their_completed(reception);
-    for (auto i = heard_until_closed; i < reception.history().size(); ++i)
+    for (auto i = received_until_closed; i < reception.history().size(); ++i)
         EXPECT_TRUE(is_completed(reception.history()[i])) << "after unsubscribe: " << reception.history()[i].whole();
     EXPECT_LT(distance(reception.where(), reception.start()), 150);
 }
@@ -107,7 +107,7 @@ void wait_for_tanaka(GatewayProcess const& gateway) {
     Pose const end{9'000, 4'500};
     Pose now;
     while (distance(now, end) > 300) {
-        auto const text = guard.hear_event("person_localized").values()["position_data"].at(0);
+        auto const text = guard.next_event("person_localized").values()["position_data"].at(0);
         std::sscanf(text.c_str(), "%lf, %lf", &now.x, &now.y);
     }
 }
@@ -137,7 +137,7 @@ TEST(TheReceptionScript, WaitsUntilAVisitorStands) {
     EXPECT_THAT(text, Not(HasSubstr("//rois"))) << "a slash at the end of ROIS_URL does no harm";
 }
 
-TEST(TheReceptionScript, SaysHowItIsUsed) {
+TEST(TheReceptionScript, PrintsItsUsageAndRejectsInvalidArguments) {
     std::string const script = ROIS_SOURCE_DIR "/docs/examples/reception.sh ";
     EXPECT_THAT(printed_by(script + "-h"), StartsWith("use: reception.sh [VISITORS]"));
     for (auto const* bad : {"abc", "0", "-1", "''", "99999999", "1.5"}) {

@@ -73,7 +73,7 @@ TEST_P(StillHall, MovesOnlyWhileTimePasses) {
     EXPECT_EQ(desk.get_command_result("go").values()["status"].front(), "OK");
 }
 
-TEST_P(StillHall, TheRobotAvoidsSteeredVisitors) {
+TEST_P(StillHall, TheRobotIdentifiesAndUnderstandsSteeredVisitors) {
     for (auto const* event : {"person_identified", "speech_recognized", "gesture_recognized"}) desk.subscribe(event, {}, true);
     run({{.component = "person_identification"},
          {.component = "speech_recognition"},
@@ -82,12 +82,13 @@ TEST_P(StillHall, TheRobotAvoidsSteeredVisitors) {
         20);
     EXPECT_EQ(desk.query("visitors").values()["visitor_ref"], std::vector<std::string>{"anna"});
     EXPECT_THAT(lines(run({walk("anna", "7500, 6000, 180")}, 10'000)), Contains("person_identified"));
-    auto const heard =
+    auto const notifications =
         run({say("anna", "Good morning."), steer("gesture", {who("anna"), {"gesture", "string", {"wave"}}})}, 3'000);
-    EXPECT_THAT(lines(heard), Contains("speech_recognized"));
-    EXPECT_THAT(lines(heard), Contains("gesture_recognized"));
-    auto const recognized = std::ranges::find(heard, "speech_recognized", [](auto const& one) { return one.text("event_type"); });
-    ASSERT_NE(recognized, heard.end());
+    EXPECT_THAT(lines(notifications), Contains("speech_recognized"));
+    EXPECT_THAT(lines(notifications), Contains("gesture_recognized"));
+    auto const recognized =
+        std::ranges::find(notifications, "speech_recognized", [](auto const& one) { return one.text("event_type"); });
+    ASSERT_NE(recognized, notifications.end());
     EXPECT_EQ(recognized->values()["recognized_text"], std::vector<std::string>{"Good morning."});
     run({steer("leave", {who("anna")})}, 30'000);
     EXPECT_THAT(desk.query("visitors").values()["visitor_ref"], IsEmpty());
@@ -144,12 +145,12 @@ std::vector<std::string> story(std::vector<int> const& passes) {
         desk.execute(let_pass(time, "pass-" + std::to_string(++pass)));
         desk.status_of("pass-" + std::to_string(pass));
     }
-    std::vector<std::string> told{desk.query("robot_position").values()["position_data"].front()};
+    std::vector<std::string> positions{desk.query("robot_position").values()["position_data"].front()};
     for (auto const& news : desk.history())
-        if (news.text("event_type") == "person_localized") told.push_back(news.values()["position_data"].front());
+        if (news.text("event_type") == "person_localized") positions.push_back(news.values()["position_data"].front());
     auto const truth = desk.query("visitors").values()["position_data"];
-    told.insert(told.end(), truth.begin(), truth.end());
-    return told;
+    positions.insert(positions.end(), truth.begin(), truth.end());
+    return positions;
 }
 
 TEST(StillHallHistory, DoesNotDependOnTheSizeOfTheTimeSteps) {

@@ -58,12 +58,12 @@ protected:
         return one(desk.query("get_stream_status", where(equal("stream_id", stream))).values(), "status");
     }
 
-    // Skips notifications until one reports this status of the stream; begins after the last such notification.
-    void hear(Agreed const& stream, std::string const& status_heard) {
+    // Waits for a notification of this status of the stream. Begins after the last one that it read.
+    void await_status(Agreed const& stream, std::string const& expected) {
         while (true) {
-            if (heard_ == desk.history().size()) desk.hear();
-            auto const told = desk.history()[heard_++].values();
-            if (one(told, "stream_id") == stream.id && one(told, "status") == status_heard) return;
+            if (read_ == desk.history().size()) desk.receive();
+            auto const values = desk.history()[read_++].values();
+            if (one(values, "stream_id") == stream.id && one(values, "status") == expected) return;
         }
     }
 
@@ -73,7 +73,7 @@ protected:
     }
 
 private:
-    std::size_t heard_ = 0;  // of the desk's history
+    std::size_t read_ = 0;  // number of notifications of the desk's history that were read
 };
 
 ROIS_OVER_BOTH_WAYS(Streaming);
@@ -83,24 +83,24 @@ TEST_P(Streaming, SoundIsServedByHttp) {
     set("audio_streaming", "audio/wav;rate=8000", "http");
     auto const stream = connect("audio_streaming");
     EXPECT_EQ(stream.encoding, "audio/wav;rate=8000;channels=1");
-    hear(stream, "STREAMING_NOT_RUNNING");
+    await_status(stream, "STREAMING_NOT_RUNNING");
     EXPECT_EQ(status(stream.id), "STREAMING_NOT_RUNNING");
     Receiving receiving{stream.transport};
     EXPECT_THAT(receiving.head(), AllOf(StartsWith("HTTP/1.1 200 "), HasSubstr("Content-Type: audio/wav")));
     receiving.line().take(44);
     EXPECT_GT(share_of(440, samples_of(receiving.line().take(3'200), ByteOrder::little_endian), 8'000), 0.999);
-    hear(stream, "STREAMING_RUNNING");
+    await_status(stream, "STREAMING_RUNNING");
     EXPECT_EQ(status(stream.id), "STREAMING_RUNNING");
     EXPECT_EQ(outcome("audio_streaming", "suspend_stream", stream.id), "OK");
-    hear(stream, "STREAMING_SUSPENDED");
+    await_status(stream, "STREAMING_SUSPENDED");
     EXPECT_EQ(status(stream.id), "STREAMING_SUSPENDED");
     EXPECT_EQ(outcome("audio_streaming", "resume_stream", stream.id), "OK");
-    hear(stream, "STREAMING_RESUMED");
+    await_status(stream, "STREAMING_RESUMED");
     EXPECT_EQ(status(stream.id), "STREAMING_RESUMED");
     EXPECT_GT(share_of(440, samples_of(receiving.line().take(3'200), ByteOrder::little_endian), 8'000), 0.999);
     EXPECT_EQ(outcome("audio_streaming", "disconnect_stream", stream.id), "OK");
     receiving.line().rest();
-    hear(stream, "STREAMING_NOT_CONNECTED");
+    await_status(stream, "STREAMING_NOT_CONNECTED");
     EXPECT_EQ(status(stream.id), "STREAMING_NOT_CONNECTED");
     EXPECT_THAT(Receiving{stream.transport}.head(), StartsWith("HTTP/1.1 404 "));
 }
@@ -112,7 +112,7 @@ TEST_P(Streaming, SoundHasThePitchOfTheVoiceThatSpeaks) {
     auto const stream = connect("audio_streaming");
     Receiving receiving{stream.transport};
     receiving.line().take(44);
-    auto const is_heard = [&](double pitch) {
+    auto const is_audible = [&](double pitch) {
         for (int piece = 0; piece < 100; ++piece)
             if (share_of(pitch, samples_of(receiving.line().take(3'200), ByteOrder::little_endian), 8'000) > 0.999) return true;
         return false;
@@ -122,10 +122,10 @@ TEST_P(Streaming, SoundHasThePitchOfTheVoiceThatSpeaks) {
             Command{.component = "speech_synthesis",
                     .id = std::string{"as "} + character,
                     .arguments = {{"character", "string", {character}}, {"speech_text", "string", {std::string(600, 'a')}}}});
-        EXPECT_TRUE(is_heard(pitch)) << character;
+        EXPECT_TRUE(is_audible(pitch)) << character;
     }
     desk.execute(Command{.component = "speech_synthesis", .type = "stop"});
-    EXPECT_TRUE(is_heard(440)) << "the robot is silent";
+    EXPECT_TRUE(is_audible(440)) << "the robot is silent";
 }
 
 TEST_P(Streaming, SoundIsSentByRtp) {
@@ -146,7 +146,7 @@ TEST_P(Streaming, SoundIsSentByRtp) {
         sound += next.payload;
     }
     EXPECT_GT(share_of(440, samples_of(sound, ByteOrder::big_endian), 16'000), 0.999);
-    hear(stream, "STREAMING_RUNNING");
+    await_status(stream, "STREAMING_RUNNING");
     set("audio_streaming", "", "");
 }
 
@@ -167,7 +167,7 @@ TEST_P(Streaming, TheHallIsSeenFromAbove) {
     auto const [red, green, blue] = picture.at(static_cast<int>(x / 20), 599 - static_cast<int>(y / 20));
     EXPECT_GT(green, red + 50) << "the robot is where it says that it is";
     EXPECT_GT(green, blue + 30);
-    hear(stream, "STREAMING_RUNNING");
+    await_status(stream, "STREAMING_RUNNING");
     set("video_streaming", "", "");
 }
 
@@ -177,7 +177,7 @@ TEST_P(Streaming, EndsWithTheBinding) {
     Receiving receiving{stream.transport};
     EXPECT_THAT(desk.release("audio_streaming"), IsOk());
     receiving.line().rest();
-    hear(stream, "STREAMING_NOT_CONNECTED");
+    await_status(stream, "STREAMING_NOT_CONNECTED");
 }
 
 TEST_P(Streaming, EndsWithTheSession) {
@@ -195,7 +195,7 @@ TEST_P(Streaming, EndsWithTheSession) {
     receiving->line().rest();
 }
 
-TEST(StreamingAddress, IsThePublicOne) {
+TEST(StreamingAddress, IsThePublicAddress) {
     GatewayProcess const gateway{{"--media", "127.0.0.1:0", "--media-url", "https://robots.example/media"}};
     Application desk{Way::http, gateway};
     desk.connect();

@@ -122,7 +122,7 @@ struct Robots : testing::TestWithParam<Way> {
 };
 ROIS_OVER_BOTH_WAYS(Robots);
 
-TEST_P(Robots, TheNearestFreeOneIsBound) {
+TEST_P(Robots, TheNearestFreeRobotIsBound) {
     auto const bind_nearest = [&](Application& who) { return who.ask("bind_any", ordered(drives, nearest("exhibit"))); };
     EXPECT_EQ(bind_nearest(desk).ref(), "robot2.navigation");
     EXPECT_EQ(bind_nearest(rival).ref(), "navigation");
@@ -170,7 +170,7 @@ TEST_P(Robots, AreEnginesOfTheHall) {
     EXPECT_THAT(desk.search(where(compared("NotEqualTo", "engine", "robot1"))), AllOf(SizeIs(15), Contains("robot2.move")));
 }
 
-TEST_P(Robots, SystemInformationIsOfAllOfThem) {
+TEST_P(Robots, SystemInformationReportsAllRobots) {
     auto const answer = desk.query("robot_position");
     auto const values = answer.values();
     EXPECT_EQ(answer.ref(), "system_information");
@@ -207,7 +207,7 @@ TEST_P(Visitor, IsReportedOnlyWithinTheBox) {
         desk.subscribe("person_localized", where(related("Within", "position_data", box("8000 3500", "10000 5500"))), true);
     EXPECT_THAT(there, IsOk());
     localize();
-    auto const event = desk.hear_event("person_localized");
+    auto const event = desk.next_event("person_localized");
     EXPECT_EQ(event.text("subscribe_id"), there.text("subscribe_id"));
     std::string const text = event.root().child("results").child("located").child("position").text().get();
     EXPECT_GE(std::stod(text), 8000) << text;
@@ -238,7 +238,7 @@ TEST_P(TalkingVisitor, IsRecognizedOnlyWhenAskingForHelp) {
         "<fes:ValueReference>recognized_text</fes:ValueReference><fes:Literal>*help*</fes:Literal></fes:PropertyIsLike>";
     EXPECT_THAT(desk.subscribe("speech_recognized", where(asks), true), IsOk());
     desk.execute(Command{.component = "speech_recognition"});
-    EXPECT_THAT(desk.hear_event("speech_recognized").values()["recognized_text"], ElementsAre("Can you HELP me, please?"));
+    EXPECT_THAT(desk.next_event("speech_recognized").values()["recognized_text"], ElementsAre("Can you HELP me, please?"));
 }
 
 }  // namespace

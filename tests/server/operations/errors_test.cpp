@@ -37,7 +37,7 @@ ROIS_OVER_BOTH_WAYS(Errors);
 TEST_P(Errors, OfACommandEndItsSequence) {
     EXPECT_THAT(desk.execute(unit(drive("drive")) + unit({.component = "navigation", .type = "stop", .id = "next"})), IsOk());
     EXPECT_EQ(desk.status_of("next"), "ABORT");
-    auto const error = desk.hear();
+    auto const error = desk.receive();
     EXPECT_THAT(lines(desk.history()), ElementsAre("completed drive ERROR", "completed next ABORT", "receive_error"));
     EXPECT_THAT(error.children(), ElementsAre("error_id", "error_type", "component_ref"));
     EXPECT_EQ(error.text("error_type"), "COMPONENT_INTERNAL_ERROR");
@@ -47,7 +47,7 @@ TEST_P(Errors, OfACommandEndItsSequence) {
 TEST_P(Errors, HaveDetails) {
     desk.execute(drive("drive"));
     desk.status_of("drive");
-    auto const id = desk.hear().text("error_id");
+    auto const id = desk.receive().text("error_id");
     auto const detail = detail_of(id);
     EXPECT_THAT(detail, IsOk());
     EXPECT_THAT(detail.children(), ElementsAre("results"));
@@ -66,7 +66,7 @@ TEST_P(Errors, ReachSessionsThatHaveTheComponentBoundOrSubscribed) {
     witness.connect();
     EXPECT_THAT(witness.subscribe("reached_target"), IsOk());
     desk.execute(drive("drive"));
-    EXPECT_EQ(witness.hear().name(), "receive_error");
+    EXPECT_EQ(witness.receive().name(), "receive_error");
     EXPECT_THAT(other.bind("reaction"), IsOk());
     other.execute({.component = "reaction", .type = "stop", .id = "fence"});
     EXPECT_EQ(other.status_of("fence"), "OK");
@@ -88,7 +88,7 @@ TEST_P(Errors, AreReturnedByQueries) {
 TEST_P(Errors, OfAComponentThatDoesNotStartAreTimeouts) {
     desk.execute(unit(speak("Hello?", "speech")) + unit({.component = "speech_synthesis", .type = "stop", .id = "next"}));
     EXPECT_EQ(desk.status_of("next"), "ABORT");
-    auto const error = desk.hear();
+    auto const error = desk.receive();
     EXPECT_THAT(lines(desk.history()), ElementsAre("completed speech TIMEOUT", "completed next ABORT", "receive_error"));
     EXPECT_EQ(error.text("error_type"), "COMPONENT_NOT_RESPONDING");
     EXPECT_EQ(error.ref(), "speech_synthesis");
@@ -110,18 +110,18 @@ TEST_P(OtherFaults, AQueryToASilentComponentReportsThatItDoesNotRespond) {
     EXPECT_THAT(desk.query("robot_position"), IsRefused("TIMEOUT", "in time")) << "it is not bound yet";
     EXPECT_THAT(desk.bind("system_information"), IsOk());
     for (int i = 0; i < 3; ++i) EXPECT_THAT(desk.query("robot_position"), IsRefused("TIMEOUT", "in time"));
-    auto const error = desk.hear();
+    auto const error = desk.receive();
     EXPECT_EQ(error.text("error_type"), "COMPONENT_NOT_RESPONDING");
     EXPECT_EQ(error.ref(), "system_information");
     EXPECT_THAT(desk.bind("reaction"), IsOk());
     desk.execute({.component = "reaction", .type = "stop", .id = "fence"});
     EXPECT_EQ(desk.status_of("fence"), "OK");
-    EXPECT_THAT(lines(desk.history()), ElementsAre("receive_error", "completed fence OK")) << "told once";
+    EXPECT_THAT(lines(desk.history()), ElementsAre("receive_error", "completed fence OK")) << "reported once";
 }
 
 TEST_P(OtherFaults, AComplainingComponentReportsItsOwnError) {
     EXPECT_THAT(desk.bind("move"), IsOk());
-    auto const error = desk.hear();
+    auto const error = desk.receive();
     EXPECT_EQ(error.name(), "receive_error");
     EXPECT_EQ(error.text("error_type"), "USER_DEFINED_ERROR");
     EXPECT_EQ(error.ref(), "move");

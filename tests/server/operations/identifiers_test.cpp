@@ -30,8 +30,8 @@ ROIS_OVER_BOTH_WAYS(Decision31);
 
 TEST_P(Decision31, IdentifiersAreOfAKnownCodebook) {
     EXPECT_THAT(set("reaction", identifier("reaction_ref", "9", "")), IsOk());
-    auto const told = desk.ask("get_parameter", element("component_ref", {{"rois:code", "reaction"}}));
-    EXPECT_EQ(told.root()
+    auto const reply = desk.ask("get_parameter", element("component_ref", {{"rois:code", "reaction"}}));
+    EXPECT_EQ(reply.root()
                   .select_node("parameters/parameter[@rois:name='reaction_ref']/rois:data_type_ref")
                   .node()
                   .attribute("rois:codebook_ref")

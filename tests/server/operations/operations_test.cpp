@@ -77,7 +77,7 @@ TEST_P(Operations, EventDetailsExpire) {
     application.bind("person_detection");
     application.subscribe("person_detected");
     application.execute(Command{.component = "person_detection"});
-    auto const id = application.hear_event("person_detected").text("event_id");
+    auto const id = application.next_event("person_detected").text("event_id");
     auto answer = application.get_event_detail(id);
     while (answer.return_code() == "OK") answer = application.get_event_detail(id);
     EXPECT_THAT(answer, IsRefused("BAD_PARAMETER", "expired"));

@@ -67,9 +67,9 @@ TEST_F(Slow, ADelayedAnswerHoldsBackNothingElse) {
     desk.call("execute",
               kit::sequence(kit::unit({.component = "speech_synthesis", .id = "say", .arguments = {speech_text("Hello.")}})));
     desk.ask("query", position_query());
-    auto const heard = desk.next_document();
-    EXPECT_STREQ(heard.name(), "completed");
-    EXPECT_STREQ(heard.child("command_id").text().get(), "say");
+    auto const notification = desk.next_document();
+    EXPECT_STREQ(notification.name(), "completed");
+    EXPECT_STREQ(notification.child("command_id").text().get(), "say");
 }
 
 TEST_F(Slow, NotificationsWaitForTheAnswerThatCausedThem) {

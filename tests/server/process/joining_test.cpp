@@ -87,7 +87,7 @@ TEST(Joining, AgainReplacesTheOlderLink) {
     EXPECT_THROW(first.next_document(), kit::LineEnded);
 }
 
-TEST(Joining, AnswersWhatIsNotAJoinWithAFault) {
+TEST(Joining, AnswersOtherDocumentsWithAFault) {
     Main main;
     JoiningClient client{main};
     auto const fault = client.call("connect");

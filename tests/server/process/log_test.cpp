@@ -141,7 +141,7 @@ TEST_F(TheLog, CountsLinesWhoseQuotedTextHasQuotationMarksAsOneCause) {
     EXPECT_EQ(std::ranges::count(pipe.read_now(), '\n'), 10);
 }
 
-TEST_F(TheLog, DropsTheOldestLinesAndSaysHowMany) {
+TEST_F(TheLog, DropsTheOldestLinesAndReportsTheirNumber) {
     pipe.fill();
     limits.a_second = 1'000;
     limits.now = std::chrono::steady_clock::now;
@@ -155,7 +155,7 @@ TEST_F(TheLog, DropsTheOldestLinesAndSaysHowMany) {
     EXPECT_LE(log.dropped(), 400);
 }
 
-TEST_F(TheLog, EndsInTimeWhenNobodyReads) {
+TEST_F(TheLog, EndsWithin2SecondsWithoutAReader) {
     pipe.fill();
     limits.now = std::chrono::steady_clock::now;
     auto const begin = std::chrono::steady_clock::now();

@@ -96,8 +96,8 @@ TEST(Shutdown, NamesComponentsThatDidNotHaltInTime) {
 
 TEST(Shutdown, DoesNotWaitForClientsThatNeverRead) {
     GatewayProcess gateway{{"--shutdown-timeout", "0.5"}};
-    WebSocketClient deaf{gateway};
-    deaf.call("connect");
+    WebSocketClient silent{gateway};
+    silent.call("connect");
     HttpClient half{gateway};
     half.line().send("GET /heal");
     gateway.signal(SIGTERM);

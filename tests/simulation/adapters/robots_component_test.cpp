@@ -150,11 +150,11 @@ TEST_F(Engaged, ComponentsReportTheResultsOfTheirProfiles) {
     EXPECT_EQ(start("audio_streaming", {}, "connect_stream"), ReturnCode::ok);
     run(std::chrono::seconds{40});
 
-    std::set<std::string> heard;
+    std::set<std::string> received;
     for (auto const& entry : engine_->notifications(session_)->read(0, 10'000)) {
         auto const* event = std::get_if<ReceiveEvent>(&entry.notification->body);
         if (event == nullptr) continue;
-        heard.insert(event->event_type);
+        received.insert(event->event_type);
         auto const& results = promised.at(event->event_type)->results;
         ASSERT_EQ(event->results->parameters.size(), results.size()) << event->event_type;
         for (auto const& result : results) {
@@ -164,7 +164,7 @@ TEST_F(Engaged, ComponentsReportTheResultsOfTheirProfiles) {
             EXPECT_EQ(why_not(DataType::of(result.data_type_ref), reported->values), std::nullopt) << result.name;
         }
     }
-    EXPECT_EQ(heard.size(), promised.size()) << testing::PrintToString(heard);
+    EXPECT_EQ(received.size(), promised.size()) << testing::PrintToString(received);
 }
 
 TEST_F(Engaged, ComponentsHaveTheParametersOfTheirProfiles) {

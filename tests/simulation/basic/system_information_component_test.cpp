@@ -76,7 +76,7 @@ TEST(SystemInformation, AnswersNoOtherQuery) {
     EXPECT_THAT(stage["system_information"].rows("weather"), testing::IsEmpty());
 }
 
-TEST(SystemInformation, IsOfItsOwnRobot) {
+TEST(SystemInformation, ReportsOnlyItsOwnRobot) {
     Stage stage{{}, reception_with_two_robots()};
     stage.step();
     EXPECT_THAT(values(stage["robot2.system_information"].query("robot_position"), "robot_ref"), ElementsAre("robot2"));

@@ -84,7 +84,7 @@ TEST(Drive, StandsWithinThreeTenthsOfASecondWhenStoppedHeldOrBraked) {
                 0.13, 0.02);
 }
 
-TEST(Drive, StopsTurningAsSoon) {
+TEST(Drive, StopsTurningWithinThreeTenthsOfASecond) {
     Hall hall{plain_hall(), nobody(), 1};
     Drive& drive = hall.drive(robot1);
     auto const turn = drive.begin("move", Line{0, from_degrees(170)});

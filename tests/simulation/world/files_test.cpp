@@ -209,7 +209,7 @@ TEST(ScenarioFile, RefusesFaultsOfUnknownComponents) {
     EXPECT_EQ(of_a_user.faults.at(0).component, "dishwasher");
 }
 
-TEST(ShippedFiles, AreWithoutFlaw) {
+TEST(ShippedFiles, AreValid) {
     for (auto name : {"reception-hall.xml", "two-robots.xml"}) {
         FloorPlan const plan = shipped_plan(name);
         EXPECT_FALSE(flaw(plan)) << name;

@@ -23,7 +23,7 @@ std::string lines(xml::Element const& element) {
 }
 std::string lines(std::string document) { return lines(xml::Document::parse(schemas(), "map.xml", std::move(document)).root()); }
 
-TEST(FloorMapDocument, OfTheHallWithTwoRobotsIsTheSample) {
+TEST(FloorMapDocument, OfTheHallWithTwoRobotsEqualsTheSample) {
     std::ifstream sample{ROIS_SOURCE_DIR "/schemas/samples/floor_map.xml"};
     EXPECT_EQ(lines(xml::encode(floor_map(shipped_plan("two-robots.xml")))),
               lines(std::string{std::istreambuf_iterator<char>{sample}, {}}));

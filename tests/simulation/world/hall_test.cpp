@@ -113,7 +113,7 @@ TEST_P(LongRun, PeopleAndRobotsNeverTouchWallsOrEachOther) {
 }
 INSTANTIATE_TEST_SUITE_P(Shipped, LongRun, testing::Values("reception-hall.xml", "two-robots.xml"));
 
-TEST(ShippedDay, SomebodyComesSoonAndThenAgainAndAgain) {
+TEST(ShippedDay, VisitorsComeSoonAndRepeatedly) {
     FloorPlan const plan = shipped_plan("reception-hall.xml");
     Hall hall{plan, reception_day(plan), 1};
     std::vector<Seconds> entries;

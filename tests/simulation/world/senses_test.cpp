@@ -116,7 +116,7 @@ TEST(PeopleRecognized, AreNearAndTurnedToTheRobot) {
     EXPECT_TRUE(people_recognized(*hall_with(plain_hall(), staying(Point{4, 4}, {Point{8, 4}})), robot1).empty());
 }
 
-TEST(PeopleRecognized, StrangersStayStrangers) {
+TEST(PeopleRecognized, HaveNoPermanentIdIfTheyAreStrangers) {
     Role role = staying(Point{4, 4}, {"robot1"});
     role.known = false;
     auto const hall = hall_with(plain_hall(), role);

@@ -57,11 +57,11 @@ async function receive(client: Client, visitors: number): Promise<void> {
   async function ask(question: string): Promise<string | undefined> {
     await recognition.listen();
     await synthesis.say(question);
-    const heard = (await recognized.next(10_000))?.results.text('recognized_text');
+    const answer = (await recognized.next(10_000))?.results.text('recognized_text');
     await recognition.stop();
     recognized.clear();
-    if (heard !== undefined) await synthesis.say('I shall tell my colleagues at the desk.');
-    return heard;
+    if (answer !== undefined) await synthesis.say('I shall tell my colleagues at the desk.');
+    return answer;
   }
   for (let received = 0; received < visitors; ) {
     await navigation.go_to(start); // where the robot sees the hall
@@ -77,11 +77,11 @@ async function receive(client: Client, visitors: number): Promise<void> {
     met.add(person);
     if (met.has(visitor)) continue;
     const message = messages[visitor] ?? 'Welcome. There is no message for you today.';
-    const heard = visitor === 'somebody' ? await ask(message) : void (await synthesis.say(message));
+    const answer = visitor === 'somebody' ? await ask(message) : void (await synthesis.say(message));
     if (visitor !== 'somebody') met.add(visitor);
     await reaction.react(9);
     await synthesis.say('Goodbye.');
-    console.log(`${visitor}: told "${message}"${heard === undefined ? '' : `, heard "${heard}"`}`);
+    console.log(`${visitor}: told "${message}"${answer === undefined ? '' : `, heard "${answer}"`}`);
     received += 1;
   }
   await navigation.go_to(start);

@@ -15,7 +15,7 @@ export interface EverythingOptions {
 /**
  * Halts every component of every session; nothing starts until `clear_everything`. Gives the state afterwards: `not_halted` names the components
  * that have not confirmed yet that they stand still. Rejects with RoisError: `unreachable` without an answer, `fault` when the gateway refuses,
- * `protocol` when the answer is not a stop_state document. A page may stop only the gateway that serves it: it is not told the answers of others.
+ * `protocol` when the answer is not a stop_state document. A page may stop only the gateway that serves it: the browser hides the answers of others.
  */
 export function stop_everything(url: string, options: EverythingOptions = {}): Promise<StopState> {
   return post(url, 'stop', options);

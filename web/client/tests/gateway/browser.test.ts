@@ -42,11 +42,11 @@ test('without a URL, a page connects to the gateway that serves it', (t) =>
 
 test("the error does not mention origins when the page's own server does not answer", () =>
   in_chromium(async (page) => {
-    const told = await page.evaluate(async () => {
+    const error = await page.evaluate(async () => {
       const { connect } = await import('rois-client');
       return connect(undefined, { deadline: 500 }).then(String, String); // the page's server does not speak WebSocket
     });
-    assert.match(told, /^RoisError: no session within 500 ms: the WebSocket to ws:\/\/\S+ could not be opened; the browser's console may say why$/);
+    assert.match(error, /^RoisError: no session within 500 ms: the WebSocket to ws:\/\/\S+ could not be opened; the browser's console may say why$/);
   }));
 
 test("a page of another origin needs the gateway's permission", (t) =>

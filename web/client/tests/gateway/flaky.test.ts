@@ -60,8 +60,8 @@ test('Python receives all events, each once', () =>
 with Engine(os.environ["ROIS_URL"]) as engine:
     engine.subscribe("reached_target")
     print("ready", file=sys.stderr, flush=True)
-    heard = sum(engine.event("reached_target", 20) is not None for _ in range(${rounds * each}))
-    print(heard, engine.after, engine.lost + engine.dropped)`;
-    const told = await output_of(['python3', '-c', program, `${root}/docs/examples`], proxy.url, {}, (text) => text.includes('ready') && begin());
-    assert.equal(told, `${rounds * each} ${rounds * each} 0\n`);
+    received = sum(engine.event("reached_target", 20) is not None for _ in range(${rounds * each}))
+    print(received, engine.after, engine.lost + engine.dropped)`;
+    const output = await output_of(['python3', '-c', program, `${root}/docs/examples`], proxy.url, {}, (text) => text.includes('ready') && begin());
+    assert.equal(output, `${rounds * each} ${rounds * each} 0\n`);
   }));

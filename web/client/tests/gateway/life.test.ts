@@ -25,8 +25,8 @@ async function watcher(t: TestContext, gateway: Gateway): Promise<{ holds: strin
   const client = await connect(gateway.url);
   t.after(() => client.close());
   const holds: string[] = [];
-  client.on('notification', async (told) => {
-    if (told.name === 'receive_error') holds.push((await client.get_error_detail(told.error_id)).text('text') ?? '');
+  client.on('notification', async (notification) => {
+    if (notification.name === 'receive_error') holds.push((await client.get_error_detail(notification.error_id)).text('text') ?? '');
   });
   await client.subscribe('reached_target');
   const is_busy = async () => {
@@ -60,9 +60,9 @@ test('in Node, a robot is held when the event loop is blocked, and resume contin
   const client = await connect(gateway.url, { motion_lease: lease });
   t.after(() => client.close());
   await set_out(client);
-  const told = client.notifications();
+  const notifications = client.notifications();
   Atomics.wait(new Int32Array(new SharedArrayBuffer(4)), 0, 0, longer);
-  const error = await told.next(10_000);
+  const error = await notifications.next(10_000);
   assert.equal(error?.name === 'receive_error' && error.error_type, 'USER_DEFINED_ERROR');
   while (holds.length === 0) await pause(20);
   assert.match(holds[0] ?? '', held);

@@ -23,9 +23,9 @@ async function received_by(command: string[], cuts: number): Promise<string> {
   const proxy = await Proxy.before(gateway.port);
   proxy.cut_at_random(cuts, 5_000, random_from(3));
   try {
-    const told = await output_of([...command, '3'], proxy.url);
+    const output = await output_of([...command, '3'], proxy.url);
     assert.equal(proxy.cuts, cuts);
-    return told;
+    return output;
   } finally {
     await proxy.stop();
     await gateway.stop();

@@ -26,11 +26,11 @@ const program = `import { connect } from '${root}/web/client/dist/node.js';
     console.log((await client.search()).length);
     await client.close();
   }, (error) => console.log(error.failure, error.message));`;
-const told_in_node = (url: string, { certificate }: TlsProxy) =>
+const output_of_node = (url: string, { certificate }: TlsProxy) =>
   output_of([process.execPath, '--input-type=module', '-e', program], url, { NODE_EXTRA_CA_CERTS: certificate });
 
 test('Node connects if it trusts the certificate', async () => {
-  for (const url of [tls.url, tls.url.replace('https', 'wss')]) assert.equal(await told_in_node(url, tls), '15\n', url);
+  for (const url of [tls.url, tls.url.replace('https', 'wss')]) assert.equal(await output_of_node(url, tls), '15\n', url);
 });
 
 // The deadline is longer than a test may take: none of these waits for it.
@@ -39,7 +39,7 @@ test('Node rejects an untrusted certificate at once', async () => {
   await assert.rejects(connect(tls.url, patient), { failure: 'unreachable', message: "the gateway's certificate is rejected: self-signed certificate" });
   await assert.rejects(connect(`https://127.0.0.1:${gateway.port}`, patient), { failure: 'unreachable', message: /^the TLS handshake failed: / });
   const other = await TlsProxy.before(gateway.port, 'DNS:robot.example');
-  assert.match(await told_in_node(other.url, other), /^unreachable the gateway's certificate is rejected: .*IP: 127\.0\.0\.1 is not in the cert's list/);
+  assert.match(await output_of_node(other.url, other), /^unreachable the gateway's certificate is rejected: .*IP: 127\.0\.0\.1 is not in the cert's list/);
   await other.stop();
 });
 

@@ -31,8 +31,8 @@ test('notifications of all kinds are parsed', () => {
   const all = sample('notifications').children;
   assert.ok(all.every(is_notification));
   const [event, error, ...rest] = all.map(notification_of);
-  const { results, ...told } = event as Extract<typeof event, { name: 'receive_event' }>;
-  assert.deepEqual(told, {
+  const { results, ...others } = event as Extract<typeof event, { name: 'receive_event' }>;
+  assert.deepEqual(others, {
     name: 'receive_event',
     sequence: 1,
     event_id: 'event-8',

@@ -18,14 +18,14 @@ function sent(opcode: number, payload: Buffer | string, final = true): Buffer {
 }
 
 function read(...pieces: Buffer[]): string[] {
-  const told: string[] = [];
+  const calls: string[] = [];
   const reader = new FrameReader({
-    text: (message) => told.push(message.length > 100 ? `${message.length}` : message),
-    ping: (payload) => told.push(`ping ${payload}`),
-    close: (code, reason) => told.push(`close ${code} ${reason}`),
+    text: (message) => calls.push(message.length > 100 ? `${message.length}` : message),
+    ping: (payload) => calls.push(`ping ${payload}`),
+    close: (code, reason) => calls.push(`close ${code} ${reason}`),
   });
   for (const piece of pieces) reader.feed(piece);
-  return told;
+  return calls;
 }
 
 test('messages are assembled from any chunks', () => {
@@ -79,7 +79,7 @@ test("a client's frame is masked and has the right length", () => {
 });
 
 // Starts a server with this handshake and these bytes. Returns the calls of the listener.
-async function told_by(answer: (accept: string) => string | Buffer, speak: (socket: Socket) => void = () => undefined): Promise<string[]> {
+async function calls_of(answer: (accept: string) => string | Buffer, speak: (socket: Socket) => void = () => undefined): Promise<string[]> {
   const sockets = new Set<Socket>();
   const server = createServer((socket) => {
     sockets.add(socket);
@@ -91,57 +91,57 @@ async function told_by(answer: (accept: string) => string | Buffer, speak: (sock
     });
   }).listen(0, '127.0.0.1');
   await new Promise((resolve) => server.once('listening', resolve));
-  const told: string[] = [];
+  const calls: string[] = [];
   await new Promise<void>((resolve) => {
     open_node_socket(`ws://127.0.0.1:${(server.address() as { port: number }).port}/rois`, ['rois.xml.v1'], {
-      opened: () => told.push('opened'),
-      received: (text) => told.push(text),
+      opened: () => calls.push('opened'),
+      received: (text) => calls.push(text),
       ended: ({ reason, final }) => {
-        told.push(`${final ? 'final: ' : ''}${reason}`);
+        calls.push(`${final ? 'final: ' : ''}${reason}`);
         resolve();
       },
     });
   });
   for (const socket of sockets) socket.destroy();
   server.close();
-  return told;
+  return calls;
 }
 
 const welcome = (accept: string, protocol = 'rois.xml.v1') =>
   `HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Accept: ${accept}\r\nSec-WebSocket-Protocol: ${protocol}\r\n\r\n`;
 
 test('a socket reports messages, also those sent with the handshake, and its end', async () => {
-  const told = await told_by(
+  const calls = await calls_of(
     (accept) => Buffer.concat([Buffer.from(welcome(accept)), sent(Opcode.text, 'at once')]),
     (socket) => socket.write(Buffer.concat([sent(Opcode.text, 'later'), sent(Opcode.close, Buffer.from([0x03, 0xe9]))])),
   );
-  assert.deepEqual(told, ['opened', 'at once', 'later', 'the gateway closed the link with 1001']);
+  assert.deepEqual(calls, ['opened', 'at once', 'later', 'the gateway closed the link with 1001']);
 });
 
 test('a socket reports a broken connection', async () => {
-  assert.deepEqual(await told_by(welcome, (socket) => socket.end()), ['opened', 'the link broke']);
+  assert.deepEqual(await calls_of(welcome, (socket) => socket.end()), ['opened', 'the link broke']);
 });
 
 test('a socket answers pings, and closes on a protocol violation', async () => {
-  let heard = Buffer.alloc(0);
-  const told = await told_by(welcome, (socket) => {
+  let received = Buffer.alloc(0);
+  const calls = await calls_of(welcome, (socket) => {
     socket.write(sent(Opcode.ping, 'abc'));
     socket.on('data', (bytes) => {
-      const first = heard.length === 0;
-      heard = Buffer.concat([heard, bytes]);
+      const first = received.length === 0;
+      received = Buffer.concat([received, bytes]);
       if (first) socket.write(sent(Opcode.binary, 'x'));
     });
   });
-  assert.deepEqual(told, ['opened', 'the gateway violates the WebSocket protocol: a binary message; only text is expected']);
-  assert.deepEqual([heard[0], heard[1]], [0x8a, 0x83]);
-  assert.equal(heard[6]! ^ heard[2]!, 'a'.charCodeAt(0));
+  assert.deepEqual(calls, ['opened', 'the gateway violates the WebSocket protocol: a binary message; only text is expected']);
+  assert.deepEqual([received[0], received[1]], [0x8a, 0x83]);
+  assert.equal(received[6]! ^ received[2]!, 'a'.charCodeAt(0));
 });
 
 test('an invalid handshake is final', async () => {
   const wrong = ['final: the server does not speak rois.xml.v1'];
-  assert.deepEqual(await told_by(() => welcome('bm90IHJpZ2h0')), wrong);
-  assert.deepEqual(await told_by((accept) => welcome(accept, 'rois.xml.v2')), wrong);
+  assert.deepEqual(await calls_of(() => welcome('bm90IHJpZ2h0')), wrong);
+  assert.deepEqual(await calls_of((accept) => welcome(accept, 'rois.xml.v2')), wrong);
   const refusal = (status: string) => () => `HTTP/1.1 ${status}\r\nContent-Length: 2\r\nConnection: close\r\n\r\nno`;
-  assert.deepEqual(await told_by(refusal('401 Unauthorized')), ['final: the gateway answered 401: no']);
-  assert.deepEqual(await told_by(refusal('503 Service Unavailable')), ['the gateway answered 503: no'], 'a retry may succeed');
+  assert.deepEqual(await calls_of(refusal('401 Unauthorized')), ['final: the gateway answered 401: no']);
+  assert.deepEqual(await calls_of(refusal('503 Service Unavailable')), ['the gateway answered 503: no'], 'a retry may succeed');
 });

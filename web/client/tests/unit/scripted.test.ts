@@ -86,12 +86,12 @@ function command_id_of(socket: ScriptedSocket): string {
 
 scripted('a request that is too large for the gateway fails, and only that one', {}, async (client, gateway, clock) => {
   const calls: Promise<unknown>[] = [client.search(), client.send(`<mine>${'日'.repeat(1000)}</mine>`), client.bind('b'.repeat(2000))];
-  const told = Promise.allSettled(calls);
+  const outcomes = Promise.allSettled(calls);
   await gateway.socket.end('closed with 1009', false, 1009);
   await resumed_after(100, gateway, clock);
   assert.deepEqual(gateway.socket.names, ['resume', 'search', 'bind']);
   for (const _ of [1, 2]) await gateway.socket.answer();
-  const [search, send, bind] = await told;
+  const [search, send, bind] = await outcomes;
   assert.deepEqual([search!.status, bind!.status], ['fulfilled', 'fulfilled']);
   assert.ok(send!.status === 'rejected');
   assert.equal(send!.reason.failure, 'fault');
@@ -132,14 +132,14 @@ scripted('calls keep their order across a broken link', {}, async (client, gatew
   const calls: Promise<unknown>[] = [client.search(), client.get_profile(), client.release('a')];
   await gateway.socket.end('cut');
   calls.push(client.bind('b'));
-  const told = Promise.allSettled(calls);
+  const outcomes = Promise.allSettled(calls);
   client.on('state', ({ state }) => state === 'resumed' && void client.send('<mine/>'));
   await clock.pass(100);
   await gateway.socket.open();
   await gateway.socket.answer();
   assert.deepEqual(gateway.socket.names, ['resume', 'search', 'get_profile', 'release', 'bind', 'mine']);
   for (const return_code of ['ERROR', 'UNSUPPORTED', 'OK', 'BAD_PARAMETER', 'OK']) await gateway.socket.answer('', return_code);
-  const codes = (await told).map((one) => (one.status === 'rejected' ? one.reason.return_code : 'OK'));
+  const codes = (await outcomes).map((one) => (one.status === 'rejected' ? one.reason.return_code : 'OK'));
   assert.deepEqual(codes, ['ERROR', 'UNSUPPORTED', 'OK', 'BAD_PARAMETER']);
 });
 
@@ -191,13 +191,13 @@ async function begun(more: ClientOptions, open_socket: OpenSocket, dialogue: (cl
     const outcome = client.start(15_000).then(String, String);
     await settled();
     await dialogue(clock);
-    const told = await outcome;
+    const ending = await outcome;
     assert.equal(client.state, 'closed');
     assert.equal(clock.waits, 0);
     await assert.rejects(client.search(), { failure: 'closed' });
     await client.close();
     assert.equal(clock.waits, 0);
-    return `${states.join(' ')}: ${told}`;
+    return `${states.join(' ')}: ${ending}`;
   } finally {
     clock.remove();
   }
@@ -205,7 +205,7 @@ async function begun(more: ClientOptions, open_socket: OpenSocket, dialogue: (cl
 
 test('a client that is refused a session retries, and reports the reason in the end', async () => {
   const gateway = new Scripted();
-  const told = await begun({}, gateway.open, async (clock) => {
+  const ending = await begun({}, gateway.open, async (clock) => {
     await gateway.socket.open();
     await gateway.socket.fault('too_many');
     assert.ok(gateway.socket.closed);
@@ -213,19 +213,19 @@ test('a client that is refused a session retries, and reports the reason in the 
     assert.equal(gateway.sockets.length, 2);
     await clock.pass(14_900);
   });
-  assert.equal(told, 'connecting connecting closed: RoisError: no session within 15000 ms: no session within 10000 ms');
+  assert.equal(ending, 'connecting connecting closed: RoisError: no session within 15000 ms: no session within 10000 ms');
   assert.ok(gateway.socket.closed);
 });
 
 test('each failed attempt is reported at once while the client retries', async () => {
   const gateway = new Scripted();
-  const told: string[] = [];
-  await begun({ on_state: ({ state, reason }) => told.push(`${state}: ${reason}`) }, gateway.open, async (clock) => {
+  const reports: string[] = [];
+  await begun({ on_state: ({ state, reason }) => reports.push(`${state}: ${reason}`) }, gateway.open, async (clock) => {
     await gateway.socket.end('connection refused');
-    assert.deepEqual(told, ['connecting: connection refused']);
+    assert.deepEqual(reports, ['connecting: connection refused']);
     await clock.pass(100);
     await gateway.socket.end('no route');
-    assert.deepEqual(told, ['connecting: connection refused', 'connecting: no route']);
+    assert.deepEqual(reports, ['connecting: connection refused', 'connecting: no route']);
     await clock.pass(14_900);
   });
 });

@@ -16,7 +16,7 @@ export function ParametersTab({ view }: { view: ComponentView }) {
   return (
     <>
       <h3>{t.values_now()}</h3>
-      {current && current.parameters.length > 0 ? <ResultsTable label={t.values_now()} results={current} /> : <p class="soft">{t.not_told()}</p>}
+      {current && current.parameters.length > 0 ? <ResultsTable label={t.values_now()} results={current} /> : <p class="soft">{t.no_values()}</p>}
       {view.parameters.length > 0 ? <SetForm view={view} /> : <p class="soft">{t.no_parameters()}</p>}
     </>
   );

@@ -39,7 +39,7 @@ export const values_now = text('Current values', '現在の値');
 export const set = text('Set', '設定');
 export const set_title = text('Set values', '値を変える');
 export const set_nothing = text('Nothing entered yet.', 'まだ何も入力されていません。');
-export const not_told = text('No parameters returned.', 'パラメータを返しません。');
+export const no_values = text('No parameters returned.', 'パラメータを返しません。');
 export const answers = text_of((names: string) => [`Returns: ${names}`, `応答: ${names}`]);
 export const brings = text_of((names: string) => [`Results: ${names}`, `内容: ${names}`]);
 export const subscribe = text('Subscribe', '購読');

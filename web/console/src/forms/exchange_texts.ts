@@ -30,7 +30,7 @@ export const outside = text_of((text: string, x: string, y: string) => [
 ]);
 export const in_furniture = text_of((text: string) => [`${text} is inside furniture.`, `${text} には家具があります。`]);
 export const in_use = text_of((components: string) => [`Running on the same robot: ${components}.`, `同じロボットで実行中: ${components}。`]);
-export const told_error = text_of((type: string) => [`The engine reported an error meanwhile: ${type}.`, `その間にエンジンがエラーを通知しました: ${type}。`]);
+export const reported_error = text_of((type: string) => [`The engine reported an error meanwhile: ${type}.`, `その間にエンジンがエラーを通知しました: ${type}。`]);
 export const document_gone = text('The document is no longer stored.', '文書は残っていません。');
 export const in_messages = text('Show in messages', 'メッセージで見る');
 export const fetching = text('Fetching …', '取得中…');

@@ -16,7 +16,7 @@ export function why(console: Console, entry: CommandEntry): string[] {
     .list()
     .filter(({ error, at }) => error.component_ref?.code === entry.component && at >= entry.sent_at && at <= (entry.ended_at ?? at))
     .slice(-most_errors)
-    .map(({ error, details }) => [t.told_error(error.error_type), ...(details.state === 'there' ? details.results.parameters.map((one) => `${one.name}: ${one.values.join('; ')}`) : [])].join(' '));
+    .map(({ error, details }) => [t.reported_error(error.error_type), ...(details.state === 'there' ? details.results.parameters.map((one) => `${one.name}: ${one.values.join('; ')}`) : [])].join(' '));
   const found = entry.state === 'ERROR' ? misplaced(console, entry) : entry.state === 'OUT_OF_RESOURCES' ? in_use(console, entry) : [];
   return [...reasons, ...errors, ...found];
 }

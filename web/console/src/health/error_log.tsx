@@ -40,7 +40,7 @@ export function ErrorLog() {
   );
 }
 
-interface Told {
+interface Description {
   tone: Tone;
   kind: string;
   title: string;
@@ -48,7 +48,7 @@ interface Told {
   more: string;
 }
 
-function told(entry: LogEntry): Told {
+function description_of(entry: LogEntry): Description {
   switch (entry.kind) {
     case 'error': {
       const { error, details } = entry.entry;
@@ -77,7 +77,7 @@ function told(entry: LogEntry): Told {
 }
 
 function Entry({ entry }: { entry: LogEntry }) {
-  const { tone, kind, title, component, more } = told(entry);
+  const { tone, kind, title, component, more } = description_of(entry);
   const [is_open, set_open] = useState(false);
   const at = clock_time(entry.at); // distinguishes open entries
   const summary = (

@@ -17,7 +17,7 @@ export function Sessions() {
         <p>{t.no_metrics()}</p>
       ) : rows.length === 0 ? (
         <p>
-          {t.sessions_untold(count_text(scrape.value('rois_sessions') ?? 0))} <Refs refs={[...mine].sort()} />
+          {t.sessions_without_details(count_text(scrape.value('rois_sessions') ?? 0))} <Refs refs={[...mine].sort()} />
         </p>
       ) : (
         <Table<SessionRow>
@@ -52,7 +52,7 @@ export function Limits() {
     <section class="health-part">
       <h3>{t.limits()}</h3>
       {rows.length === 0 ? (
-        <p class="health-soft">{t.limits_untold()}</p>
+        <p class="health-soft">{t.limits_unknown()}</p>
       ) : (
         <Table<LimitRow>
           label={t.limits()}

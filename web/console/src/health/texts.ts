@@ -62,7 +62,7 @@ export const commands = text('Commands', 'コマンド');
 export const subscriptions = text('Subscriptions', '購読');
 export const waiting = text('Unread', '未読');
 export const nothing_bound = text('nothing', 'なし');
-export const sessions_untold = text_of((n: string) => [
+export const sessions_without_details = text_of((n: string) => [
   `The gateway has ${n} sessions and gives no details. This console has bound:`,
   `ゲートウェイのセッションは ${n} 件で、詳しい情報はありません。このコンソールのバインド:`,
 ]);
@@ -75,7 +75,7 @@ export const reached = text('Reached', '到達');
 export const never = text('never', 'なし');
 export const times = text_of((n: number) => [`${count_text(n)} ${n === 1 ? 'time' : 'times'}`, `${count_text(n)} 回`]);
 export const lately = text_of((n: number) => [`${count_text(n)} lately`, `最近 ${count_text(n)}`]);
-export const limits_untold = text('This gateway does not report its limits.', 'このゲートウェイは上限を知らせません。');
+export const limits_unknown = text('This gateway does not report its limits.', 'このゲートウェイは上限を知らせません。');
 export const troubles = text('Problems since the gateway started', 'ゲートウェイ開始以降の問題');
 export const trouble_name = text_of((name: string) => trouble_names[name] ?? name);
 export const what = text('What', '内容');

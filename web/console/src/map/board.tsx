@@ -111,10 +111,10 @@ function follow_size(canvas: HTMLCanvasElement, drawing: Drawing): () => void {
   return watch_size(canvas, measure);
 }
 
-function follow_query(query: string, told: (is_so: boolean) => void): () => void {
+function follow_query(query: string, changed: (is_so: boolean) => void): () => void {
   const list = matchMedia(query);
-  const tell = () => told(list.matches);
-  list.addEventListener('change', tell);
-  tell();
-  return () => list.removeEventListener('change', tell);
+  const report = () => changed(list.matches);
+  list.addEventListener('change', report);
+  report();
+  return () => list.removeEventListener('change', report);
 }

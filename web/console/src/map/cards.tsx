@@ -176,7 +176,7 @@ export function ThingCard({ thing, close }: { thing: Shown; close: () => void })
         <Fact name={t.position()}>{position(thing)}</Fact>
         {th !== undefined && <Fact name={t.direction()}>{degrees(th)}</Fact>}
         <Fact name={t.certainty()}>{ellipse ? certainty(ellipse) : t.uncertain()}</Fact>
-        <Fact name={t.told_by()}><ComponentLink component={thing.thing.component} /></Fact>
+        <Fact name={t.reported_by()}><ComponentLink component={thing.thing.component} /></Fact>
         {thing.frame && <Fact name={t.own_frame()}><code>{thing.frame.crs}</code></Fact>}
         {others?.robot && <Fact name={t.distance()}>{t.near(others.name, metres(distance(others.robot, thing), 1))}</Fact>}
       </dl>

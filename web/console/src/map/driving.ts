@@ -89,12 +89,12 @@ async function drive(console: Console, driver: Driver, ref: string, named: Param
   if (entry) whithers.set(entry, whither);
   ends.then(
     async ([status]) => {
-      if (status === 'OK') notices.tell('good', done, { about });
+      if (status === 'OK') notices.show('good', done, { about });
       else if (status !== 'ABORT') {
         const reason = entry && (await commands.fetch_results(entry))?.text('reason');
         const open = () => (entry?.completed === undefined ? show_panel('messages') : show_document(console, entry.completed));
-        notices.tell('error', texts.failed(whither), { about, detail: reason || status!, action: { label: texts.why(), act: open } });
-      } else if (motions_of(console, driver).length === 0) notices.tell('info', texts.stopped(driver.name), { about });
+        notices.show('error', texts.failed(whither), { about, detail: reason || status!, action: { label: texts.why(), act: open } });
+      } else if (motions_of(console, driver).length === 0) notices.show('info', texts.stopped(driver.name), { about });
     },
     () => undefined, // the session is lost, as the link shows
   );

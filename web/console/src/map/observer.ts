@@ -48,7 +48,7 @@ export class Observer {
         for (const ref of this.held.keys()) if (!mine.has(ref)) this.held.delete(ref);
         const { on, is_busy } = this.state.value;
         const left = on.filter((ref) => mine.has(ref));
-        if (left.length < on.length && !is_busy) this.tell(left.length > 0 || !console.link.is_open ? { on: left } : off);
+        if (left.length < on.length && !is_busy) this.update(left.length > 0 || !console.link.is_open ? { on: left } : off);
       });
     });
     // Restarts stopped components when no command needs them.
@@ -66,15 +66,15 @@ export class Observer {
 
   /** Resolves when the components are started or released. */
   async turn_to(is_wanted: boolean): Promise<void> {
-    this.tell({ is_wanted, refused: [] });
+    this.update({ is_wanted, refused: [] });
     await this.next(() => (this.state.value.is_wanted ? this.take() : this.give_back()));
   }
 
   private next(act: () => Promise<void>): Promise<void> {
     this.turn = this.turn.then(async () => {
-      this.tell({ is_busy: true });
+      this.update({ is_busy: true });
       await act();
-      this.tell({ is_busy: false });
+      this.update({ is_busy: false });
     });
     return this.turn;
   }
@@ -85,10 +85,10 @@ export class Observer {
       if (!this.state.value.is_wanted || (this.held.has(ref) && (commands.goes_on(ref) || bindings.lent(ref) !== 1))) continue;
       try {
         await this.start(ref);
-        this.tell({ on: this.sensing(), refused: this.state.value.refused.filter((one) => one.ref !== ref) });
+        this.update({ on: this.sensing(), refused: this.state.value.refused.filter((one) => one.ref !== ref) });
       } catch (error) {
         if (error instanceof RoisError && ['link_lost', 'session_lost', 'closed'].includes(error.failure)) return; // retried with the next link
-        this.tell({ refused: [...this.state.value.refused.filter((one) => one.ref !== ref), { ref, error }] });
+        this.update({ refused: [...this.state.value.refused.filter((one) => one.ref !== ref), { ref, error }] });
       }
     }
   }
@@ -118,7 +118,7 @@ export class Observer {
     const { is_wanted, is_busy, on } = this.state.value;
     if (!is_wanted || is_busy || !link.is_open) return;
     const sensing = this.sensing();
-    if (sensing.length !== on.length) this.tell({ on: sensing });
+    if (sensing.length !== on.length) this.update({ on: sensing });
     if ([...this.held.keys()].some((ref) => !commands.goes_on(ref) && bindings.lent(ref) === 1)) void this.next(() => this.take());
   }
 
@@ -130,16 +130,16 @@ export class Observer {
       await give_back();
       if (!was_running && console.bindings.mine.value.has(ref)) await console.client.execute([command(ref, 'stop')]).catch(() => undefined);
     }
-    this.tell(this.state.value.is_wanted ? { on: [] } : off);
+    this.update(this.state.value.is_wanted ? { on: [] } : off);
   }
 
   private forget(session: string): void {
     this.session = session;
     this.held.clear();
-    this.tell({ on: [], refused: [] });
+    this.update({ on: [], refused: [] });
   }
 
-  private tell(more: Partial<Observing>): void {
+  private update(more: Partial<Observing>): void {
     this.state.value = { ...this.state.value, ...more };
   }
 }

@@ -31,7 +31,7 @@ export interface Shown extends Point {
   frame?: RobotFrame;
 }
 
-export interface Told {
+export interface SceneInput {
   robots: Iterable<Robot>;
   entities: Iterable<Entity>;
   map: FloorMap | undefined;
@@ -58,7 +58,7 @@ const echo = 6000; // ms that a sound or face is shown after its last report
 const head = 500; // mm
 const surely_sensed = 2000; // ms after its last report in which a thing counts as watched, even if no sensor is bound
 
-export function scene_of({ robots, entities, map, now, is_live, senses }: Told): Scene {
+export function scene_of({ robots, entities, map, now, is_live, senses }: SceneInput): Scene {
   const scene: Scene = { shown: [], lost: [] };
   const add = (thing: Thing, kind: Kind, more: Pick<Shown, 'name' | 'radius' | 'freshness' | 'identity'>) => {
     const frame = frame_named(map, thing.crs);

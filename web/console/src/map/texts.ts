@@ -112,7 +112,7 @@ export const certain = text_of((about: string) => [`± ${about} (95 %)`, `± ${a
 export const uncertain = text('unknown', '不明');
 export const reported = text('Reported', '通知');
 export const ago = text_of((age: string) => [`${age} ago`, `${age}前`]);
-export const told_by = text('Reported by', '通知元');
+export const reported_by = text('Reported by', '通知元');
 export const freshness = text_of((state: string, kind: string, age: string) =>
   state === 'live' ? ['Seen now', '検出中']
   : state === 'quiet' ? [`Not moved for ${age}`, `${age}変化なし`]

@@ -65,7 +65,7 @@ function Recordings() {
     const { ring } = console.documents;
     const { size } = ring;
     save_file(`rois-${new Date(console.environment.now()).toISOString().slice(0, 19).replaceAll(':', '')}.jsonl`, recording_of(ring, console.environment.origin));
-    console.notices.tell('good', t.exported(size), { detail: t.session_inside() });
+    console.notices.show('good', t.exported(size), { detail: t.session_inside() });
   };
   const open = async (file: File | undefined) => {
     if (!file) return;
@@ -76,9 +76,9 @@ function Recordings() {
       chosen_of_recording.value = undefined;
       console.selection.document.value = undefined;
       console.notices.dismiss('recording');
-      if (read.is_cut) console.notices.tell('warning', t.is_cut(), { about: 'recording' });
+      if (read.is_cut) console.notices.show('warning', t.is_cut(), { about: 'recording' });
     } catch (error) {
-      console.notices.tell('error', t.import_failed(file.name), { detail: reason_of(error), about: 'recording' });
+      console.notices.show('error', t.import_failed(file.name), { detail: reason_of(error), about: 'recording' });
     }
     chooser.current!.value = ''; // so that the same file can be opened again
   };

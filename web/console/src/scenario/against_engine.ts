@@ -42,8 +42,8 @@ export function against_engine(scenario: Scenario, text: string, profile: Profil
     if (query && asked!.length > 0 && !asked!.some((one) => has_query(one, query.type))) complain(query.node, () => t.no_query_of(query.type));
     for (const { kind, event_type, component, node } of state.triggers) {
       if (kind !== 'event') continue;
-      const tellers = component === '' ? all : [meant.get(component)].filter((one) => one !== undefined);
-      if (tellers.length > 0 && !tellers.some((one) => has_event(one, event_type))) complain(node, () => t.no_event_of(event_type));
+      const senders = component === '' ? all : [meant.get(component)].filter((one) => one !== undefined);
+      if (senders.length > 0 && !senders.some((one) => has_event(one, event_type))) complain(node, () => t.no_event_of(event_type));
     }
   }
   return found;

@@ -65,12 +65,12 @@ function Bar({ desk, started }: { desk: Desk; started: () => void }) {
   const why_not = !link.is_open ? t.not_connected() : scenario ? undefined : t.fix_first();
   const start = () => {
     started();
-    void desk.start().then(() => tell_end(desk, notices));
+    void desk.start().then(() => show_end(desk, notices));
   };
   const open = async () => {
     const file = await chosen_file('.xml,application/xml,text/xml');
     if (!file) return;
-    await file.text().then((text) => desk.open(file.name, text), (error: unknown) => void notices.tell('error', t.file_unreadable(), { detail: String(error), about: 'scenario' }));
+    await file.text().then((text) => desk.open(file.name, text), (error: unknown) => void notices.show('error', t.file_unreadable(), { detail: String(error), about: 'scenario' }));
   };
   return (
     <header class="scenario-bar">
@@ -95,10 +95,10 @@ function Bar({ desk, started }: { desk: Desk; started: () => void }) {
 }
 
 // A notice, because the user may be in another panel.
-function tell_end(desk: Desk, notices: Notices): void {
+function show_end(desk: Desk, notices: Notices): void {
   const { tone, text, why } = state_of(desk.run, false);
   if (tone === 'calm') return;
-  notices.tell(tone === 'good' ? 'good' : 'error', `${desk.drawn.value?.name || t.unnamed()}: ${text}`, { about: 'scenario', ...(why !== undefined && { detail: why }) });
+  notices.show(tone === 'good' ? 'good' : 'error', `${desk.drawn.value?.name || t.unnamed()}: ${text}`, { about: 'scenario', ...(why !== undefined && { detail: why }) });
 }
 
 // Errors, and warnings about the engine.

@@ -24,12 +24,12 @@ export function LinkBanner() {
   const console = useConsole();
   const { phase, reason, since } = console.link.view.value;
   const missed = console.link.missed.value;
-  const heard = console.link.received_at;
+  const received_at = console.link.received_at;
   // A quick reconnect should not flash a banner.
   const is_long = console.now.value - since > 1500;
   const sentence = () => {
-    if (phase === 'lost') return `${t.is_old(console.now.value - heard)} ${t.lost_hint()}`;
-    if (phase === 'draining') return heard > 0 ? `${t.draining_hint()} ${t.is_old(console.now.value - heard)}` : t.draining_hint();
+    if (phase === 'lost') return `${t.is_old(console.now.value - received_at)} ${t.lost_hint()}`;
+    if (phase === 'draining') return received_at > 0 ? `${t.draining_hint()} ${t.is_old(console.now.value - received_at)}` : t.draining_hint();
     if (phase === 'connecting') return is_long ? t.connecting_hint() : '';
     return { refused: t.refused_hint(), closed: t.closed_hint() }[phase as string] ?? '';
   };

@@ -57,7 +57,7 @@ export function Holds() {
       const text = one.details.results.text('text') ?? '';
       if (ref === undefined || !text.startsWith('its motion is held')) continue;
       const action = { label: t.resume(), act: () => tried(console, ref, console.run(ref, 'resume')) };
-      notices.tell('error', t.held(ref), { detail: text, about: ref, ...(bindings.mine.value.has(ref) && { action }) });
+      notices.show('error', t.held(ref), { detail: text, about: ref, ...(bindings.mine.value.has(ref) && { action }) });
     }
   }, [beat]);
   return null;

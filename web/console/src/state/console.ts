@@ -115,7 +115,7 @@ export class Console {
       environment,
       this.documents,
       () => this.client,
-      (event_type, error) => this.notices.tell('warning', event_type, { detail: reason_of(error), about: event_type }),
+      (event_type, error) => this.notices.show('warning', event_type, { detail: reason_of(error), about: event_type }),
     );
     this.robots = new RobotsState(environment, requests, this.profile, () => this.commands.open().length > 0);
     this.entities = new EntitiesState(
@@ -227,12 +227,12 @@ export class Console {
 
   private async read_profile(): Promise<void> {
     try {
-      this.profile.tell(await this.documents.as_own(() => this.client.get_profile()), this.environment.now());
+      this.profile.update(await this.documents.as_own(() => this.client.get_profile()), this.environment.now());
       this.entities.profile_changed();
       this.status.poll.now();
       this.notices.dismiss('profile');
     } catch (error) {
-      if (this.link.is_open) this.notices.tell('error', reason_of(error), { about: 'profile' });
+      if (this.link.is_open) this.notices.show('error', reason_of(error), { about: 'profile' });
     }
   }
 

@@ -26,7 +26,7 @@ export class Notices {
 
   constructor(private readonly environment: Pick<Environment, 'now' | 'after'>) {}
 
-  tell(severity: Severity, text: string, more: Pick<Notice, 'detail' | 'action' | 'about'> = {}): number {
+  show(severity: Severity, text: string, more: Pick<Notice, 'detail' | 'action' | 'about'> = {}): number {
     const notice: Notice = { number: this.next++, at: this.environment.now(), severity, text, ...more };
     const others = this.list.value.filter((one) => one.about === undefined || one.about !== notice.about);
     this.list.value = [...others, notice].slice(-most_notices);

@@ -8,7 +8,7 @@ import * as t from './texts';
 export function tried({ notices }: { notices: Notices }, about: string, done: Promise<unknown>): void {
   done.then(
     () => notices.dismiss(about),
-    (error: unknown) => notices.tell('error', error_text(error), { about }),
+    (error: unknown) => notices.show('error', error_text(error), { about }),
   );
 }
 

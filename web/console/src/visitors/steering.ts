@@ -38,11 +38,11 @@ export class Steering {
     const about = `${ref} ${what}`;
     try {
       const { status, reason } = await ordered;
-      if (status === 'ERROR' || status === 'TIMEOUT' || status === 'OUT_OF_RESOURCES') notices.tell('warning', words.not_done(ref, what), { about, detail: reason });
+      if (status === 'ERROR' || status === 'TIMEOUT' || status === 'OUT_OF_RESOURCES') notices.show('warning', words.not_done(ref, what), { about, detail: reason });
       else notices.dismiss(about);
       return status === 'OK';
     } catch (error) {
-      notices.tell('error', words.not_done(ref, what), { about, detail: error_text(error) });
+      notices.show('error', words.not_done(ref, what), { about, detail: error_text(error) });
       return false;
     }
   }
@@ -58,7 +58,7 @@ export class Steering {
     try {
       return (await this.console.hall.let_pass(ms)).status === 'OK';
     } catch (error) {
-      this.console.notices.tell('error', error_text(error), { about: 'time' });
+      this.console.notices.show('error', error_text(error), { about: 'time' });
       return false;
     }
   }

@@ -21,7 +21,7 @@ async function open(page: Page, ref: string): Promise<void> {
   await page.getByRole('heading', { name: ref, exact: true }).waitFor();
 }
 const answer = (page: Page) => page.locator('.exchange-came');
-const is_told = (page: Page, text: string) => hall.pass_until(page, answer(page).getByText(text), 200);
+const shows_answer = (page: Page, text: string) => hall.pass_until(page, answer(page).getByText(text), 200);
 
 describe('components', () => {
   test('a command is sent with its XML and its answer, and ends', () =>
@@ -37,7 +37,7 @@ describe('components', () => {
       const request = page.getByRole('region', { name: 'Request: speech_synthesis start' });
       expect(await request.textContent()).toMatch(/<rois:value>Good morning\.<\/rois:value>[^]*<rois:value>70<\/rois:value>/);
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await is_told(page, 'Done.');
+      await shows_answer(page, 'Done.');
       expect(await item(page, 'speech_synthesis').getByText('running').count()).toBe(0);
       expect(await page.getByRole('region', { name: 'Answer: speech_synthesis start' }).textContent()).toContain('execute_response');
       await picture(page, 'components-command');
@@ -61,7 +61,7 @@ describe('components', () => {
       await expect.poll(() => is_in_view(answer(page).locator('p').first())).toBe(true);
       await target.fill('100000, 2000');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await is_told(page, 'The component failed.');
+      await shows_answer(page, 'The component failed.');
       expect(await violations(page)).toBe('');
       await target.fill('17500, 7000');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
@@ -107,7 +107,7 @@ describe('components', () => {
       await page.getByRole('button', { name: 'Stop follow start' }).click();
       await page.getByRole('button', { name: 'Stop follow start' }).waitFor({ state: 'detached' });
       await page.getByRole('button', { name: 'start', exact: true }).click();
-      await is_told(page, 'Done.');
+      await shows_answer(page, 'Done.');
       await item(page, 'follow').getByText('bound by me').waitFor({ state: 'detached' });
     }));
 
@@ -153,7 +153,7 @@ describe('components', () => {
       await answer(page).getByText('OK', { exact: true }).waitFor();
       await page.getByRole('tab', { name: /^Commands/ }).click();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await is_told(page, 'Done.');
+      await shows_answer(page, 'Done.');
       await page.getByRole('tab', { name: /^Events(?! and)/ }).click();
       await hall.pass_until(page, page.locator('.component-list').getByText('number: 0'), 200);
       await page.getByText('1 event', { exact: false }).first().waitFor();
@@ -171,13 +171,13 @@ describe('components', () => {
       await page.getByText('Required.').waitFor();
       await page.getByLabel('status').selectOption('true');
       await page.getByRole('button', { name: 'brake', exact: true }).last().click();
-      await is_told(page, 'Done.');
+      await shows_answer(page, 'Done.');
       await page.getByRole('button', { name: 'Copy as curl' }).click();
       await page.getByRole('button', { name: 'Copied' }).waitFor();
       expect(await page.evaluate(() => navigator.clipboard.readText())).toMatch(/^curl -s -H 'Content-Type: application\/xml' -H 'RoIS-Session: [^']+' -d '<execute [^]*http:\/\/127\.0\.0\.1:\d+\/rois$/);
     }));
 
-  test('the owner of a component is shown, and that it cannot be bound', async () => {
+  test('the owner of a component is shown, and a component of another session cannot be bound', async () => {
     const other = await connect(stage.gateway.url);
     await other.bind('reaction');
     await stage.page(async (page) => {
@@ -198,7 +198,7 @@ describe('components', () => {
     await stage.page(async (page) => {
       await open(page, 'person_localization');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await is_told(page, 'Done.');
+      await shows_answer(page, 'Done.');
       await open(page, 'follow');
       await hall.pass_until(page, page.locator('datalist option[value="person-1"]'));
       await page.getByLabel('target_object_ref').fill('person-1');
@@ -211,7 +211,7 @@ describe('components', () => {
     await hall.leave('tanaka');
   });
 
-  test('the list takes the room until something is selected, which stays visible in it; everything is reachable despite long names', () =>
+  test('the list fills the panel until a component is selected, keeps the selection visible, and stays usable with long names', () =>
     stage.page(async (page) => {
       await item(page, 'wheelchair_robot').waitFor();
       const [list, panel] = await Promise.all([page.getByRole('tree'), page.locator('.panel-components')].map((one) => one.locator('xpath=..').evaluate((frame) => frame.clientHeight)));

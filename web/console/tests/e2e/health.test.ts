@@ -136,7 +136,7 @@ describe('health', () => {
       '/#health',
     ));
 
-  test('shows that and when the link was lost, and which values are unknown', () =>
+  test('shows when the link was lost, and which values are unknown', () =>
     stage.page(
       async (page) => {
         await figure(page, 'Round trip').getByText(/ms$/).waitFor();

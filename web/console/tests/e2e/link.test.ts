@@ -24,26 +24,26 @@ afterAll(() => browser.strike());
 const said = (page: Page, text: string | RegExp) => page.getByRole('status').filter({ hasText: text }).first();
 const mark = (page: Page, phase: string) => page.locator('.link-mark').getByText(phase, { exact: true });
 
-async function is_told(page: Page, name: string): Promise<void> {
+async function check_page(page: Page, name: string): Promise<void> {
   expect(await violations(page)).toBe('');
   await picture(page, `link-${name}`);
 }
 
 describe('the link', () => {
-  test('connecting: the gateway does not answer yet', async () => {
+  test('shows that the gateway does not answer yet', async () => {
     stage = await Stage.set(...still_hall);
     stage.front.cut();
     await stage.page(async (page) => {
       await said(page, 'The gateway does not answer yet.').waitFor();
       await mark(page, 'Connecting').waitFor();
-      await is_told(page, 'connecting');
+      await check_page(page, 'connecting');
       stage.front.restore();
       await mark(page, 'Connected').waitFor();
       await said(page, 'The gateway does not answer yet.').waitFor({ state: 'detached' });
     }, expected);
   });
 
-  test('lost, and resumed with a gap', async () => {
+  test('shows a gap after a resumed link', async () => {
     stage = await Stage.set(...still_hall, '--max-waiting-notifications', '16');
     const hall = await Hall.of(stage);
     const other = await connect(stage.gateway.url);
@@ -56,7 +56,7 @@ describe('the link', () => {
       stage.front.cut();
       await mark(page, 'Connection lost').waitFor();
       await said(page, /The data is .* old/).waitFor();
-      await is_told(page, 'lost');
+      await check_page(page, 'lost');
 
       await other.bind('person_detection');
       for (let i = 0; i < 20; ++i)
@@ -65,7 +65,7 @@ describe('the link', () => {
       await mark(page, 'Connected again').waitFor();
       await said(page, /\d notifications were missed while disconnected\./).waitFor();
       await page.getByText(/The engine dropped/).first().waitFor();
-      await is_told(page, 'gap');
+      await check_page(page, 'gap');
       await page.getByRole('button', { name: 'Seen' }).click();
       await said(page, /were missed/).waitFor({ state: 'detached' });
     }, expected);
@@ -73,13 +73,13 @@ describe('the link', () => {
     await hall.close();
   });
 
-  test('refused: too many sessions', async () => {
+  test('shows that the gateway refuses a further session', async () => {
     stage = await Stage.set(...still_hall, '--max-sessions', '1');
     const other = await connect(stage.gateway.url);
     await stage.page(async (page) => {
       await mark(page, 'Refused').waitFor();
       await said(page, /refuses this console/).waitFor();
-      await is_told(page, 'refused');
+      await check_page(page, 'refused');
       await other.close();
       await mark(page, 'Connected').waitFor();
     }, expected);
@@ -91,11 +91,11 @@ describe('the link', () => {
     await stage.page(async (page) => {
       const dialog = page.getByRole('dialog', { name: 'This gateway requires a token' });
       await dialog.waitFor();
-      await is_told(page, 'token');
+      await check_page(page, 'token');
       await page.getByRole('textbox', { name: 'Token' }).fill('sesame');
       await page.keyboard.press('Enter');
       await page.getByText('The gateway did not accept this token.').waitFor();
-      await is_told(page, 'token-wrong');
+      await check_page(page, 'token-wrong');
       await page.getByRole('textbox', { name: 'Token' }).fill('open sesame');
       await page.getByRole('button', { name: 'Connect', exact: true }).click();
       await mark(page, 'Connected').waitFor();
@@ -103,7 +103,7 @@ describe('the link', () => {
     }, expected);
   });
 
-  test('draining: the gateway shuts down during a command', async () => {
+  test('shows that the gateway shuts down, and then the lost link', async () => {
     stage = await Stage.set(...still_hall);
     await stage.page(async (page) => {
       await page.getByRole('treeitem', { name: /^navigation / }).click();
@@ -116,7 +116,7 @@ describe('the link', () => {
       await said(page, 'The gateway is starting or shutting down.').waitFor();
       await page.locator('.exchange-came').getByText(/^Aborted: /).waitFor();
       await stopped;
-      await is_told(page, 'draining');
+      await check_page(page, 'draining');
       // When the gateway is gone, the link is lost; old data does not look live, and the user need not wait for the next retry.
       stage.front.is_draining = false;
       await page.getByRole('button', { name: 'Try now' }).click();
@@ -129,7 +129,7 @@ describe('the link', () => {
     }, expected);
   });
 
-  test('an empty engine', async () => {
+  test('shows that the engine has no components', async () => {
     stage = await Stage.set(...still_hall);
     const file = resolve(tmpdir(), `empty-${process.pid}.jsonl`);
     const names = 'xmlns:rois="http://www.omg.org/spec/RoIS/20240801" xmlns:gml="http://www.opengis.net/gml/3.2"';
@@ -141,7 +141,7 @@ describe('the link', () => {
       await stage.page(async (page) => {
         await said(page, 'This engine has no components.').waitFor();
         await page.getByText('bare', { exact: true }).first().waitFor();
-        await is_told(page, 'empty');
+        await check_page(page, 'empty');
       }, expected);
     });
     await rm(file);

@@ -88,7 +88,7 @@ describe('the map', () => {
       await picture(page, 'map-none');
     }));
 
-  test('shows that it is not live when the link is lost, and its age', () =>
+  test('shows the age of its data when the link is lost', () =>
     stage.page(
       async (page) => {
         await ready(page);
@@ -366,7 +366,7 @@ describe('people', () => {
       await page.getByText('0 bound').waitFor();
     }));
 
-  test('are followed until it is stopped', () =>
+  test('are followed until the user stops the command', () =>
     stage.page(
       async (page) => {
         await ready(page);
@@ -395,7 +395,7 @@ describe('people', () => {
       { look: 'light' },
     ));
 
-  test('are observed again after a reload, until that is switched off', () =>
+  test('are observed again after a reload, until the user switches observing off', () =>
     stage.page(async (page) => {
       await ready(page);
       await observe(page);
@@ -409,7 +409,7 @@ describe('people', () => {
       expect(await page.getByRole('switch', { name: 'Observe' }).getAttribute('aria-checked')).toBe('false');
     }));
 
-  test('who have left are drawn as gone, and then removed', () =>
+  test('are drawn as gone after they have left, and then removed', () =>
     stage.page(async (page) => {
       await ready(page);
       await observe(page);

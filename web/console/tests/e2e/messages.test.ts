@@ -134,7 +134,7 @@ describe('events and messages', () => {
     await forgetful.strike();
   });
 
-  test('its list may be removed while scrolling', () =>
+  test('leave no error if the list is removed while scrolling', () =>
     stage.page(
       async (page) => {
         await page.getByLabel("Show the console's own requests").check();

@@ -34,7 +34,7 @@ const greeting = `<robot_scenario xmlns="urn:x-rois:scenario:1" name="Greeting" 
   <state name="wait">
     <after seconds="60" to="nobody"/>
   </state>
-  <end name="nobody" failed="true"><print>nobody heard {words}</print></end>
+  <end name="nobody" failed="true"><print>nobody answered {words}</print></end>
 </robot_scenario>
 `;
 
@@ -132,7 +132,7 @@ describe('a scenario', () => {
         expect([download.suggestedFilename(), readFileSync(await download.path(), 'utf8')]).toEqual(['greeting.xml', changed]);
         await start(page).click();
         await page.getByText('Failed in nobody', { exact: true }).waitFor();
-        expect(await page.locator('.scenario-printed').allTextContents()).toEqual(['nobody heard Welcome.']);
+        expect(await page.locator('.scenario-printed').allTextContents()).toEqual(['nobody answered Welcome.']);
 
         await page.reload(); // it is stored
         await page.getByText('greeting.xml', { exact: true }).waitFor();
@@ -146,10 +146,10 @@ describe('a scenario', () => {
   test('that this engine does not support completely shows warnings before it runs', () =>
     stage.page(
       async (page) => {
-        await open_file(page, 'odd.xml', greeting.replace('</state>', '<leaving><command component="speech_synthesis" type="sing"/></leaving></state>').replace('<after', '<event type="unheard_of" to="wait"/><after'));
+        await open_file(page, 'odd.xml', greeting.replace('</state>', '<leaving><command component="speech_synthesis" type="sing"/></leaving></state>').replace('<after', '<event type="unknown_event" to="wait"/><after'));
         await page.getByText('Not supported by this engine (2)').click();
         await page.getByText("speech_synthesis has no command 'sing'").waitFor();
-        await page.getByText("no matching component sends the event 'unheard_of'").waitFor();
+        await page.getByText("no matching component sends the event 'unknown_event'").waitFor();
       },
       {},
       '/#scenario',

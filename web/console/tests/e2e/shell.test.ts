@@ -21,7 +21,7 @@ describe('the page', () => {
       await picture(page, 'shell-wide-dark');
     }));
 
-  test('the first view is small', () =>
+  test('the first view transfers less than 120 KiB, and only the scripts of its panels', () =>
     stage.page(async (page) => {
       await page.getByRole('treeitem', { name: /^speech_synthesis / }).waitFor();
       await page.locator('.map-canvas').waitFor();

@@ -110,7 +110,7 @@ describe('with two robots', () => {
       await picture(page, 'timeline-two-phone');
     }, options('phone')));
 
-  test('a click on the floor sends the robot whose card is open; its card can send it, too', () =>
+  test('a click on the floor sends the robot whose card is open, and so does the card', () =>
     two.page(async (page) => {
       await page.getByRole('button', { name: 'Table' }).click();
       await page.getByRole('button', { name: 'Choose: robot2' }).click();

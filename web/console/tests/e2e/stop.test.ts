@@ -37,7 +37,7 @@ const is_on_top = (page: Page) =>
     return button.contains(document.elementFromPoint((left + right) / 2, (top + bottom) / 2)) && left >= 0 && right <= innerWidth;
   });
 
-test.each(['wide', 'small', 'phone'] as const)('is seen with every panel, in dialogs and over the menu: %s', (size) =>
+test.each(['wide', 'small', 'phone'] as const)('the stop button is visible with every panel, in dialogs and over the menu: %s', (size) =>
   stage.page(
     async (page) => {
       await connected(page);
@@ -50,7 +50,7 @@ test.each(['wide', 'small', 'phone'] as const)('is seen with every panel, in dia
       }
       await page.evaluate(() => {
         const { notices } = (window as unknown as Page_).rois;
-        notices.tell('error', 'Something went wrong that takes a long line to be said, and some more words after it', { action: { label: 'Undo', act: () => undefined } });
+        notices.show('error', 'Something went wrong that takes a long line to be said, and some more words after it', { action: { label: 'Undo', act: () => undefined } });
       });
       expect(await is_on_top(page), 'with a notice').toBe(true);
       const menu = page.locator('.head summary');
@@ -74,7 +74,7 @@ test.each(['wide', 'small', 'phone'] as const)('is seen with every panel, in dia
     { ...sizes[size], touch: size !== 'wide' },
   ), 120_000);
 
-test('stops with one press what runs, says so on every page and after a reload, until it is cleared', () =>
+test('one press stops all components, and every page shows the stop until it is cleared, also after a reload', () =>
   stage.page(async (page) => {
     await connected(page);
     await walk(page);
@@ -96,7 +96,7 @@ test('stops with one press what runs, says so on every page and after a reload, 
     await walk(page);
   }), 60_000);
 
-test('names what has not confirmed yet, as long as that is so', () =>
+test('unconfirmed components are named until they confirm', () =>
   stage.page(async (page) => {
     await connected(page);
     let waiting = ['navigation', 'robot2.move'];
@@ -119,7 +119,7 @@ test('names what has not confirmed yet, as long as that is so', () =>
     expect(await stopped(page).isVisible()).toBe(true);
   }));
 
-test.each(['wide', 'phone'] as const)('works while there is no WebSocket, and says when it did not get through: %s', (size) =>
+test.each(['wide', 'phone'] as const)('a stop works without a WebSocket, and a failed stop is reported: %s', (size) =>
   stage.page(
     async (page) => {
       await connected(page);
@@ -139,7 +139,7 @@ test.each(['wide', 'phone'] as const)('works while there is no WebSocket, and sa
     { ...sizes[size], may_complain: broken_link },
   ));
 
-test('is there before there is a session', () =>
+test('the stop button is visible before there is a session', () =>
   stage.page(
     async (page) => {
       stage.front.token = 'a secret';
@@ -156,7 +156,7 @@ test('is there before there is a session', () =>
     { may_complain: broken_link },
   ));
 
-test.each(looks)('is accessible: %s, %s, %s', (size, look, language) =>
+test.each(looks)('the stop is accessible: %s, %s, %s', (size, look, language) =>
   stage.page(
     async (page) => {
       await stop_everything(stage.gateway.url);
@@ -167,7 +167,7 @@ test.each(looks)('is accessible: %s, %s, %s', (size, look, language) =>
     { ...sizes[size], look, language, touch: size !== 'wide' },
   ));
 
-test('shows a hold, with a button to go on', () =>
+test('a held motion is shown, with a button to resume it', () =>
   stage.page(async (page) => {
     await connected(page);
     await walk(page);
@@ -182,7 +182,7 @@ test('shows a hold, with a button to go on', () =>
     expect(await page.getByText('navigation is held.').count()).toBe(0);
   }), 30_000);
 
-test('offers nothing to go on with where another application is held', async () => {
+test('the held motion of another application is shown without a button to resume it', async () => {
   const driver = await connect(stage.gateway.url);
   await driver.bind('navigation');
   await stage.page(async (page) => {

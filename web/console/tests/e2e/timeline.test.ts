@@ -157,14 +157,14 @@ describe('the time line', () => {
       async (page) => {
         await day(page);
         const chart = page.getByRole('application', { name: /^Time line of/ });
-        const told = page.locator('.timeline-frame [role=status]');
+        const announced = page.locator('.timeline-frame [role=status]');
         await chart.focus();
         await page.keyboard.press('ArrowDown');
         await page.getByText('Stopped', { exact: true }).waitFor();
         await page.keyboard.press('ArrowDown');
-        await told.getByText(/^Command, start/).waitFor({ state: 'attached' });
+        await announced.getByText(/^Command, start/).waitFor({ state: 'attached' });
         for (let i = 0; i < 6; ++i) await page.keyboard.press('ArrowRight');
-        await told.getByText(/^Command, start, navigation, ERROR, Sent .* Ran /).waitFor({ state: 'attached' });
+        await announced.getByText(/^Command, start, navigation, ERROR, Sent .* Ran /).waitFor({ state: 'attached' });
         await page.locator('.timeline-tip').getByText('ERROR').waitFor();
         await page.keyboard.press('Enter');
         await details(page).getByText('The component failed.').waitFor();

@@ -114,7 +114,7 @@ test('figure 1 runs, and the tablet shows it in Japanese', async () => {
     async (page) => {
       await tab(page, 'Visitors');
       await page.getByRole('button', { name: 'Start', exact: true }).click();
-      await world.pass_until(page, page.locator('[data-state="tell"][aria-current]'), 100, 120_000);
+      await world.pass_until(page, page.locator('[data-state="say_message"][aria-current]'), 100, 120_000);
       await shown(page, 'scenario');
       await world.pass_until(page, page.getByText('visitors received: 1'), 500, 120_000);
     },

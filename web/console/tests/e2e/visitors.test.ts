@@ -100,7 +100,7 @@ describe('with stopped time', () => {
       '/#visitors',
     ));
 
-  test('several are sent to places, also by keyboard; failures are reported', () =>
+  test('several visitors are sent to places, also by keyboard, and failures are reported', () =>
     stage.page(
       async (page) => {
         await let_in(page, 'ben');

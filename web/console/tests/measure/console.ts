@@ -77,9 +77,9 @@ async function crowd(browser: Browser) {
     let is_over = false;
     const clock = (async () => {
       const began = Date.now();
-      for (let told = 60; !is_over; told += 60) {
+      for (let passed_ms = 60; !is_over; passed_ms += 60) {
         await pass(60);
-        await new Promise((passed) => setTimeout(passed, Math.max(0, (told * 50) / 60 - (Date.now() - began))));
+        await new Promise((passed) => setTimeout(passed, Math.max(0, (passed_ms * 50) / 60 - (Date.now() - began))));
       }
     })();
     await page.locator(things).nth(people).waitFor({ state: 'attached' });

@@ -37,7 +37,7 @@ function localized(...people: [ref: string, x: number, y: number][]): string {
 }
 
 describe('the link', () => {
-  test('is open with a session, and the profile is fetched', () => {
+  test('opens with a session, and fetches the profile', () => {
     expect(console.link.view.value.phase).toBe('open');
     expect(console.link.session.value).toBe('session-1');
     expect(console.profile.components.value.map((one) => one.ref)).toEqual(['navigation', 'person_localization']);

@@ -5,17 +5,17 @@ import { profile_xml, World } from './world';
 
 const event = (name: string) => `<rois:MessageProfile xsi:type="rois:EventMessageProfileType" rois:name="${name}"/>`;
 
-function told(event_type: string, component: string, results: string): string {
+function event_body(event_type: string, component: string, results: string): string {
   return `<event_id>e</event_id><event_type>${event_type}</event_type><subscribe_id>s-1</subscribe_id><expire>2026-11-20T12:01:00Z</expire><component_ref rois:code="${component}"/><results>${results}</results>`;
 }
 
 function people(component: string, ...refs: string[]): string {
   const located = refs.map((ref) => `<located of="position_data" ref="${ref}" crs="hall"><position>1000 2000 0</position></located>`);
-  return told('person_localized', component, `<result rois:name="person_ref"><rois:data_type_ref rois:code="RoISIdentifier[]"/></result>${located.join('')}`);
+  return event_body('person_localized', component, `<result rois:name="person_ref"><rois:data_type_ref rois:code="RoISIdentifier[]"/></result>${located.join('')}`);
 }
 
 function number(component: string, n: number): string {
-  return told('person_detected', component, `<result rois:name="number"><rois:data_type_ref rois:code="int"/><rois:value>${n}</rois:value></result>`);
+  return event_body('person_detected', component, `<result rois:name="number"><rois:data_type_ref rois:code="int"/><rois:value>${n}</rois:value></result>`);
 }
 
 test('events without results make people unknown, not out of sight, until results arrive', async () => {
@@ -24,7 +24,7 @@ test('events without results make people unknown, not out of sight, until result
   const console = await world.console();
   console.entities.watch();
   await world.notifies('receive_event', people('localization', 'person-1'));
-  const bare = told('person_localized', 'localization', '');
+  const bare = event_body('person_localized', 'localization', '');
   await world.notifies('receive_event', bare); // the same event again, for a subscriber without results
   const person = () => console.entities.all.get('person person-1')!;
   expect([person().is_seen, person().unknown_since]).toEqual([true, undefined]);

@@ -24,7 +24,7 @@ async function begun() {
   return { world, console, everything: console.everything };
 }
 
-test('what the gateway answers counts at once, and its metrics from then on', async () => {
+test('the answer of the gateway counts at once, and its metrics from then on', async () => {
   const { world, everything } = await begun();
   expect(everything.view.value).toEqual({ stopped: false, waiting: [] });
   world.pages.set('/rois/stop', state(true));
@@ -39,7 +39,7 @@ test('what the gateway answers counts at once, and its metrics from then on', as
   expect(everything.view.value.stopped).toBe(false);
 });
 
-test('what has not confirmed is named only as long as that is so', async () => {
+test('unconfirmed components are named until they confirm', async () => {
   const { world, everything } = await begun();
   world.pages.set('/metrics', metrics(1, 2));
   await everything.stop();
@@ -59,7 +59,7 @@ test('what has not confirmed is named only as long as that is so', async () => {
   expect(everything.view.value).toEqual({ stopped: true, waiting: [] });
 });
 
-test('what has not confirmed is asked for without metrics, while the link is lost', async () => {
+test('unconfirmed components are requested without metrics while the link is lost', async () => {
   const { world, everything } = await begun();
   await everything.stop();
   world.breaks();
@@ -82,7 +82,7 @@ test('an answer that was under way does not count after a clear', async () => {
   expect(everything.view.value.stopped).toBe(false);
 });
 
-test('a stop by somebody else is known from the metrics, as soon as an error is reported', async () => {
+test('a stop by another application is known from the metrics as soon as an error is reported', async () => {
   const { world, everything } = await begun();
   world.pages.set('/metrics', metrics(1, 0));
   await world.passes(2000);
@@ -92,7 +92,7 @@ test('a stop by somebody else is known from the metrics, as soon as an error is 
   await expect.poll(() => everything.view.value.stopped, { interval: 1 }).toBe(false); // world time stands still
 });
 
-test('what has not confirmed is named after a stop by somebody else, too', async () => {
+test('unconfirmed components are named also after a stop by another application', async () => {
   const { world, everything } = await begun();
   world.pages.set('/metrics', metrics(1, 2));
   await world.passes(2000);
@@ -103,7 +103,7 @@ test('what has not confirmed is named after a stop by somebody else, too', async
   expect(everything.view.value).toEqual({ stopped: false, waiting: [] });
 });
 
-test('a stop that did not get through says why, until one does', async () => {
+test('a stop that failed shows the reason until a stop succeeds', async () => {
   const { world, everything } = await begun();
   world.pages.set('/rois/stop', { status: 401, text: '' });
   await everything.stop();

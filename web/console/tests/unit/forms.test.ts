@@ -78,11 +78,11 @@ describe('descriptions', () => {
   test('name choices and needs', () => {
     expect(choices_of('What the route saves: `time` or `distance`. Optional.')).toEqual(['time', 'distance']);
     expect(choices_of('As in `target_position`.')).toEqual([]);
-    const told = (description: string, default_value?: string): ParameterProfile => ({ ...asked('a', 'int', { description }), ...(default_value !== undefined && { default_value }) });
-    expect(need_of(told('The reaction. Mandatory.'))).toEqual({ kind: 'needed' });
-    expect(need_of(told('The reaction. Mandatory.', '1'))).toEqual({ kind: 'optional' });
-    expect(need_of(told('What. Either this or SSML_text is mandatory.'))).toEqual({ kind: 'either', other: 'SSML_text' });
-    expect(need_of(told('How loud. Optional.'))).toEqual({ kind: 'optional' });
+    const described = (description: string, default_value?: string): ParameterProfile => ({ ...asked('a', 'int', { description }), ...(default_value !== undefined && { default_value }) });
+    expect(need_of(described('The reaction. Mandatory.'))).toEqual({ kind: 'needed' });
+    expect(need_of(described('The reaction. Mandatory.', '1'))).toEqual({ kind: 'optional' });
+    expect(need_of(described('What. Either this or SSML_text is mandatory.'))).toEqual({ kind: 'either', other: 'SSML_text' });
+    expect(need_of(described('How loud. Optional.'))).toEqual({ kind: 'optional' });
     expect(shown_description('What the route saves: `time` or `distance`. Optional.')).toBe('What the route saves: time or distance.');
     expect(shown_description('Speaks (table 44).')).toBe('Speaks.');
     expect(shown_description('Follows (7.6.15), at 2 (or 3) m.')).toBe('Follows, at 2 (or 3) m.');
@@ -175,15 +175,15 @@ describe('the list of choices', () => {
   } as unknown as Things;
   test('has names if the codebook is known', () => {
     const codebook = 'urn:x-rois:def:codebook:simulation::reaction';
-    const told = new Results([{ name: 'available_reactions', data_type_ref: { code: 'RoISIdentifier[]', codebook_ref: codebook }, values: ['9', '51'] }]);
-    expect(options_for(asked('reaction_ref', 'RoISIdentifier'), { ...things, parameters: told }).list).toEqual([{ value: '9', codebook, label: 'bow the head' }, { value: '51', codebook }]);
+    const parameters = new Results([{ name: 'available_reactions', data_type_ref: { code: 'RoISIdentifier[]', codebook_ref: codebook }, values: ['9', '51'] }]);
+    expect(options_for(asked('reaction_ref', 'RoISIdentifier'), { ...things, parameters }).list).toEqual([{ value: '9', codebook, label: 'bow the head' }, { value: '51', codebook }]);
     expect(with_name(codebook, '28')).toBe('28 – wave the hand');
     expect(with_name('urn:other', '28')).toBe('28');
   });
 
   const chosen = (one: Asked) => options_for(one, things).list.map((option) => option.value);
 
-  test('are the known things', () => {
+  test('has the components, places and people that the console knows', () => {
     expect(chosen(asked('target_position', 'string[]'))).toEqual(['desk', 'exit']);
     expect(chosen(asked('target_object_ref', 'RoISIdentifier'))).toEqual(['person-1', 'tanaka', 'robot1']);
     expect(chosen(asked('person_ref', 'RoISIdentifier'))).toEqual(['person-1', 'tanaka']);

@@ -39,7 +39,7 @@ function echo(request: XmlElement): string {
   return `<rois:CommandUnitSequence><rois:command_unit_list xsi:type="rois:CommandMessageType" rois:command_type="${attribute_of(unit, 'command_type')}" rois:command_id="${attribute_of(unit, 'command_id')}"><rois:component_ref rois:code="simulated_hall"/><rois:arguments>${given.join('')}</rois:arguments></rois:command_unit_list></rois:CommandUnitSequence>`;
 }
 
-function told(): string[] {
+function sent_commands(): string[] {
   return units().map((unit) => `${attribute_of(unit, 'command_type')} ${(unit.child('arguments')?.children ?? []).map((one) => `${attribute_of(one, 'name')}=${one.all('value').map((each) => each.text).join('|')}`).join(' ')}`);
 }
 
@@ -70,7 +70,7 @@ describe('the hall', () => {
     ];
     await settled();
     await settled();
-    expect(told()).toEqual([
+    expect(sent_commands()).toEqual([
       'enter visitor_ref=anna language=ja known=true', 'enter visitor_ref=ben', 'walk visitor_ref=anna target_position=desk', 'walk visitor_ref=anna target_position=1000, 2000',
       'walk visitor_ref=anna target_position=1, 2, 90', 'say visitor_ref=anna text=Hello language=en', 'gesture visitor_ref=anna gesture=wave', 'leave visitor_ref=anna', 'let_pass time=1000',
     ]);
@@ -134,13 +134,13 @@ describe('the hall', () => {
 
   test("the engine's profile states whether time is stopped", () => {
     const profile = console.profile.profile.value!;
-    const told = (speed: string) => {
+    const stands_still_at = (speed: string) => {
       const parameters = [{ name: 'sim_speed', data_type_ref: { code: 'double' }, default_value: speed, description: '' }];
-      console.profile.tell({ ...profile, engine: { ...profile.engine, parameters } }, 0);
+      console.profile.update({ ...profile, engine: { ...profile.engine, parameters } }, 0);
       return console.hall.stands_still.value;
     };
     expect(console.hall.stands_still.value).toBe(false);
-    expect([told('0'), told('1'), told('0.5')]).toEqual([true, false, false]);
+    expect([stands_still_at('0'), stands_still_at('1'), stands_still_at('0.5')]).toEqual([true, false, false]);
     expect(units()).toEqual([]); // no request was sent
   });
 });

@@ -12,32 +12,32 @@ import { profile_xml, settled, World } from './world';
 
 const scrape = (at: number, text: string) => new Scrape(at, read_metrics(text));
 
-describe('series', () => {
+describe('the series', () => {
   const seconds: Second[] = [
     { at: 1000, sent: 2, received: 3, tooks: [1, 9, 2] },
     { at: 3000, sent: 1, received: 0, tooks: [] },
     { at: 4000, sent: 1, received: 1, tooks: [4] },
   ];
-  test('of latency: median and maximum of each second; no points without answers', () => {
+  test('of latency has the median and maximum of each second, and no points without answers', () => {
     const { middle, slowest } = latencies(seconds, 0);
     expect(middle).toEqual([{ at: 1000, value: 2 }, { at: 4000, value: 4 }]);
     expect(slowest).toEqual([{ at: 1000, value: 9 }, { at: 4000, value: 4 }]);
     expect(latencies(seconds, 2000).middle).toHaveLength(1);
   });
-  test('of documents: a second without any is 0, the current second is omitted', () => {
+  test('of documents is 0 in a second without documents, and omits the current second', () => {
     expect(documents_a_second(seconds, 0, 4500, (one) => one.sent)).toEqual([{ at: 1000, value: 2 }, { at: 2000, value: 0 }, { at: 3000, value: 1 }]);
     expect(documents_a_second([], 0, 4500, (one) => one.sent)).toEqual([]);
   });
-  test('of counters: growth per second; a restart of the gateway makes a gap', () => {
+  test('of a counter is its growth per second, with a gap at a restart of the gateway', () => {
     const history = [0, 1000, 2000, 3000, 9000, 10_000].map((at, i) => scrape(at, `n ${[10, 14, 14, 2, 8, 9][i]}\n`));
     expect(growth(history, 0, (one) => one.value('n'))).toEqual([{ at: 1000, value: 4 }, { at: 2000, value: 0 }, { at: 10_000, value: 1 }]);
     expect(growth(history, 0, (one) => one.value('m'))).toEqual([]);
   });
-  test('of the time inside the gateway', () => {
+  test('of the time inside the gateway is the mean per request', () => {
     const history = [0, 1000, 2000].map((at, i) => scrape(at, `rois_request_duration_seconds_sum ${[0, 0.01, 0.01][i]}\nrois_request_duration_seconds_count ${[0, 5, 5][i]}\n`));
     expect(inside(history, 0)).toEqual([{ at: 1000, value: 2 }]);
   });
-  test('points are found by time', () => {
+  test('finds a point by its time', () => {
     const series = [{ at: 1000, value: 1 }, { at: 2000, value: 5 }];
     expect(point_near(series, 1600)).toEqual({ at: 2000, value: 5 });
     expect(point_near(series, 9000)).toBeUndefined();
@@ -59,7 +59,7 @@ rois_limit{limit="commands"} 1024
 rois_limit_reached_total{limit="sessions"} 5
 rois_limit_reached_total{limit="commands"} 0
 `;
-  test('sessions, in order, with their bindings', () => {
+  test('list the sessions in order, with their bindings', () => {
     const rows = sessions_in(scrape(100_000, text), new Set(), 99_400);
     expect(rows.map(({ number, is_mine, bound }) => [number, is_mine, bound])).toEqual([
       ['2', false, []],
@@ -68,20 +68,20 @@ rois_limit_reached_total{limit="commands"} 0
     ]);
     expect(rows[1]).toMatchObject({ commands: 4, subscriptions: 0, age: 30_000 });
   });
-  test("the console's own session is found by its bindings, and not guessed", () => {
+  test("identify the console's own session by its bindings, without guessing", () => {
     const mine = (bound: string[], begun: number) => sessions_in(scrape(100_000, text), new Set(bound), begun).filter((one) => one.is_mine).map((one) => one.number);
     expect(mine(['follow'], 0)).toEqual(['3']);
     expect(mine([], 40_300)).toEqual(['2']);
     expect(mine([], 0)).toEqual([]);
   });
-  test('limits with their use and how often they were reached', () => {
+  test('list the limits with their use, and how often each was reached', () => {
     expect(limits_in(scrape(0, text), scrape(0, 'rois_limit_reached_total{limit="sessions"} 3\n'))).toEqual([
       { name: 'sessions', now: 3, most: 3, reached: 5, lately: 2 },
       { name: 'commands', now: 4, most: 1024, reached: 0, lately: 0 },
     ]);
     expect(limits_in(scrape(0, 'rois_sessions 1\n'), undefined)).toEqual([]);
   });
-  test('problems: only those that occurred', () => {
+  test('list only problems that occurred', () => {
     const now = scrape(0, 'rois_faults_total{code="invalid"} 2\nrois_faults_total{code="too_many"} 0\nrois_requests_total{operation="bind",return_code="OK"} 9\nrois_requests_total{operation="bind",return_code="ERROR"} 1\nrois_notifications_lost_total 4\n');
     expect(troubles_in(now, scrape(0, 'rois_notifications_lost_total 4\n'))).toEqual([
       { name: 'rois_faults_total', detail: 'invalid', count: 2, lately: 2 },

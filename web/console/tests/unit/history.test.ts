@@ -25,7 +25,7 @@ beforeEach(async () => {
 });
 
 /** `READY 0-2000`, in ms from the start. */
-function told(history: History, kind: Span['kind']): string[] {
+function spans_of(history: History, kind: Span['kind']): string[] {
   const spans = [...history.past, ...history.present.values()].filter((one) => one.kind === kind).sort((a, b) => a.number - b.number);
   return spans.map(({ value, from, to }) => `${value} ${from - began}-${to - began}`);
 }
@@ -38,10 +38,10 @@ describe('history', () => {
     await world.passes(2000);
     status = 'BUSY';
     await world.passes(3000);
-    expect(told(console.history, 'status')).toEqual(['READY 0-3000', 'BUSY 3000-5000']);
+    expect(spans_of(console.history, 'status')).toEqual(['READY 0-3000', 'BUSY 3000-5000']);
     stop();
     await world.passes(3000);
-    expect(told(console.history, 'status')).toEqual(['READY 0-3000', 'BUSY 3000-5000']);
+    expect(spans_of(console.history, 'status')).toEqual(['READY 0-3000', 'BUSY 3000-5000']);
   });
 
   test('has nothing for the time of a lost link', async () => {
@@ -54,8 +54,8 @@ describe('history', () => {
     await world.passes(4960);
     await world.opens();
     await world.passes(1000);
-    expect(told(console.history, 'status')).toEqual(['READY 0-2000', 'READY 7000-8000']);
-    expect(told(console.history, 'link')).toEqual(['open 0-2000', 'lost 2000-7000', 'resumed 7000-8000']);
+    expect(spans_of(console.history, 'status')).toEqual(['READY 0-2000', 'READY 7000-8000']);
+    expect(spans_of(console.history, 'link')).toEqual(['open 0-2000', 'lost 2000-7000', 'resumed 7000-8000']);
   });
 
   test('reports a loss once with its reason, however many retries fail', async () => {
@@ -66,7 +66,7 @@ describe('history', () => {
     const why = console.link.view.value.reason;
     console.link.set_phase('lost', 'the WebSocket could not be opened');
     await world.passes(1960);
-    expect(told(console.history, 'link')).toEqual(['open 0-2000', 'lost 2000-4000']);
+    expect(spans_of(console.history, 'link')).toEqual(['open 0-2000', 'lost 2000-4000']);
     expect(console.history.present.get('link ')!.note).toBe(why);
   });
 
@@ -82,7 +82,7 @@ describe('history', () => {
     await world.passes(3000);
     world.pages.set('/metrics', { status: 200, text: '' });
     await world.passes(2000);
-    expect(told(console.history, 'holder').map((one) => one.split(' ')[0])).toEqual(['me', '7']);
+    expect(spans_of(console.history, 'holder').map((one) => one.split(' ')[0])).toEqual(['me', '7']);
     expect([...console.history.present.values()].map((one) => one.kind)).not.toContain('holder');
   });
 
@@ -141,7 +141,7 @@ describe('traffic', () => {
     expect(console.traffic.seconds.size).toBe(120);
   });
 
-  test('the median', () => {
+  test('the median is the middle value', () => {
     expect([[], [3], [5, 1], [9, 1, 2]].map(median)).toEqual([undefined, 3, 3, 2]);
   });
 });

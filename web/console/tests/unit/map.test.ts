@@ -6,7 +6,7 @@ import { Glide } from '../../src/map/painting/glide';
 import { Labels } from '../../src/map/painting/labels';
 import { label_of } from '../../src/map/painting/picture';
 import { age } from '../../src/map/formats';
-import { scene_of, type Told } from '../../src/map/scene';
+import { scene_of, type SceneInput } from '../../src/map/scene';
 import { box_around, fitted, panned, pinched, round_step, to_floor, to_screen, with_point, zoomed } from '../../src/map/view';
 import { Ring } from '../../src/state/base/ring';
 import { bearing, obstacle_at, on_map, turned } from '../../src/state/floor/floor';
@@ -75,7 +75,7 @@ describe('the view', () => {
     expect(to_screen(to, size, { x: 10_000, y: 3000 }).x).toBeCloseTo(750);
   });
 
-  test('has round steps, and a box in multiples of 5 m around all points', () => {
+  test('has round grid steps, and a box in multiples of 5 m around all points', () => {
     expect([1, 1.5, 3, 70, 200, 501].map(round_step)).toEqual([1, 2, 5, 100, 200, 1000]);
     expect(box_around([])).toEqual({ x: -5000, y: -5000, width: 10_000, depth: 10_000 });
     expect(box_around([{ x: 7000, y: -9000 }])).toEqual({ x: -5000, y: -10_000, width: 15_000, depth: 15_000 });
@@ -207,16 +207,16 @@ describe('the scene', () => {
   const thing = { codebook: '', component: 'localization', crs: 'urn:hall', x: 1000, y: 2000, z: 0, at: now - 100 };
   const person = (ref: string, more: Partial<Entity> = {}): Entity => ({ ...thing, ref, kind: 'person', is_seen: true, trail: new Ring(9), ...more });
   const robot = (ref: string, more: Partial<Robot> = {}): Robot => ({ ...thing, ref, trail: new Ring(9), ...more });
-  const told = (more: Partial<Told>): Told => ({ robots: [], entities: [], map, now, is_live: true, senses: () => true, ...more });
-  const states = (more: Partial<Told>) => scene_of(told(more)).shown.map((one) => one.freshness);
+  const input = (more: Partial<SceneInput>): SceneInput => ({ robots: [], entities: [], map, now, is_live: true, senses: () => true, ...more });
+  const states = (more: Partial<SceneInput>) => scene_of(input(more)).shown.map((one) => one.freshness);
 
   test("robots have the map's size, people their identified name", () => {
-    const { shown } = scene_of(told({ robots: [robot('robot1', { th: 30 })], entities: [person('person-1', { identity: { ref: 'tanaka', codebook: 'v', at: 0 } })] }));
+    const { shown } = scene_of(input({ robots: [robot('robot1', { th: 30 })], entities: [person('person-1', { identity: { ref: 'tanaka', codebook: 'v', at: 0 } })] }));
     expect(shown).toMatchObject([{ key: 'person person-1', name: 'tanaka' }, { key: 'robot robot1', name: 'robot1', radius: 280, th: 30 }]);
   });
 
   test("a thing in a robot's own frame is drawn at its place on the map, with a turned ellipse", () => {
-    const { shown, lost } = scene_of(told({ entities: [person('a', { crs: 'urn:own', th: 0, covariance: [400, 0, 0, 100] }), person('b', { crs: 'urn:nowhere' })] }));
+    const { shown, lost } = scene_of(input({ entities: [person('a', { crs: 'urn:own', th: 0, covariance: [400, 0, 0, 100] }), person('b', { crs: 'urn:nowhere' })] }));
     expect(shown).toHaveLength(1);
     expect(shown[0]).toMatchObject({ th: 90, ellipse: { a: 20, b: 10, angle: 90 } });
     expect(lost.map((one) => one.ref)).toEqual(['b']);
@@ -237,7 +237,7 @@ describe('the scene', () => {
   });
 
   test('the label of a standing person shows the age of the last report', () => {
-    const label = (ms: number) => label_of(scene_of(told({ entities: [person('anna', { at: now - ms })] })).shown[0]!, age);
+    const label = (ms: number) => label_of(scene_of(input({ entities: [person('anna', { at: now - ms })] })).shown[0]!, age);
     expect([100, 6000, 7000, 12_000, 14_000, 16_000, 61_000].map(label)).toEqual(['anna', 'anna · 6 s', 'anna · 7 s', 'anna · 10 s', 'anna · 10 s', 'anna · 15 s', 'anna · 1 min']);
   });
 
@@ -252,7 +252,7 @@ describe('the scene', () => {
     expect(states({ entities: [sound(500)] })).toEqual(['live']);
     expect(states({ entities: [sound(3000)] })).toEqual(['gone']);
     expect(states({ entities: [sound(7000)] })).toEqual([]);
-    expect(scene_of(told({ entities: [sound(500)] })).shown[0]!.th).toBeUndefined();
+    expect(scene_of(input({ entities: [sound(500)] })).shown[0]!.th).toBeUndefined();
   });
 
   test('a face stays while a person is there, because looking away is not reported', () => {

@@ -20,13 +20,13 @@ describe('notices', () => {
     const world = new World();
     const notices = new Notices(world);
     const texts = () => notices.list.value.map((one) => one.text);
-    for (const text of ['a', 'b', 'c']) notices.tell('error', text, { about: text });
+    for (const text of ['a', 'b', 'c']) notices.show('error', text, { about: text });
     expect(texts()).toEqual(['b', 'c']);
     tried({ notices }, 'b', Promise.resolve());
     tried({ notices }, 'c', Promise.reject(new Error('again')));
     await world.passes(0);
     expect(texts()).toEqual(['again']);
-    notices.tell('good', 'd');
+    notices.show('good', 'd');
     await world.passes(8000);
     expect(texts()).toEqual(['again']);
     await world.passes(22_000);
@@ -141,7 +141,7 @@ test('a curl line is quoted for the shell, and has no request_id', () => {
   );
 });
 
-test('languages and durations', () => {
+test('the first supported language is chosen, and durations have one unit', () => {
   expect(wished_language(['de', 'ja-JP', 'en'])).toBe('ja');
   expect(wished_language([])).toBe('en');
   expect([400, 1200, 12_000, 180_000, 7_200_000].map(duration)).toEqual(['400 ms', '1.2 s', '12 s', '3 min', '2 h']);

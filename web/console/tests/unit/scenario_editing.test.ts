@@ -81,7 +81,7 @@ describe('conditions', () => {
     ['near="0, 0" within="7"', 'is', 'is="0, 0"'],
   ] as const)('%s turned into %s', (from, to, expected) => expect(turned(from, to)).toBe(expected));
 
-  test('report their relation', () => {
+  test('of a `when` have a relation, of an event none', () => {
     expect(relation_of(first('when'))).toBe('is');
     expect(relation_of(first('event'))).toBeUndefined();
   });

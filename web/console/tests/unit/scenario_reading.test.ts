@@ -15,7 +15,7 @@ function scenario_with(states: string, start = 'a'): string {
   return `<robot_scenario xmlns='urn:x-rois:scenario:1' start='${start}'>\n<component name='move'/>\n<variable name='x'/>\n${states}\n</robot_scenario>\n`;
 }
 
-function told(text: string): string[] {
+function problems_of(text: string): string[] {
   return read_scenario(text).problems.map(({ say, line, column }) => `${line}:${column}: ${say()}`);
 }
 
@@ -30,13 +30,13 @@ describe('reading', () => {
   });
 
   test('reports all problems, and where a text is not well-formed', () => {
-    expect(told(scenario_with("<state name='a'><at_once to='c'/><at_once to='d'/></state>"))).toHaveLength(2);
-    expect(told('<robot_scenario>\n <a>')).toEqual(['2:5: <a> is not closed']);
+    expect(problems_of(scenario_with("<state name='a'><at_once to='c'/><at_once to='d'/></state>"))).toHaveLength(2);
+    expect(problems_of('<robot_scenario>\n <a>')).toEqual(['2:5: <a> is not closed']);
   });
 
   test('reports in Japanese, too', () => {
     language.value = 'ja';
-    expect(told(scenario_with("<state name='a'><at_once to='c'/></state>"))).toEqual(["4:17: 状態 'c' はありません。あるもの: a"]);
+    expect(problems_of(scenario_with("<state name='a'><at_once to='c'/></state>"))).toEqual(["4:17: 状態 'c' はありません。あるもの: a"]);
     language.value = 'en';
   });
 });
@@ -96,7 +96,7 @@ describe('changing', () => {
     expect(renamed.scenario!.states.get('bow')!.triggers[0]!.to).toBe('go_home');
   });
 
-  test('comments and references are handled', () => {
+  test('comments, character references and CDATA do not change the positions of elements', () => {
     const odd = `<?xml version="1.0"?>\n<!-- <a> --><r a='1>2' b="&lt;">x<![CDATA[<c>]]><d/><!-- - --></r>`;
     const read = read_source(odd);
     expect([...nodes_in(read)].map((one) => odd.slice(one.start, one.end))).toEqual([odd.slice(odd.indexOf('<r')), '<d/>']);
@@ -108,8 +108,8 @@ describe('drawing', () => {
   const sizes = { box: (name: string) => ({ width: 40 + name.length * 6, height: 30 }), label: () => ({ width: 90, height: 16 }) };
 
   test('an edge has all triggers from one state to another', () => {
-    const tell = graph.edges.find((one) => one.from === 'check_what_to_guide' && one.to === 'tell')!;
-    expect(label_of_edge(tell)).toBe('at once ×3');
+    const edge = graph.edges.find((one) => one.from === 'check_what_to_guide' && one.to === 'say_message')!;
+    expect(label_of_edge(edge)).toBe('at once ×3');
     expect(graph.edges.filter((one) => one.from === 'find').map(label_of_edge)).toEqual(['person_localized', 'after {looking} s']);
   });
 

@@ -46,9 +46,9 @@ describe('steering', () => {
     ['OK', '', []],
     ['ABORT', '', []], // replaced by another order
     ['ERROR', 'no way leads there', [['warning', 'anna could not: walking', 'no way leads there']]],
-  ])('reports failed orders: %s', async (status, reason, told) => {
+  ])('reports failed orders: %s', async (status, reason, expected) => {
     await steering_of(console).order('anna', 'walk', Promise.resolve({ status, reason }));
-    expect(console.notices.list.value.map((one) => [one.severity, one.text, one.detail])).toEqual(told);
+    expect(console.notices.list.value.map((one) => [one.severity, one.text, one.detail])).toEqual(expected);
   });
 
   test('time runs at real speed until it is halted or the engine refuses', async () => {

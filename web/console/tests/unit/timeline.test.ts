@@ -24,8 +24,8 @@ function ring<T>(...entries: T[]): Ring<T> {
 
 let next = 0;
 function event(at: number, component = 'person_detection', event_type = 'person_detected'): EventEntry {
-  const told = { name: 'receive_event', event_type, component_ref: { code: component }, results: new Results(), expire: new Date(at + 60_000) } as unknown as ReceiveEvent;
-  return { number: next++, at, event: told, document: 0, details: { state: 'none' } };
+  const received = { name: 'receive_event', event_type, component_ref: { code: component }, results: new Results(), expire: new Date(at + 60_000) } as unknown as ReceiveEvent;
+  return { number: next++, at, event: received, document: 0, details: { state: 'none' } };
 }
 function command(component: string, sent_at: number, started_at?: number, ended_at?: number, state: CommandState = ended_at === undefined ? 'running' : 'OK'): CommandEntry {
   const sequence = { number: next++, units: [], commands: [], sent_at, document: 0 };
@@ -68,7 +68,7 @@ describe('lanes', () => {
 });
 
 describe('a span', () => {
-  test('has its position in time', () => {
+  test('is placed by its start and end', () => {
     const past = ring(span('status', 'follow', 'READY', 10_000, 30_000), span('status', 'follow', 'ERROR', 50_000, 60_000));
     const present = [span('status', 'follow', 'READY', 60_000, 99_500)];
     expect(boxes(lay_out(sources({ past, present }), range, wide), 'span')).toEqual([
@@ -287,8 +287,8 @@ describe('a view', () => {
 });
 
 test('things are described in a sentence', () => {
-  const told = describe_thing({ kind: 'command', entry: command('navigation', 50_000, 50_400, 52_400, 'ERROR') }, 60_000);
-  expect(sentence(told)).toMatch(/^Command, start, navigation, ERROR, Sent [\d:.]+, Began [\d:.]+, Ended [\d:.]+, Waited 400 ms, Ran 2\.0 s$/);
+  const described = describe_thing({ kind: 'command', entry: command('navigation', 50_000, 50_400, 52_400, 'ERROR') }, 60_000);
+  expect(sentence(described)).toMatch(/^Command, start, navigation, ERROR, Sent [\d:.]+, Began [\d:.]+, Ended [\d:.]+, Waited 400 ms, Ran 2\.0 s$/);
   const many: Mark[] = [event(1000), event(2000), event(3000, 'person_detection', 'other')].map((entry) => ({ kind: 'event', entry }));
   expect(sentence(describe_thing({ kind: 'marks', marks: many }, 5000))).toMatch(/^3 events and errors, person_detection, Time .*, person_detected × 2, other × 1$/);
   expect(describe_thing({ kind: 'span', span: span('holder', 'follow', '4', 0, 1000) }, 60_000)).toMatchObject({ kind: 'Bound', title: 'by session 4', component: 'follow' });

@@ -88,7 +88,7 @@ export class ProfileState {
     return this.components.value.filter((one) => one.queries.some((query) => query.name === query_type));
   }
 
-  tell(profile: Profile, at: number): void {
+  update(profile: Profile, at: number): void {
     this.profile.value = profile;
     this.reported_at.value = at;
   }

@@ -70,25 +70,25 @@ export class HallState {
   // --- Commands to visitors. They resolve at the end of the command and reject with RoisError if it is refused. ---
 
   enter(ref: string, { language, known }: { language?: string; known?: boolean } = {}): Promise<Outcome> {
-    return this.tell('enter', { visitor_ref: ref, language: language || undefined, known });
+    return this.command('enter', { visitor_ref: ref, language: language || undefined, known });
   }
   /** Walks to a place or position at once, dropping the present walk. */
   walk(ref: string, to: string | Omit<Pose, 'th'> | Pose): Promise<Outcome> {
-    return this.tell('walk', { visitor_ref: ref, target_position: value.strings([target_text(to)]) });
+    return this.command('walk', { visitor_ref: ref, target_position: value.strings([target_text(to)]) });
   }
   say(ref: string, text: string, language?: string): Promise<Outcome> {
-    return this.tell('say', { visitor_ref: ref, text, language: language || undefined });
+    return this.command('say', { visitor_ref: ref, text, language: language || undefined });
   }
   gesture(ref: string, gesture: Gesture): Promise<Outcome> {
-    return this.tell('gesture', { visitor_ref: ref, gesture });
+    return this.command('gesture', { visitor_ref: ref, gesture });
   }
   leave(ref: string): Promise<Outcome> {
-    return this.tell('leave', { visitor_ref: ref });
+    return this.command('leave', { visitor_ref: ref });
   }
 
   /** Lets simulated time pass while it is stopped; rounded to a multiple of 20 ms. */
   async let_pass(ms: number): Promise<Outcome> {
-    const outcome = await this.tell('let_pass', { time: Math.max(20, Math.round(ms / 20) * 20) });
+    const outcome = await this.command('let_pass', { time: Math.max(20, Math.round(ms / 20) * 20) });
     this.moved_at = this.environment.now();
     this.poll.now();
     return outcome;
@@ -123,7 +123,7 @@ export class HallState {
     return is_at_work || now - this.moved_at < rests_after || now - this.reported_at >= period_at_rest;
   }
 
-  private async tell(command_type: string, named: Arguments): Promise<Outcome> {
+  private async command(command_type: string, named: Arguments): Promise<Outcome> {
     const { ref } = this.component.value ?? missing();
     const { command_ids, ends } = await this.parts.run(ref, command_type, named);
     const [status = 'unknown'] = await ends;

@@ -19,7 +19,7 @@ export function CopyButton({ text, label, ...rest }: CopyProps) {
       await write_to_clipboard(typeof text === 'string' ? text : text());
       set_copied(true);
     } catch {
-      console.notices.tell('warning', texts.copy_failed());
+      console.notices.show('warning', texts.copy_failed());
     }
   };
   return (
