@@ -190,9 +190,8 @@ void RemoteEngines::set(std::vector<SubEngine> wanted, std::string const& own_ur
 }
 
 void RemoteEngines::accept(UniqueDescriptor socket, std::string head) {
-    links_->post([links = links_, socket = std::move(socket), head = std::move(head)]() mutable {
-        links->accept(std::move(socket), std::move(head));
-    });
+    auto shared = std::make_shared<UniqueDescriptor>(std::move(socket));  // std::function can be copied
+    links_->post([links = links_, shared, head = std::move(head)] { links->accept(std::move(*shared), head); });
 }
 
 void RemoteEngines::join(Joining joining) {
