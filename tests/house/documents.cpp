@@ -11,6 +11,7 @@ namespace rois::house {
 namespace {
 
 constexpr std::ptrdiff_t longest_file = 500;  // lines
+constexpr std::ptrdiff_t longest_line = 140;  // characters
 
 constexpr auto dependencies = "docs/dependencies.md";
 
@@ -22,6 +23,23 @@ bool is_document(std::string_view file) {
 
 bool is_source(std::string_view file) {
     return is_cpp(file) || file.ends_with(".ts") || file.ends_with(".tsx") || file.ends_with(".py");
+}
+
+bool is_web_source(std::string_view file) {
+    auto const is_in_source = file.starts_with("web/console/src/") || file.starts_with("web/client/src/");
+    return is_in_source && (file.ends_with(".ts") || file.ends_with(".tsx") || file.ends_with(".css"));
+}
+
+// The number of characters of a text in UTF-8.
+std::ptrdiff_t characters(std::string_view text) {
+    return std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
+}
+
+// Whether a line of TypeScript consists of a regular expression, which cannot be broken.
+bool is_expression(std::string_view line) {
+    auto const begin = line.find_first_not_of(' ');
+    if (begin == line.npos || line.substr(begin, 2) == "//" || line.substr(begin, 2) == "/*") return false;
+    return line[begin] == '/' && (line.ends_with(';') || line.ends_with(','));
 }
 
 bool exists(Tree const& tree, std::string path) {
@@ -84,6 +102,20 @@ Complaints against_short_files(Tree const& tree) {
         if (is_source(file) && lines > longest_file)
             complaints.push_back(at(file, longest_file + 1) + "has " + std::to_string(lines) + " lines, more than " +
                                  std::to_string(longest_file));
+    }
+    return complaints;
+}
+
+Complaints against_long_lines(Tree const& tree) {
+    Complaints complaints;
+    for (auto const& [file, text] : tree) {
+        if (!is_web_source(file)) continue;
+        for_each_line(text, [&](std::string const& line, std::size_t number) {
+            auto const length = characters(line);
+            if (length > longest_line && !is_expression(line))
+                complaints.push_back(at(file, number) + "has " + std::to_string(length) + " characters, more than " +
+                                     std::to_string(longest_line));
+        });
     }
     return complaints;
 }

@@ -28,6 +28,9 @@ Complaints against_braces_in_awaits(Tree const&);
 // Files of C++, TypeScript and Python are short.
 Complaints against_short_files(Tree const&);
 
+// Lines of TypeScript and style sheets in web/*/src/ are short. A line that consists of a regular expression may be longer.
+Complaints against_long_lines(Tree const&);
+
 // Relative links in README.md, ARCHITECTURE.md, CONTRIBUTING.md, SECURITY.md, docs/*.md, web/*/README.md and tests/**/README.md
 // lead to a file or folder.
 Complaints against_links(Tree const&);

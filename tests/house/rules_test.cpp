@@ -8,6 +8,7 @@ namespace rois::house {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
+using testing::SizeIs;
 using testing::StartsWith;
 
 TEST(Layers, PointDown) {
@@ -173,6 +174,31 @@ TEST(ShortFiles, EndAtFiveHundredLines) {
                     {"web/client/src/e.ts", lines(500)}};
     EXPECT_THAT(against_short_files(tree), ElementsAre("server/a.cpp:501: has 501 lines, more than 500",
                                                        "web/client/src/d.ts:501: has 502 lines, more than 500"));
+}
+
+TEST(LongLines, AreReportedInTypeScriptAndStyleSheetsOfTheWeb) {
+    auto const line = [](std::size_t length) { return std::string(length, 'a') + "\n"; };
+    Tree const tree{{"server/a.cpp", line(141)},
+                    {"web/client/src/b.ts", "\n" + line(141)},
+                    {"web/client/tests/c.ts", line(141)},
+                    {"web/console/src/d.tsx", line(140)},
+                    {"web/console/src/e/f.css", line(150)}};
+    EXPECT_THAT(against_long_lines(tree), ElementsAre("web/client/src/b.ts:2: has 141 characters, more than 140",
+                                                      "web/console/src/e/f.css:1: has 150 characters, more than 140"));
+}
+
+TEST(LongLines, AreCountedInCharactersNotInBytes) {
+    std::string text;
+    for (int i = 0; i < 140; ++i) text += "\u72b6";
+    EXPECT_THAT(against_long_lines({{"web/console/src/a.ts", text}}), IsEmpty());
+    EXPECT_THAT(against_long_lines({{"web/console/src/a.ts", text + "a"}}), SizeIs(1));
+}
+
+TEST(LongLines, MayBeRegularExpressionsButNotComments) {
+    auto const rest = std::string(140, 'a');
+    EXPECT_THAT(against_long_lines({{"web/client/src/a.ts", "  /" + rest + "/y;\n"}}), IsEmpty());
+    EXPECT_THAT(against_long_lines({{"web/client/src/a.ts", "  // " + rest + ";\n"}}), SizeIs(1));
+    EXPECT_THAT(against_long_lines({{"web/client/src/a.ts", "  /* " + rest + ";\n"}}), SizeIs(1));
 }
 
 TEST(Links, LeadToFilesAndFolders) {

@@ -5,7 +5,11 @@ import type { OpenSocket } from './socket.js';
 function hint(url: string): string {
   const mine = globalThis.location?.origin;
   if (mine === undefined || mine === new URL(url.replace(/^ws/, 'http')).origin) return '';
-  if (mine === 'null') return ". If the gateway is running, it may refuse this page: pages without an origin (files, sandboxed frames) are never allowed. Serve the page over HTTP";
+  if (mine === 'null')
+    return (
+      '. If the gateway is running, it may refuse this page: ' +
+      'pages without an origin (files, sandboxed frames) are never allowed. Serve the page over HTTP'
+    );
   return `. If the gateway is running, it may refuse pages of ${mine}: RoIS Gateway allows them with --allowed-origins ${mine}`;
 }
 
@@ -21,7 +25,9 @@ export const open_browser_socket: OpenSocket = (url, subprotocols, listener) => 
     if (listening && typeof data === 'string') listener.received(data);
   };
   socket.onclose = ({ code, reason }) => {
-    const why = was_open ? `was closed with ${code}${reason && `, ${reason}`}` : `to ${url} could not be opened; the browser's console may say why${hint(url)}`;
+    const why = was_open
+      ? `was closed with ${code}${reason && `, ${reason}`}`
+      : `to ${url} could not be opened; the browser's console may say why${hint(url)}`;
     if (listening) listener.ended({ reason: `the WebSocket ${why}`, final: false, code });
     listening = false;
   };

@@ -24,7 +24,9 @@ export interface ClientOptions {
   deadline?: number;
   /** Silence in ms before a ping [10,000]. The link is dropped after the same time again without an answer. */
   heartbeat?: number;
-  /** Motion lease in ms, 1000 to the gateway's own [2000]: a robot that this session moves is held after this time without a sign of life. */
+  /**
+   * Motion lease in ms, 1000 to the gateway's own [2000]: a robot that this session moves is held after this time without a sign of life.
+   */
   motion_lease?: number;
   /** Delay in ms before the first retry [100]. Each further retry doubles it; each delay is shortened by up to half at random. */
   first_delay?: number;
@@ -34,7 +36,10 @@ export interface ClientOptions {
   rebind?: boolean;
   /** Capacity of each stream of notifications [10,000]. A full stream drops the oldest one and reports a gap. */
   buffer?: number;
-  /** A listener of `on('state')` from the first attempt on: each failed attempt is reported as `connecting` or `lost` while `connect` retries. */
+  /**
+   * A listener of `on('state')` from the first attempt on: each failed attempt is reported as `connecting` or `lost` while `connect`
+   * retries.
+   */
   on_state?: (change: StateChange) => void;
   /** Random number from 0 to 1, used to shorten the delays [Math.random]. */
   random?: () => number;
@@ -125,7 +130,10 @@ export class Client {
         if (change.state === 'closed') reject(new RoisError('unreachable', change.reason));
         else resolve();
       });
-      const timer = setTimeout(() => this.link.finish(new RoisError('unreachable', `no session within ${deadline} ms: ${reason}`)), for_timer(deadline));
+      const timer = setTimeout(
+        () => this.link.finish(new RoisError('unreachable', `no session within ${deadline} ms: ${reason}`)),
+        for_timer(deadline),
+      );
       this.link.start();
     });
   }
@@ -168,7 +176,8 @@ export class Client {
    * client; `resume` is rejected as `invalid`, because the client resumes its session itself.
    */
   async send(text: string, options: CallOptions = {}): Promise<XmlElement> {
-    if (/<(?:[^\s<>/:]+:)?resume[\s/>]/.test(text)) throw new RoisError('invalid', "'resume' cannot be sent: the client resumes its session itself");
+    if (/<(?:[^\s<>/:]+:)?resume[\s/>]/.test(text))
+      throw new RoisError('invalid', "'resume' cannot be sent: the client resumes its session itself");
     return this.link.send(text, options.deadline);
   }
 
@@ -216,7 +225,12 @@ export class Client {
   }
 
   get_parameter(component_ref: Ref, options: CallOptions = {}): Promise<Results> {
-    return this.ask('get_parameter', () => component_ref_xml(component_ref), options, (answer) => new Results((answer.child('parameters')?.all('parameter') ?? []).map(parameter_of)));
+    return this.ask(
+      'get_parameter',
+      () => component_ref_xml(component_ref),
+      options,
+      (answer) => new Results((answer.child('parameters')?.all('parameter') ?? []).map(parameter_of)),
+    );
   }
 
   set_parameter(component_ref: Ref, parameters: Arguments, options: CallOptions = {}): Promise<Execution> {
@@ -279,7 +293,13 @@ export class Client {
 
   // --- Inside ---
 
-  private ask<T>(operation: Operation, content: () => string, options: RequestOptions, read: (answer: XmlElement) => T, repeatable = true): Promise<T> {
+  private ask<T>(
+    operation: Operation,
+    content: () => string,
+    options: RequestOptions,
+    read: (answer: XmlElement) => T,
+    repeatable = true,
+  ): Promise<T> {
     return this.asked(operation, {}, content, options, read, repeatable);
   }
 

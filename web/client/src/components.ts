@@ -204,7 +204,10 @@ export class Follow extends Component {
 
   /** Follows a person or object at this distance, until `stop` or the time limit. */
   follow(target_object_ref: Ref, distance: number, how: { time_limit?: number } & ActionOptions = {}): Promise<Completion> {
-    return this.start({ target_object_ref: value.identifier(target_object_ref), distance: value.int(distance), time_limit: int(how.time_limit) }, how);
+    return this.start(
+      { target_object_ref: value.identifier(target_object_ref), distance: value.int(distance), time_limit: int(how.time_limit) },
+      how,
+    );
   }
 }
 
@@ -217,7 +220,10 @@ export class Move extends Component {
     return this.start({ line: value.ints([distance, turn]), time: int(how.time) }, how);
   }
 
-  /** Drives on a circle of `radius` mm (negative: backwards; 0: on the spot) until the heading has turned by `turn` degrees (positive: left). */
+  /**
+   * Drives on a circle of `radius` mm (negative: backwards; 0: on the spot) until the heading has turned by `turn` degrees (positive:
+   * left).
+   */
   curve(radius: number, turn: number, how: { time?: number } & ActionOptions = {}): Promise<Completion> {
     return this.start({ curve: value.ints([radius, turn]), time: int(how.time) }, how);
   }

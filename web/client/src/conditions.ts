@@ -64,7 +64,9 @@ export function box(low: { x: number; y: number }, high: { x: number; y: number 
 /** The distance between two positions or named places, in mm. */
 export function distance(from: Expression | string, to: Operand): Expression {
   const argument = (of: Operand) => (of instanceof Geometry ? element('fes:Literal', {}, of.xml) : operand(of));
-  return new Expression(element('fes:Function', { name: 'distance' }, argument(typeof from === 'string' ? property(from) : from), argument(to)));
+  return new Expression(
+    element('fes:Function', { name: 'distance' }, argument(typeof from === 'string' ? property(from) : from), argument(to)),
+  );
 }
 
 /** A literal (also the name of a place), a time, or an expression. */

@@ -1,4 +1,5 @@
-// Stop for everything: halts all robots of a gateway, also those that other sessions command. Needs no session, and works while a client's link is lost.
+// Stop for everything: halts all robots of a gateway, also those that other sessions command. Needs no session, and works while a
+// client's link is lost.
 import { stop_state_of } from './answers.js';
 import { RoisError } from './errors.js';
 import type { StopState } from './messages.js';
@@ -13,9 +14,10 @@ export interface EverythingOptions {
 }
 
 /**
- * Halts every component of every session; nothing starts until `clear_everything`. Gives the state afterwards: `not_halted` names the components
- * that have not confirmed yet that they stand still. Rejects with RoisError: `unreachable` without an answer, `fault` when the gateway refuses,
- * `protocol` when the answer is not a stop_state document. A page may stop only the gateway that serves it: the browser hides the answers of others.
+ * Halts every component of every session; nothing starts until `clear_everything`. Gives the state afterwards: `not_halted` names the
+ * components that have not confirmed yet that they stand still. Rejects with RoisError: `unreachable` without an answer, `fault` when the
+ * gateway refuses, `protocol` when the answer is not a stop_state document. A page may stop only the gateway that serves it: the browser
+ * hides the answers of others.
  */
 export function stop_everything(url: string, options: EverythingOptions = {}): Promise<StopState> {
   return post(url, 'stop', options);

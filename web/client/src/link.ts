@@ -102,7 +102,12 @@ export class Link {
   }
 
   /** Makes a request and sends it as soon as the link is open. */
-  ask<T>(operation: Operation, attributes: Record<string, string | number | boolean | undefined>, content: () => string, how: AskOptions<T>): Promise<T> {
+  ask<T>(
+    operation: Operation,
+    attributes: Record<string, string | number | boolean | undefined>,
+    content: () => string,
+    how: AskOptions<T>,
+  ): Promise<T> {
     const request_id = `r${this.next_id++}`;
     return this.call(() => request(operation, { ...attributes, request_id }, content()), request_id, how);
   }
@@ -187,7 +192,11 @@ export class Link {
   }
 
   // Sends a request of the link itself, at once. If it fails, the link fails.
-  private greet(operation: Operation, attributes: Record<string, string | number | undefined>, answered: (answer: XmlElement) => void): void {
+  private greet(
+    operation: Operation,
+    attributes: Record<string, string | number | undefined>,
+    answered: (answer: XmlElement) => void,
+  ): void {
     const request_id = `r${this.next_id++}`;
     const text = request(operation, { ...attributes, request_id });
     this.transmit({ text, request_id, repeatable: false, sent_at: 0, settled: false, answered, failed: () => undefined });
@@ -297,7 +306,8 @@ export class Link {
     if (oldest && now - Math.max(this.last_received_at, oldest.sent_at) >= this.settings.heartbeat)
       this.drop(`the gateway has not answered for ${this.settings.heartbeat} ms`);
     else if (!oldest && now - this.last_received_at >= this.settings.heartbeat) this.ping();
-    else if (this.settings.open_socket.answers_pings_alone && this.may_move && !this.proving && now - this.last_sent_at >= quiet) this.ping();
+    else if (this.settings.open_socket.answers_pings_alone && this.may_move && !this.proving && now - this.last_sent_at >= quiet)
+      this.ping();
   }
 
   // In a live session, `connect` changes nothing (decision 1 of the gateway).

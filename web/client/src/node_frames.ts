@@ -95,15 +95,18 @@ export class FrameReader {
     const opcode = first & 15;
     if ((first & 0x70) !== 0) throw new FrameError('a reserved bit is set in a frame', 1002);
     if ((second & 0x80) !== 0) throw new FrameError("a server's frame is masked", 1002);
-    if (opcode >= 8 && ((first & 0x80) === 0 || size > 125n)) throw new FrameError('a control frame is fragmented or longer than 125 bytes', 1002);
-    if (opcode < 8 && BigInt(this.fragments_size) + size > BigInt(most_bytes)) throw new FrameError(`a message has more than ${most_bytes} bytes`, 1009);
+    if (opcode >= 8 && ((first & 0x80) === 0 || size > 125n))
+      throw new FrameError('a control frame is fragmented or longer than 125 bytes', 1002);
+    if (opcode < 8 && BigInt(this.fragments_size) + size > BigInt(most_bytes))
+      throw new FrameError(`a message has more than ${most_bytes} bytes`, 1009);
   }
 
   private take(opcode: number, final: boolean, payload: Buffer): void {
     switch (opcode) {
       case Opcode.continuation:
       case Opcode.text:
-        if ((opcode === Opcode.continuation) !== this.in_message) throw new FrameError('a continuation frame is missing or unexpected', 1002);
+        if ((opcode === Opcode.continuation) !== this.in_message)
+          throw new FrameError('a continuation frame is missing or unexpected', 1002);
         this.piece(final, payload);
         return;
       case Opcode.binary:

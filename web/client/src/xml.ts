@@ -102,10 +102,13 @@ export function text_element(name: string, text: string): string {
 const most_depth = 256;
 
 const space = /[ \t\n]*/y;
-const name_start = '[:A-Z_a-z\\u{C0}-\\u{D6}\\u{D8}-\\u{F6}\\u{F8}-\\u{2FF}\\u{370}-\\u{37D}\\u{37F}-\\u{1FFF}\\u{200C}\\u{200D}\\u{2070}-\\u{218F}\\u{2C00}-\\u{2FEF}\\u{3001}-\\u{D7FF}\\u{F900}-\\u{FDCF}\\u{FDF0}-\\u{FFFD}\\u{10000}-\\u{EFFFF}]';
+const name_start =
+  '[:A-Z_a-z\\u{C0}-\\u{D6}\\u{D8}-\\u{F6}\\u{F8}-\\u{2FF}\\u{370}-\\u{37D}\\u{37F}-\\u{1FFF}\\u{200C}\\u{200D}' +
+  '\\u{2070}-\\u{218F}\\u{2C00}-\\u{2FEF}\\u{3001}-\\u{D7FF}\\u{F900}-\\u{FDCF}\\u{FDF0}-\\u{FFFD}\\u{10000}-\\u{EFFFF}]';
 const name_part = `(?:${name_start}|[-.0-9\\u{B7}\\u{300}-\\u{36F}\\u{203F}\\u{2040}])`;
 const a_name = new RegExp(`${name_start}${name_part}*`, 'uy');
-const declaration = /<\?xml[ \t\n]+version[ \t\n]*=[ \t\n]*(["'])1\.[0-9]+\1([ \t\n]+encoding[ \t\n]*=[ \t\n]*(["'])[Uu][Tt][Ff]-8\3)?([ \t\n]+standalone[ \t\n]*=[ \t\n]*(["'])(yes|no)\5)?[ \t\n]*\?>/y;
+const declaration =
+  /<\?xml[ \t\n]+version[ \t\n]*=[ \t\n]*(["'])1\.[0-9]+\1([ \t\n]+encoding[ \t\n]*=[ \t\n]*(["'])[Uu][Tt][Ff]-8\3)?([ \t\n]+standalone[ \t\n]*=[ \t\n]*(["'])(yes|no)\5)?[ \t\n]*\?>/y;
 const a_reference = /&(?:#x([0-9A-Fa-f]{1,8})|#([0-9]{1,10})|(amp|lt|gt|quot|apos));/y;
 const predefined: Record<string, string> = { amp: '&', lt: '<', gt: '>', quot: '"', apos: "'" };
 
@@ -191,7 +194,8 @@ class XmlReader {
       if (this.take('/')) this.end_tag(open);
       else if (this.take('!--')) this.comment();
       else if (this.take('![CDATA[')) this.cdata(root);
-      else if (this.follows('!') || this.follows('?')) this.fail('document types and processing instructions are not supported', this.at - 1);
+      else if (this.follows('!') || this.follows('?'))
+        this.fail('document types and processing instructions are not supported', this.at - 1);
       else root.children.push(this.start_tag(open, open[open.length - 1]!.scope));
     }
     return first;
@@ -244,7 +248,8 @@ class XmlReader {
       if (name !== 'xmlns' && !name.startsWith('xmlns:')) continue;
       if (scope === around) scope = new Map(around);
       const prefix = name.slice(6);
-      if (prefix === 'xml' || prefix === 'xmlns' || (prefix !== '' && value === '')) this.fail(`'${name}' is not a valid namespace declaration`, at);
+      if (prefix === 'xml' || prefix === 'xmlns' || (prefix !== '' && value === ''))
+        this.fail(`'${name}' is not a valid namespace declaration`, at);
       scope.set(prefix, value);
     }
     const [name, namespace] = this.resolved(written, scope, begin, true);

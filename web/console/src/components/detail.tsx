@@ -8,7 +8,7 @@ import { EventsTab } from './events_tab';
 import { holder_text } from './holder';
 import { ParametersTab } from './parameters_tab';
 import { QueriesTab, query_names } from './queries_tab';
-import * as t from './texts';
+import * as texts from './texts';
 import { Work } from './work';
 
 type Part = 'commands' | 'parameters' | 'queries' | 'events';
@@ -18,16 +18,20 @@ export function Detail({ view }: { view: ComponentView }) {
   const [part, set_part] = useDraft<Part>('part', 'commands');
   const count = (n: number) => (n === 0 ? undefined : String(n));
   const tabs = [
-    { id: 'commands' as const, title: t.commands(), badge: count(view.commands.length) },
-    { id: 'parameters' as const, title: t.parameters(), badge: count(console.parameters.of(view.ref)?.parameters.length ?? view.parameters.length) },
-    { id: 'queries' as const, title: t.queries(), badge: count(query_names(view).length) },
-    { id: 'events' as const, title: t.events(), badge: count(view.events.length) },
+    { id: 'commands' as const, title: texts.commands(), badge: count(view.commands.length) },
+    {
+      id: 'parameters' as const,
+      title: texts.parameters(),
+      badge: count(console.parameters.of(view.ref)?.parameters.length ?? view.parameters.length),
+    },
+    { id: 'queries' as const, title: texts.queries(), badge: count(query_names(view).length) },
+    { id: 'events' as const, title: texts.events(), badge: count(view.events.length) },
   ];
   return (
     <section class="component-detail" aria-label={view.ref}>
       <Head view={view} />
       <div class="component-parts">
-        <Tabs label={t.of_component(view.ref)} tabs={tabs} chosen={part} choose={set_part}>
+        <Tabs label={texts.of_component(view.ref)} tabs={tabs} chosen={part} choose={set_part}>
           <div class="component-part" key={part}>
             {part === 'commands' && <CommandsTab view={view} />}
             {part === 'parameters' && <ParametersTab view={view} />}
@@ -50,21 +54,31 @@ function Head({ view }: { view: ComponentView }) {
         <h2>{view.ref}</h2>
         {entry && <StatusBadge status={entry.status} title={entry.trouble} />}
         <Work component={view.ref} />
-        {entry && <span class="soft">{t.since(Math.max(0, now.value - entry.since))}</span>}
-        <span class="component-holder">{holder_text(console, view.ref) || t.nobody()}</span>
+        {entry && <span class="soft">{texts.since(Math.max(0, now.value - entry.since))}</span>}
+        <span class="component-holder">{holder_text(console, view.ref) || texts.nobody()}</span>
         {bindings.mine.value.has(view.ref) ? (
-          <Button small disabled={!link.is_open} aria-label={t.release_it(view.ref)} onClick={() => tried(console, view.ref, bindings.release(view.ref))}>
-            {t.release()}
+          <Button
+            small
+            disabled={!link.is_open}
+            aria-label={texts.release_it(view.ref)}
+            onClick={() => tried(console, view.ref, bindings.release(view.ref))}
+          >
+            {texts.release()}
           </Button>
         ) : (
-          <Button small disabled={!link.is_open} aria-label={t.bind_it(view.ref)} onClick={() => tried(console, view.ref, bindings.bind(view.ref))}>
-            {t.bind()}
+          <Button
+            small
+            disabled={!link.is_open}
+            aria-label={texts.bind_it(view.ref)}
+            onClick={() => tried(console, view.ref, bindings.bind(view.ref))}
+          >
+            {texts.bind()}
           </Button>
         )}
       </div>
       {view.description !== '' && <p>{shown_description(view.description)}</p>}
       <p class="soft"><code>{view.type}</code></p>
-      {view.unresolved.length > 0 && <p class="soft">{t.unresolved(view.unresolved.join(', '))}</p>}
+      {view.unresolved.length > 0 && <p class="soft">{texts.unresolved(view.unresolved.join(', '))}</p>}
     </header>
   );
 }

@@ -8,7 +8,7 @@ import { reason_of } from '../state/base/reason_of';
 import type { ComponentView, Offered } from '../state/engine/profile_state';
 import { Button, Checkbox, Form, TextArea, tried } from '../ui';
 import { Pick } from './pick';
-import * as t from './texts';
+import * as texts from './texts';
 
 const most_shown = 8;
 
@@ -16,10 +16,10 @@ export function EventsTab({ view }: { view: ComponentView }) {
   const names = view.events.map((one) => one.name);
   const [name, choose] = useDraft(`${view.ref} event`, names[0] ?? '');
   const event = view.events.find((one) => one.name === name);
-  if (!event) return <p>{t.no_events()}</p>;
+  if (!event) return <p>{texts.no_events()}</p>;
   return (
     <>
-      <Pick label={t.choose_event()} names={names} offered={view.events} chosen={name} choose={choose} />
+      <Pick label={texts.choose_event()} names={names} offered={view.events} chosen={name} choose={choose} />
       <SubscribeForm key={name} view={view} event={event} />
       <Subscriptions event_type={name} />
       <LastEvents view={view} event_type={name} />
@@ -38,16 +38,22 @@ function SubscribeForm({ view, event }: { view: ComponentView; event: Offered })
   const results = event.results.map((one) => `${one.name} (${one.data_type_ref.code})`).join(', ');
   return (
     <Form class="component-form">
-      <p class="soft">{results !== '' && t.brings(results)} {t.not_started()}</p>
+      <p class="soft">{results !== '' && texts.brings(results)} {texts.not_started()}</p>
       <div class="component-line">
-        <Checkbox label={t.only_mine(view.ref)} checked={only_mine} change={set_only_mine} />
-        <Checkbox label={t.inline()} checked={inline_results} change={set_inline} />
+        <Checkbox label={texts.only_mine(view.ref)} checked={only_mine} change={set_only_mine} />
+        <Checkbox label={texts.inline()} checked={inline_results} change={set_inline} />
       </div>
-      <TextArea label={t.condition()} value={further} change={set_further} rows={2} error={bad === '' ? '' : t.condition_bad(bad)} />
+      <TextArea
+        label={texts.condition()}
+        value={further}
+        change={set_further}
+        rows={2}
+        error={bad === '' ? '' : texts.condition_bad(bad)}
+      />
       <Exchange
         title={`${view.ref} ${event.name}`}
         operation="subscribe"
-        label={t.subscribe()}
+        label={texts.subscribe()}
         icon="plus"
         request={request('subscribe', { inline_results }, text_element('event_type', event.name) + condition_xml(condition))}
         may_send={() => bad === ''}
@@ -58,11 +64,11 @@ function SubscribeForm({ view, event }: { view: ComponentView; event: Offered })
 }
 
 // Both conditions must hold. The typed one may have a filter element around it or not.
-function joined(mine: Condition | undefined, further: string): Condition | undefined {
-  if (further === '') return mine;
+function joined(chosen: Condition | undefined, further: string): Condition | undefined {
+  if (further === '') return chosen;
   const inside = /^<fes:Filter(?:\s[^>]*)?>([^]*)<\/fes:Filter>$/.exec(further)?.[1] ?? further;
   const typed = new Condition(inside);
-  return mine ? mine.and(typed) : typed;
+  return chosen ? chosen.and(typed) : typed;
 }
 
 function what_is_wrong(xml: string): string {
@@ -78,20 +84,20 @@ function Subscriptions({ event_type }: { event_type: string }) {
   const console = useConsole();
   const { subscriptions, events } = console;
   void events.pulse.beat.value; // counts change in place
-  const those = [...subscriptions.all.value.values()].filter((one) => one.event_type === event_type && !subscriptions.is_own(one.id));
-  if (those.length === 0) return null;
+  const entries = [...subscriptions.all.value.values()].filter((one) => one.event_type === event_type && !subscriptions.is_own(one.id));
+  if (entries.length === 0) return null;
   const leave = (id: string) => tried(console, id, subscriptions.unsubscribe(id));
   return (
     <>
-      <h3>{t.subscriptions()}</h3>
+      <h3>{texts.subscriptions()}</h3>
       <ul class="component-list">
-        {those.map((one) => (
+        {entries.map((one) => (
           <li key={one.id} class="row-spread">
             <span>
-              <code>{one.id}</code> <span class="soft">{clock_time(one.since, false)} · {t.counted(one.count)}</span>
+              <code>{one.id}</code> <span class="soft">{clock_time(one.since, false)} · {texts.counted(one.count)}</span>
             </span>
-            <Button small aria-label={t.unsubscribe_it(one.id)} onClick={() => leave(one.id)}>
-              {t.unsubscribe()}
+            <Button small aria-label={texts.unsubscribe_it(one.id)} onClick={() => leave(one.id)}>
+              {texts.unsubscribe()}
             </Button>
           </li>
         ))}
@@ -111,12 +117,16 @@ function LastEvents({ view, event_type }: { view: ComponentView; event_type: str
   if (last.length === 0) return null;
   return (
     <>
-      <h3>{t.last_events()}</h3>
+      <h3>{texts.last_events()}</h3>
       <ul class="component-list">
         {last.map((one) => (
           <li key={one.number}>
             <span class="soft">{clock_time(one.at)}</span>{' '}
-            {one.details.state === 'there' && one.details.results.parameters.filter((each) => each.name !== 'timestamp').map((each) => `${each.name}: ${each.values.join('; ')}`).join(' · ')}
+            {one.details.state === 'there' &&
+              one.details.results.parameters
+                .filter((each) => each.name !== 'timestamp')
+                .map((each) => `${each.name}: ${each.values.join('; ')}`)
+                .join(' · ')}
           </li>
         ))}
       </ul>

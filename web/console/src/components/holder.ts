@@ -2,7 +2,10 @@
 import type { Console } from '../state/console';
 import * as texts from './texts';
 
-/** Empty if no session has bound the component. BUSY means that another session has bound it, even if the gateway does not name that session. */
+/**
+ * Empty if no session has bound the component. BUSY means that another session has bound it, even if the gateway does not name that
+ * session.
+ */
 export function holder_text({ bindings, status }: Console, ref: string): string {
   const holder = bindings.holder_of(ref);
   if (holder.who === 'me') return texts.mine();

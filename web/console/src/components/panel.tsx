@@ -2,7 +2,7 @@
 import './components.css';
 
 import { useConsole, useWatch } from '../context';
-import { EmptyState, SplitPane, useIsWide } from '../ui';
+import { EmptyState, useIsWide, WidthSplit } from '../ui';
 import { Detail } from './detail';
 import * as texts from './texts';
 import { Tree } from './tree';
@@ -15,15 +15,24 @@ export default function ComponentsPanel() {
   const engine = profile.engine.value;
   const ref = selection.component.value;
   const view = profile.component(ref);
-  const detail = view ? <Detail key={ref} view={view} /> : <EmptyState icon="components" title={profile.is_empty.value ? texts.empty() : ref === '' ? texts.pick() : texts.gone(ref)} />;
+  const detail = view ? (
+    <Detail key={ref} view={view} />
+  ) : (
+    <EmptyState icon="components" title={profile.is_empty.value ? texts.empty() : ref === '' ? texts.pick() : texts.gone(ref)} />
+  );
   return (
     <div ref={frame} class={view || is_wide ? 'engine-panel' : 'engine-panel engine-alone'}>
       {!engine ? (
         <EmptyState icon="components" title={texts.none()} />
-      ) : is_wide ? (
-        <SplitPane key="row" id="components.row" direction="row" share={0.34} label={texts.tree()} first={<Tree engine={engine} />} second={detail} />
       ) : (
-        <SplitPane key="column" id="components.column" direction="column" share={0.36} label={texts.tree()} first={<Tree engine={engine} />} second={detail} />
+        <WidthSplit
+          is_wide={is_wide}
+          row={{ id: 'components.row', share: 0.34 }}
+          column={{ id: 'components.column', share: 0.36 }}
+          label={texts.tree()}
+          first={<Tree engine={engine} />}
+          second={detail}
+        />
       )}
     </div>
   );

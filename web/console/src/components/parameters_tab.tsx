@@ -7,7 +7,7 @@ import { arguments_in, ArgumentFields, asked_by, Exchange, type Inputs, problems
 import type { ComponentView } from '../state/engine/profile_state';
 import { Form } from '../ui';
 import { written } from './commands_tab';
-import * as t from './texts';
+import * as texts from './texts';
 
 export function ParametersTab({ view }: { view: ComponentView }) {
   const { parameters } = useConsole();
@@ -15,9 +15,13 @@ export function ParametersTab({ view }: { view: ComponentView }) {
   const current = parameters.of(view.ref);
   return (
     <>
-      <h3>{t.values_now()}</h3>
-      {current && current.parameters.length > 0 ? <ResultsTable label={t.values_now()} results={current} /> : <p class="soft">{t.no_values()}</p>}
-      {view.parameters.length > 0 ? <SetForm view={view} /> : <p class="soft">{t.no_parameters()}</p>}
+      <h3>{texts.values_now()}</h3>
+      {current && current.parameters.length > 0 ? (
+        <ResultsTable label={texts.values_now()} results={current} />
+      ) : (
+        <p class="soft">{texts.no_values()}</p>
+      )}
+      {view.parameters.length > 0 ? <SetForm view={view} /> : <p class="soft">{texts.no_parameters()}</p>}
     </>
   );
 }
@@ -35,16 +39,18 @@ function SetForm({ view }: { view: ComponentView }) {
   };
   return (
     <Form class="component-form">
-      <h3>{t.set_title()}</h3>
+      <h3>{texts.set_title()}</h3>
       <ArgumentFields view={view} asked={asked} inputs={inputs} change={change} problems={problems} />
-      {was_tried && given.length === 0 && <p class="field-error" role="alert">{t.set_nothing()}</p>}
+      {was_tried && given.length === 0 && <p class="field-error" role="alert">{texts.set_nothing()}</p>}
       <Exchange
         by_enter
         title={`${view.ref} set_parameter`}
         operation="set_parameter"
-        label={t.set()}
+        label={texts.set()}
         icon="check"
-        request={written(() => request('set_parameter', {}, component_ref_xml(view.ref) + element('parameters', {}, ...given.map((one) => parameter_xml(one)))))}
+        request={written(() =>
+          request('set_parameter', {}, component_ref_xml(view.ref) + element('parameters', {}, ...given.map((one) => parameter_xml(one)))),
+        )}
         may_send={() => {
           set_tried(true);
           return Object.keys(problems).length === 0 && given.length > 0;

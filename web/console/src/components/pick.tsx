@@ -19,7 +19,14 @@ export function Pick({ label, names, offered, chosen, choose }: PickProps) {
   return (
     <div class="component-pick" role="group" aria-label={label}>
       {names.map((name) => (
-        <button key={name} type="button" class="button button-small component-choice" aria-pressed={name === chosen} title={tooltip(name)} onClick={() => choose(name)}>
+        <button
+          key={name}
+          type="button"
+          class="button button-small component-choice"
+          aria-pressed={name === chosen}
+          title={tooltip(name)}
+          onClick={() => choose(name)}
+        >
           {name}
         </button>
       ))}

@@ -6,7 +6,7 @@ import { Exchange, useDraft } from '../forms';
 import type { ComponentView } from '../state/engine/profile_state';
 import { Form } from '../ui';
 import { Pick } from './pick';
-import * as t from './texts';
+import * as texts from './texts';
 
 /** The names of its queries, as listed. */
 export function query_names(view: ComponentView): string[] {
@@ -17,23 +17,23 @@ export function QueriesTab({ view }: { view: ComponentView }) {
   const console = useConsole();
   const names = query_names(view);
   const [name, choose] = useDraft(`${view.ref} query`, names[0] ?? '');
-  if (!names.includes(name)) return <p>{t.no_queries()}</p>;
+  if (!names.includes(name)) return <p>{texts.no_queries()}</p>;
   const query = view.queries.find((one) => one.name === name);
   const results = query?.results.map((one) => `${one.name} (${one.data_type_ref.code})`).join(', ') ?? '';
-  const mine = component_ref(view.ref);
+  const condition = component_ref(view.ref);
   return (
     <>
-      <Pick label={t.choose_query()} names={names} offered={view.queries} chosen={name} choose={choose} />
+      <Pick label={texts.choose_query()} names={names} offered={view.queries} chosen={name} choose={choose} />
       <Form key={name} class="component-form">
-        {results !== '' && <p class="soft">{t.answers(results)}</p>}
+        {results !== '' && <p class="soft">{texts.answers(results)}</p>}
         <Exchange
           by_enter
           title={`${view.ref} ${name}`}
           operation="query"
           label={name}
           icon="search"
-          request={request('query', {}, text_element('query_type', name) + condition_xml(mine))}
-          act={() => console.query(name, mine)}
+          request={request('query', {}, text_element('query_type', name) + condition_xml(condition))}
+          act={() => console.query(name, condition)}
         />
       </Form>
     </>

@@ -25,10 +25,10 @@ export function Tree({ engine }: { engine: EngineView }) {
 
   const pressed = (event: KeyboardEvent) => {
     const items = [...root.current!.querySelectorAll<HTMLElement>('[role=treeitem]')];
-    const here = (event.target as HTMLElement).closest<HTMLElement>('[role=treeitem]');
-    if (!here) return;
-    const i = items.indexOf(here);
-    const name = here.dataset['engine'];
+    const item = (event.target as HTMLElement).closest<HTMLElement>('[role=treeitem]');
+    if (!item) return;
+    const i = items.indexOf(item);
+    const name = item.dataset['engine'];
     const go = (to: HTMLElement | undefined) => to?.focus();
     const act = {
       ArrowDown: () => go(items[i + 1]),
@@ -36,9 +36,12 @@ export function Tree({ engine }: { engine: EngineView }) {
       Home: () => go(items[0]),
       End: () => go(items.at(-1)),
       ArrowRight: () => (name === undefined ? undefined : closed.has(name) ? toggle(name, false) : go(items[i + 1])),
-      ArrowLeft: () => (name !== undefined && !closed.has(name) ? toggle(name, true) : go(here.parentElement?.closest<HTMLElement>('[role=treeitem]') ?? undefined)),
-      Enter: () => here.click(),
-      ' ': () => here.click(),
+      ArrowLeft: () =>
+        name !== undefined && !closed.has(name)
+          ? toggle(name, true)
+          : go(item.parentElement?.closest<HTMLElement>('[role=treeitem]') ?? undefined),
+      Enter: () => item.click(),
+      ' ': () => item.click(),
     }[event.key];
     if (!act) return;
     event.preventDefault();
@@ -71,7 +74,15 @@ function Engine({ engine, at, closed, toggle }: EngineProps) {
     toggle(engine.name);
   };
   return (
-    <li role="treeitem" aria-expanded={is_open} aria-label={engine.name} tabIndex={at === item ? 0 : -1} data-item={item} data-engine={engine.name} onClick={clicked}>
+    <li
+      role="treeitem"
+      aria-expanded={is_open}
+      aria-label={engine.name}
+      tabIndex={at === item ? 0 : -1}
+      data-item={item}
+      data-engine={engine.name}
+      onClick={clicked}
+    >
       <span class="engine-name" title={engine.identifier}>
         <Icon name={is_open ? 'down' : 'right'} size={12} />
         {engine.name}
@@ -97,7 +108,15 @@ function Row({ component, is_stop }: { component: ComponentView; is_stop: boolea
     selection.component.value = component.ref;
   };
   return (
-    <li role="treeitem" class="engine-component" title={shown_description(component.description)} aria-selected={is_chosen} tabIndex={is_stop ? 0 : -1} data-item={`component ${component.ref}`} onClick={choose}>
+    <li
+      role="treeitem"
+      class="engine-component"
+      title={shown_description(component.description)}
+      aria-selected={is_chosen}
+      tabIndex={is_stop ? 0 : -1}
+      data-item={`component ${component.ref}`}
+      onClick={choose}
+    >
       <span class="engine-ref">{component.ref}</span>
       <span class="engine-type">{component.type_name}</span>
       <Work component={component.ref} />

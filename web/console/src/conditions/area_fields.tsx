@@ -4,7 +4,7 @@ import { SelectField, TextField } from '../ui';
 import { AreaPicker } from './area_picker';
 import { is_number } from './checking';
 import type { Area } from './model';
-import * as t from './texts';
+import * as texts from './texts';
 import type { Known } from './vocabulary';
 
 export interface AreaFieldsProps {
@@ -21,28 +21,46 @@ export interface AreaFieldsProps {
 export function AreaFields({ area, change, error, hint, known, distance, change_distance, distance_complaint }: AreaFieldsProps) {
   const set = (name: keyof Area) => (value: string) => change({ ...area, [name]: value });
   const number = (name: 'x' | 'y' | 'x2' | 'y2', label: string) => (
-    <TextField label={label} unit="mm" value={area[name]} change={set(name)} error={area[name].trim() === '' || is_number(area[name]) ? undefined : t.problem_named('no_number')} input={{ inputMode: 'numeric' }} />
+    <TextField
+      label={label}
+      unit="mm"
+      value={area[name]}
+      change={set(name)}
+      error={area[name].trim() === '' || is_number(area[name]) ? undefined : texts.problem_named('no_number')}
+      input={{ inputMode: 'numeric' }}
+    />
   );
   const radius = Number(distance) > 0 ? Number(distance) : undefined;
   return (
     <div class="conditions-area">
       <div class="conditions-numbers">
-        {area.kind === 'place' && <TextField label={t.place()} value={area.place} change={set('place')} options={known.places} error={error} hint={hint} />}
+        {area.kind === 'place' && (
+          <TextField label={texts.place()} value={area.place} change={set('place')} options={known.places} error={error} hint={hint} />
+        )}
         {area.kind === 'box' && (
           <>
-            {number('x', t.corner(1, 'x'))}
-            {number('y', t.corner(1, 'y'))}
-            {number('x2', t.corner(2, 'x'))}
-            {number('y2', t.corner(2, 'y'))}
+            {number('x', texts.corner(1, 'x'))}
+            {number('y', texts.corner(1, 'y'))}
+            {number('x2', texts.corner(2, 'x'))}
+            {number('y2', texts.corner(2, 'y'))}
           </>
         )}
         {area.kind === 'point' && (
           <>
-            {number('x', t.at('x'))}
-            {number('y', t.at('y'))}
+            {number('x', texts.at('x'))}
+            {number('y', texts.at('y'))}
           </>
         )}
-        {change_distance && <TextField label={t.distance()} unit="mm" value={distance ?? ''} change={change_distance} {...distance_complaint} input={{ inputMode: 'numeric' }} />}
+        {change_distance && (
+          <TextField
+            label={texts.distance()}
+            unit="mm"
+            value={distance ?? ''}
+            change={change_distance}
+            {...distance_complaint}
+            input={{ inputMode: 'numeric' }}
+          />
+        )}
         {area.kind !== 'place' && <FrameField crs={area.crs} change={set('crs')} />}
       </div>
       <AreaPicker area={area} change={change} radius={radius} />
@@ -56,5 +74,12 @@ function FrameField({ crs, change }: { crs: string; change: (crs: string) => voi
   const frames = view.state === 'there' ? view.map.robots.flatMap((one) => (one.frame ? [one.frame.crs] : [])) : [];
   const all = [...new Set([...frames, ...(crs === '' ? [] : [crs])])];
   if (all.length === 0) return null;
-  return <SelectField label={t.frame()} value={crs} change={change} choices={[{ value: '', label: t.frame_engine() }, ...all.map((one) => ({ value: one, label: one }))]} />;
+  return (
+    <SelectField
+      label={texts.frame()}
+      value={crs}
+      change={change}
+      choices={[{ value: '', label: texts.frame_engine() }, ...all.map((one) => ({ value: one, label: one }))]}
+    />
+  );
 }

@@ -4,10 +4,10 @@ import { useRef, useState } from 'preact/hooks';
 import { useConsole, useWatch } from '../context';
 import { bounds_around, ground_of, type Point } from '../state/floor/floor';
 import type { Bounds, FloorMap } from '../state/floor/floor_map';
-import { floor_point, rect, SmallFloor } from '../ui/drawing/small_floor';
+import { floor_point, rect, SmallFloor } from '../ui';
 import { is_number } from './checking';
 import type { Area } from './model';
-import * as t from './texts';
+import * as texts from './texts';
 
 const step = 50; // mm
 const least_box = 100; // mm; less is a click
@@ -38,7 +38,13 @@ export function AreaPicker({ area, change, radius }: { area: Area; change: (area
     if (area.kind === 'place') return place && change({ ...area, place: place.name });
     if (area.kind === 'point') return change({ ...area, x: String(to.x), y: String(to.y) });
     if (Math.abs(from.x - to.x) >= least_box && Math.abs(from.y - to.y) >= least_box)
-      return change({ ...area, x: String(Math.min(from.x, to.x)), y: String(Math.min(from.y, to.y)), x2: String(Math.max(from.x, to.x)), y2: String(Math.max(from.y, to.y)) });
+      return change({
+        ...area,
+        x: String(Math.min(from.x, to.x)),
+        y: String(Math.min(from.y, to.y)),
+        x2: String(Math.max(from.x, to.x)),
+        y2: String(Math.max(from.y, to.y)),
+      });
     // A click on a place selects the place's box.
     if (place) {
       const { x, y, width, depth } = ground_of(place);
@@ -47,7 +53,7 @@ export function AreaPicker({ area, change, radius }: { area: Area; change: (area
   };
   const box = drag && area.kind === 'box' ? box_between(drag.from, drag.to) : chosen_box(area, map);
   const point = drag && area.kind === 'point' ? drag.to : chosen_point(area);
-  const hint = { box: t.pick_box(), point: t.pick_point(), place: t.pick_place() }[area.kind];
+  const hint = { box: texts.pick_box(), point: texts.pick_point(), place: texts.pick_place() }[area.kind];
   if (area.kind === 'place' && !map) return null;
   return (
     <figure class="conditions-picker">
@@ -56,7 +62,7 @@ export function AreaPicker({ area, change, radius }: { area: Area; change: (area
         bounds={bounds}
         map={map}
         role="img"
-        aria-label={t.picker()}
+        aria-label={texts.picker()}
         onPointerDown={pressed}
         onPointerMove={(event) => drag && set_drag({ ...drag, to: at(event) })}
         onPointerUp={released}
@@ -65,7 +71,16 @@ export function AreaPicker({ area, change, radius }: { area: Area; change: (area
         <g transform="scale(1 -1)">
           <Things />
           {box && <rect class="conditions-chosen" {...rect(box)} />}
-          {box && radius && area.kind !== 'point' && <rect class="conditions-reach" x={box.x - radius} y={box.y - radius} width={box.width + 2 * radius} height={box.depth + 2 * radius} rx={radius} />}
+          {box && radius && area.kind !== 'point' && (
+            <rect
+              class="conditions-reach"
+              x={box.x - radius}
+              y={box.y - radius}
+              width={box.width + 2 * radius}
+              height={box.depth + 2 * radius}
+              rx={radius}
+            />
+          )}
           {point && radius && <circle class="conditions-reach" cx={point.x} cy={point.y} r={radius} />}
           {point && <circle class="conditions-chosen" cx={point.x} cy={point.y} r={120} />}
         </g>
@@ -87,8 +102,12 @@ function Things() {
   const people = [...entities.all.values()].filter((one) => one.kind === 'person' && one.is_seen && is_here(one));
   return (
     <>
-      {[...robots.all.values()].filter(is_here).map((one) => <circle key={one.ref} class="conditions-robot" cx={one.x} cy={one.y} r={250} />)}
-      {people.map((one) => <circle key={one.ref} class="conditions-person" cx={one.x} cy={one.y} r={180} />)}
+      {[...robots.all.values()].filter(is_here).map((one) => (
+        <circle key={one.ref} class="conditions-robot" cx={one.x} cy={one.y} r={250} />
+      ))}
+      {people.map((one) => (
+        <circle key={one.ref} class="conditions-person" cx={one.x} cy={one.y} r={180} />
+      ))}
     </>
   );
 }

@@ -7,7 +7,18 @@ import { has_distance, has_two_values, is_spatial, is_temporal, type Reference, 
 import { wrapped } from './xml_writing';
 
 export type ProblemField = 'reference' | 'value' | 'upper' | 'area' | 'distance' | 'xml';
-export type Problem = 'no_reference' | 'no_value' | 'no_number' | 'no_time' | 'no_place' | 'no_box' | 'no_point' | 'no_distance' | 'reversed' | 'no_xml' | 'unwritable';
+export type Problem =
+  | 'no_reference'
+  | 'no_value'
+  | 'no_number'
+  | 'no_time'
+  | 'no_place'
+  | 'no_box'
+  | 'no_point'
+  | 'no_distance'
+  | 'reversed'
+  | 'no_xml'
+  | 'unwritable';
 
 const wrong: readonly Problem[] = ['no_number', 'reversed', 'no_xml', 'unwritable'];
 
@@ -22,7 +33,8 @@ export function problems_of(node: Node, references: readonly Reference[]): Found
   if (node.kind === 'group') return node.members.flatMap((one) => problems_of(one, references));
   if (node.kind === 'written') return is_xml(node.xml) ? [] : [{ field: 'xml', problem: 'no_xml', is_missing: false }];
   const found: Found[] = [];
-  const add = (field: ProblemField, problem: Problem | undefined) => problem && found.push({ field, problem, is_missing: !wrong.includes(problem) });
+  const add = (field: ProblemField, problem: Problem | undefined) =>
+    problem && found.push({ field, problem, is_missing: !wrong.includes(problem) });
   if (node.reference.trim() === '') add('reference', 'no_reference');
   if (node.operator === 'Null') return found;
   if (is_spatial(node.operator)) {
@@ -31,7 +43,8 @@ export function problems_of(node: Node, references: readonly Reference[]): Found
     return found;
   }
   add('value', value_problem(node, node.value, references));
-  if (has_two_values(node.operator)) add('upper', value_problem(node, node.upper, references) ?? (is_reversed(node) ? 'reversed' : undefined));
+  if (has_two_values(node.operator))
+    add('upper', value_problem(node, node.upper, references) ?? (is_reversed(node) ? 'reversed' : undefined));
   return found;
 }
 
@@ -65,7 +78,7 @@ export function is_number(text: string): boolean {
   return text.trim() !== '' && Number.isFinite(Number(text));
 }
 
-export function is_time(text: string): boolean {
+function is_time(text: string): boolean {
   return text.trim() !== '' && !Number.isNaN(new Date(text).getTime());
 }
 

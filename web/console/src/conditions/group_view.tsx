@@ -3,7 +3,7 @@ import { Button, IconButton } from '../ui';
 import { type Group, type Joining, new_group, new_predicate, type Node, with_added, with_changed, without, with_wrapped } from './model';
 import { PredicateView } from './predicate_view';
 import type { ConditionStore } from './store';
-import * as t from './texts';
+import * as texts from './texts';
 import { WrittenView } from './written_view';
 
 const joinings: readonly Joining[] = ['all_of', 'any_of', 'none_of', 'not_all_of'];
@@ -15,23 +15,31 @@ function joining_of({ joined, is_not }: Group): Joining {
 
 export function GroupView({ store, group, depth = 0 }: { store: ConditionStore; group: Group; depth?: number }) {
   const change = (to: Partial<Group>) => store.change_root((root) => with_changed(root, group.id, (one) => ({ ...one, ...to }) as Node));
-  const join = (to: Joining) => change({ joined: to === 'all_of' || to === 'not_all_of' ? 'And' : 'Or', is_not: to === 'none_of' || to === 'not_all_of' });
+  const join = (to: Joining) =>
+    change({ joined: to === 'all_of' || to === 'not_all_of' ? 'And' : 'Or', is_not: to === 'none_of' || to === 'not_all_of' });
   const add = (node: Node) => store.change_root((root) => with_added(root, group.id, node));
   const is_root = depth === 0;
   const shows_join = !is_root || group.members.length > 1 || group.is_not;
   return (
     <fieldset class={is_root ? 'conditions-group conditions-root' : 'conditions-group'}>
-      <legend class="unseen">{t.joining_named(joining_of(group))}</legend>
+      <legend class="unseen">{texts.joining_named(joining_of(group))}</legend>
       {shows_join && (
         <div class="conditions-join">
-          <select aria-label={t.join()} value={joining_of(group)} onChange={(event) => join(event.currentTarget.value as Joining)}>
+          <select aria-label={texts.join()} value={joining_of(group)} onChange={(event) => join(event.currentTarget.value as Joining)}>
             {joinings.map((one) => (
               <option key={one} value={one}>
-                {t.joining_named(one)}
+                {texts.joining_named(one)}
               </option>
             ))}
           </select>
-          {!is_root && <IconButton small icon="close" label={t.remove_group()} onClick={() => store.change_root((root) => without(root, group.id))} />}
+          {!is_root && (
+            <IconButton
+              small
+              icon="close"
+              label={texts.remove_group()}
+              onClick={() => store.change_root((root) => without(root, group.id))}
+            />
+          )}
         </div>
       )}
       {group.members.length > 0 && (
@@ -45,10 +53,10 @@ export function GroupView({ store, group, depth = 0 }: { store: ConditionStore; 
       )}
       <div class="conditions-add">
         <Button small icon="plus" onClick={() => add(new_predicate())}>
-          {t.add_condition()}
+          {texts.add_condition()}
         </Button>
         <Button small look="quiet" icon="plus" onClick={() => add(new_group([new_predicate()], 'Or'))}>
-          {t.add_group()}
+          {texts.add_group()}
         </Button>
       </div>
     </fieldset>

@@ -52,7 +52,8 @@ export class LiveMatches {
     if (!condition || !this.console.link.is_open) return;
     try {
       const refs = await this.console.documents.as_own(() => this.console.search(condition));
-      if (turn === this.turn) this.found.value = { refs: refs.map(({ code }) => code).filter((ref) => this.may_be(ref)), trouble: undefined, is_old: false };
+      if (turn === this.turn)
+        this.found.value = { refs: refs.map(({ code }) => code).filter((ref) => this.may_be(ref)), trouble: undefined, is_old: false };
     } catch (trouble) {
       if (turn === this.turn) this.found.value = { refs: this.found.value?.refs ?? [], trouble, is_old: false };
     }
@@ -78,7 +79,9 @@ function certain(node: Node, references: readonly Reference[]): Node | undefined
 }
 
 function is_certain(node: Node, references: readonly Reference[]): boolean {
-  return leaves_of(node).every((one) => (one.kind === 'written' ? !/Result\/|located|timestamp/.test(one.xml) : !is_of_results(one.reference, references)));
+  return leaves_of(node).every((one) =>
+    one.kind === 'written' ? !/Result\/|located|timestamp/.test(one.xml) : !is_of_results(one.reference, references),
+  );
 }
 
 /** Whether a part depends on the results of an event or answer. */

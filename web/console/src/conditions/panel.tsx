@@ -13,14 +13,14 @@ import { PasteDialog } from './paste_dialog';
 import { SortView } from './sort_view';
 import { type ConditionStore, store_of } from './store';
 import { Subscriptions } from './subscriptions';
-import * as t from './texts';
+import * as texts from './texts';
 import { UseView } from './use_view';
 
 export default function ConditionsPanel() {
   const console = useConsole();
   const store = store_of(console);
   const [pasting, set_pasting] = useState(false);
-  if (!console.profile.profile.value) return <EmptyState icon="conditions" title={t.looking()} />;
+  if (!console.profile.profile.value) return <EmptyState icon="conditions" title={texts.looking()} />;
   const { root, order, purpose } = store.draft.value;
   const clear = () => store.change({ root: new_group(), order: [] });
   const is_empty = root.members.length === 0 && order.length === 0;
@@ -29,15 +29,15 @@ export default function ConditionsPanel() {
       <Form class="conditions-frame">
         <div class="conditions-build">
           <PurposeView store={store} />
-          <section class="conditions-part" aria-label={t.conditions()}>
+          <section class="conditions-part" aria-label={texts.conditions()}>
             <div class="row-spread">
-              <h2>{t.heading()}</h2>
+              <h2>{texts.heading()}</h2>
               <div class="row">
                 <Button small look="quiet" icon="upload" onClick={() => set_pasting(true)}>
-                  {t.paste()}
+                  {texts.paste()}
                 </Button>
                 <Button small look="quiet" icon="close" disabled={is_empty} onClick={() => clear()}>
-                  {t.clear()}
+                  {texts.clear()}
                 </Button>
               </div>
             </div>
@@ -60,29 +60,41 @@ export default function ConditionsPanel() {
 function PurposeView({ store }: { store: ConditionStore }) {
   const { profile } = useConsole();
   const draft = store.draft.value;
-  const names = (kind: 'events' | 'queries') => [...new Set(profile.components.value.flatMap((one) => one[kind].map(({ name }) => name)))].sort();
+  const names = (kind: 'events' | 'queries') =>
+    [...new Set(profile.components.value.flatMap((one) => one[kind].map(({ name }) => name)))].sort();
   const choose = (purpose: Purpose) => {
     const event_type = purpose === 'subscribe' && draft.event_type === '' ? usual(names('events'), 'person_localized') : draft.event_type;
     const query_type = purpose === 'query' && draft.query_type === '' ? usual(names('queries'), 'component_status') : draft.query_type;
     store.change({ purpose, event_type, query_type });
   };
-  const choices = (all: string[], chosen: string) => [...(all.includes(chosen) ? [] : [chosen]), ...all].map((value) => ({ value, label: value === '' ? t.choose() : value }));
+  const choices = (all: string[], chosen: string) =>
+    [...(all.includes(chosen) ? [] : [chosen]), ...all].map((value) => ({ value, label: value === '' ? texts.choose() : value }));
   return (
-    <section class="conditions-part conditions-purpose" aria-label={t.purpose()}>
+    <section class="conditions-part conditions-purpose" aria-label={texts.purpose()}>
       <fieldset class="conditions-purposes">
-        <legend class="unseen">{t.purpose()}</legend>
+        <legend class="unseen">{texts.purpose()}</legend>
         {purposes.map((one) => (
           <label key={one} class="conditions-radio">
             <input type="radio" name="conditions-purpose" checked={draft.purpose === one} onChange={() => choose(one)} />
-            <span>{t.purpose_named(one)}</span>
+            <span>{texts.purpose_named(one)}</span>
           </label>
         ))}
       </fieldset>
       {draft.purpose === 'subscribe' && (
-        <SelectField label={t.event()} value={draft.event_type} change={(event_type) => store.change({ event_type })} choices={choices(names('events'), draft.event_type)} />
+        <SelectField
+          label={texts.event()}
+          value={draft.event_type}
+          change={(event_type) => store.change({ event_type })}
+          choices={choices(names('events'), draft.event_type)}
+        />
       )}
       {draft.purpose === 'query' && (
-        <SelectField label={t.query()} value={draft.query_type} change={(query_type) => store.change({ query_type })} choices={choices(names('queries'), draft.query_type)} />
+        <SelectField
+          label={texts.query()}
+          value={draft.query_type}
+          change={(query_type) => store.change({ query_type })}
+          choices={choices(names('queries'), draft.query_type)}
+        />
       )}
     </section>
   );

@@ -5,7 +5,7 @@ import { reason_of } from '../state/base/reason_of';
 import { Button, Dialog, TextArea } from '../ui';
 import { draft_read } from './reading';
 import type { ConditionStore } from './store';
-import * as t from './texts';
+import * as texts from './texts';
 
 export function PasteDialog({ store, open, close }: { store: ConditionStore; open: boolean; close: () => void }) {
   const [text, set_text] = useState('');
@@ -20,12 +20,22 @@ export function PasteDialog({ store, open, close }: { store: ConditionStore; ope
       close();
     } catch (caught) {
       const why = reason_of(caught);
-      set_error(why === 'no Filter' || why === 'SearchCondition' ? t.paste_no_condition() : t.paste_failed(why));
+      set_error(why === 'no Filter' || why === 'SearchCondition' ? texts.paste_no_condition() : texts.paste_failed(why));
     }
   };
   return (
-    <Dialog title={t.paste_title()} open={open} close={close} wide actions={<Button look="primary" disabled={text.trim() === ''} onClick={take}>{t.paste_take()}</Button>}>
-      <TextArea label={t.as_xml()} hint={t.paste_hint()} value={text} change={set_text} error={error} rows={14} />
+    <Dialog
+      title={texts.paste_title()}
+      open={open}
+      close={close}
+      wide
+      actions={
+        <Button look="primary" disabled={text.trim() === ''} onClick={take}>
+          {texts.paste_take()}
+        </Button>
+      }
+    >
+      <TextArea label={texts.as_xml()} hint={texts.paste_hint()} value={text} change={set_text} error={error} rows={14} />
     </Dialog>
   );
 }

@@ -6,29 +6,45 @@ import { AreaFields } from './area_fields';
 import { problems_of } from './checking';
 import { type AreaKind, type Node, type Operator, type Predicate, with_changed } from './model';
 import type { ConditionStore } from './store';
-import * as t from './texts';
+import * as texts from './texts';
 import { complaint_of, ValueFields } from './value_fields';
 import { is_spatial, operators_for, type Reference, resolved } from './vocabulary';
 
-export function PredicateView({ store, predicate, remove, wrap }: { store: ConditionStore; predicate: Predicate; remove: () => void; wrap: () => void }) {
+export function PredicateView({
+  store,
+  predicate,
+  remove,
+  wrap,
+}: {
+  store: ConditionStore;
+  predicate: Predicate;
+  remove: () => void;
+  wrap: () => void;
+}) {
   const references = store.references.value;
   const reference = resolved(predicate.reference, references);
   const is_usual = !predicate.is_not && predicate.match_case && predicate.matching === 'Any';
   const [more, set_more] = useState(false);
-  const change = (to: Partial<Predicate>) => store.change_root((root) => with_changed(root, predicate.id, (one) => ({ ...one, ...to }) as Node));
+  const change = (to: Partial<Predicate>) =>
+    store.change_root((root) => with_changed(root, predicate.id, (one) => ({ ...one, ...to }) as Node));
   const found = problems_of(predicate, references);
   return (
     <div class="conditions-predicate">
       <div class="conditions-line">
-        {predicate.is_not && <Badge tone="warning">{t.negated()}</Badge>}
-        <ReferenceField value={predicate.reference} references={references} {...complaint_of(found, 'reference')} change={(path) => change(about(predicate, path, references))} />
+        {predicate.is_not && <Badge tone="warning">{texts.negated()}</Badge>}
+        <ReferenceField
+          value={predicate.reference}
+          references={references}
+          {...complaint_of(found, 'reference')}
+          change={(path) => change(about(predicate, path, references))}
+        />
         <OperatorField predicate={predicate} reference={reference} change={change} />
         {!is_spatial(predicate.operator) && <ValueFields predicate={predicate} reference={reference} found={found} change={change} />}
       </div>
       <div class="conditions-tools">
-        <IconButton small icon="more" label={t.more()} aria-expanded={more || !is_usual} onClick={() => set_more(!more)} />
-        <IconButton small icon="components" label={t.wrap()} onClick={wrap} />
-        <IconButton small icon="close" label={t.remove()} onClick={remove} />
+        <IconButton small icon="more" label={texts.more()} aria-expanded={more || !is_usual} onClick={() => set_more(!more)} />
+        <IconButton small icon="components" label={texts.wrap()} onClick={wrap} />
+        <IconButton small icon="close" label={texts.remove()} onClick={remove} />
       </div>
       {is_spatial(predicate.operator) && (
         <AreaFields
@@ -36,19 +52,29 @@ export function PredicateView({ store, predicate, remove, wrap }: { store: Condi
           change={(area) => change({ area })}
           {...complaint_of(found, 'area')}
           known={store.known.value}
-          {...(needs_distance(predicate) && { distance: predicate.distance, change_distance: (distance: string) => change({ distance }), distance_complaint: complaint_of(found, 'distance') })}
+          {...(needs_distance(predicate) && {
+            distance: predicate.distance,
+            change_distance: (distance: string) => change({ distance }),
+            distance_complaint: complaint_of(found, 'distance'),
+          })}
         />
       )}
       {(more || !is_usual) && (
         <div class="conditions-more">
-          <Checkbox label={t.negate()} checked={predicate.is_not} change={(is_not) => change({ is_not })} />
-          {has_case(predicate, reference) && <Checkbox label={t.ignore_case()} checked={!predicate.match_case} change={(ignore) => change({ match_case: !ignore })} />}
+          <Checkbox label={texts.negate()} checked={predicate.is_not} change={(is_not) => change({ is_not })} />
+          {has_case(predicate, reference) && (
+            <Checkbox label={texts.ignore_case()} checked={!predicate.match_case} change={(ignore) => change({ match_case: !ignore })} />
+          )}
           {has_matching(predicate, reference) && (
             <SelectField
-              label={t.of_list()}
+              label={texts.of_list()}
               value={predicate.matching}
               change={(matching) => change({ matching })}
-              choices={[{ value: 'Any', label: t.of_any() }, { value: 'All', label: t.of_all() }, { value: 'One', label: t.of_one() }]}
+              choices={[
+                { value: 'Any', label: texts.of_any() },
+                { value: 'All', label: texts.of_all() },
+                { value: 'One', label: texts.of_one() },
+              ]}
             />
           )}
         </div>
@@ -93,24 +119,24 @@ export interface ReferenceFieldProps {
 
 export function ReferenceField({ value, references, error, hint, change }: ReferenceFieldProps) {
   const chosen = resolved(value, references);
-  const groups = [['result', t.results()], ['component', t.component()], ['parameter', t.parameters()]] as const;
+  const groups = [['result', texts.results()], ['component', texts.component()], ['parameter', texts.parameters()]] as const;
   const is_listed = references.some((one) => one.path === value);
   return (
     <div class="conditions-reference">
       <Field
-        label={t.reference()}
+        label={texts.reference()}
         error={error}
-        hint={value !== '' && !chosen ? t.unknown_reference() : hint}
+        hint={value !== '' && !chosen ? texts.unknown_reference() : hint}
         control={(props) => (
           <select {...props} value={value} title={chosen?.description} onChange={(event) => change(event.currentTarget.value)}>
-            {value === '' && <option value="">{t.choose()}</option>}
+            {value === '' && <option value="">{texts.choose()}</option>}
             {value !== '' && !is_listed && <option value={value}>{value}</option>}
             {groups.map(([of, name]) => {
-              const those = references.filter((one) => one.of === of);
+              const group = references.filter((one) => one.of === of);
               return (
-                those.length > 0 && (
+                group.length > 0 && (
                   <optgroup key={of} label={name}>
-                    {those.map((one) => (
+                    {group.map((one) => (
                       <option key={one.path} value={one.path}>
                         {one.path}
                       </option>
@@ -127,7 +153,15 @@ export function ReferenceField({ value, references, error, hint, change }: Refer
 }
 
 // Spatial operators are listed once for each kind of area.
-function OperatorField({ predicate, reference, change }: { predicate: Predicate; reference: Reference | undefined; change: (to: Partial<Predicate>) => void }) {
+function OperatorField({
+  predicate,
+  reference,
+  change,
+}: {
+  predicate: Predicate;
+  reference: Reference | undefined;
+  change: (to: Partial<Predicate>) => void;
+}) {
   const usual = operators_for(reference?.type ?? 'text');
   const operators = usual.includes(predicate.operator) ? usual : [...usual, predicate.operator];
   const kinds = (operator: Operator): AreaKind[] => {
@@ -142,7 +176,12 @@ function OperatorField({ predicate, reference, change }: { predicate: Predicate;
   };
   return (
     <div class="conditions-operator">
-      <SelectField label={t.operator()} value={chosen} change={choose} choices={choices.map((one) => ({ value: one, label: t.operator_named(one) }))} />
+      <SelectField
+        label={texts.operator()}
+        value={chosen}
+        change={choose}
+        choices={choices.map((one) => ({ value: one, label: texts.operator_named(one) }))}
+      />
     </div>
   );
 }

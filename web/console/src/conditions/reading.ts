@@ -2,13 +2,25 @@
 import { parse_xml, type XmlElement } from 'rois-client';
 
 import {
-  type Area, type Draft, new_area, new_draft, new_group, new_predicate, new_sort_key, new_written, type Group, type Node, type Operator, type Predicate, type SortKey,
+  type Area,
+  type Draft,
+  new_area,
+  new_draft,
+  new_group,
+  new_predicate,
+  new_sort_key,
+  new_written,
+  type Group,
+  type Node,
+  type Operator,
+  type Predicate,
+  type SortKey,
 } from './model';
 import { text_of_element, wrapped } from './xml_writing';
 
 /** Reads a Filter, a predicate, a `condition` or a request. Throws XmlError if it is not XML, and Error if it is not a condition. */
 export function draft_read(text: string): Draft {
-  const root = whole(text);
+  const root = parsed(text);
   const purpose = root.name === 'subscribe' || root.name === 'query' || root.name === 'bind_any' ? root.name : 'search';
   const condition = root.name === 'condition' ? root : (root.child('condition') ?? (is_request(root) ? undefined : root));
   const filter = condition?.child('Filter');
@@ -28,7 +40,7 @@ export function draft_read(text: string): Draft {
 }
 
 // A document, or a fragment with the usual prefixes.
-function whole(text: string): XmlElement {
+function parsed(text: string): XmlElement {
   try {
     const root = parse_xml(text);
     if (is_request(root) || root.name === 'condition') return root;
@@ -72,10 +84,14 @@ function predicate_of(one: XmlElement): Partial<Predicate> | undefined {
   switch (operator) {
     case 'EqualTo': case 'NotEqualTo': case 'LessThan': case 'GreaterThan': case 'LessThanOrEqualTo': case 'GreaterThanOrEqualTo': {
       const matching = (one.attribute('matchAction') ?? 'Any') as Predicate['matching'];
-      return others.length === 1 && literal(second) !== undefined ? { reference, operator, value: literal(second)!, matching, match_case: minds_case(one) } : undefined;
+      return others.length === 1 && literal(second) !== undefined
+        ? { reference, operator, value: literal(second)!, matching, match_case: minds_case(one) }
+        : undefined;
     }
     case 'Like':
-      return is_usual_pattern(one) && literal(second) !== undefined ? { reference, operator, value: literal(second)!, match_case: minds_case(one) } : undefined;
+      return is_usual_pattern(one) && literal(second) !== undefined
+        ? { reference, operator, value: literal(second)!, match_case: minds_case(one) }
+        : undefined;
     case 'Null':
       return { reference, operator };
     case 'Between': {
@@ -133,7 +149,20 @@ function area_of(one: XmlElement): Area | undefined {
   return one.name === 'Envelope' && x && y && x2 && y2 && above.length === 0 ? { ...new_area('box'), x, y, x2, y2, crs } : undefined;
 }
 
-const in_millimetres: Record<string, number> = { mm: 1, millimetre: 1, millimeter: 1, cm: 10, centimetre: 10, centimeter: 10, m: 1000, metre: 1000, meter: 1000, km: 1e6, kilometre: 1e6, kilometer: 1e6 };
+const in_millimetres: Record<string, number> = {
+  mm: 1,
+  millimetre: 1,
+  millimeter: 1,
+  cm: 10,
+  centimetre: 10,
+  centimeter: 10,
+  m: 1000,
+  metre: 1000,
+  meter: 1000,
+  km: 1e6,
+  kilometre: 1e6,
+  kilometer: 1e6,
+};
 
 function millimetres(distance: XmlElement): string {
   return String(Number(distance.text) * (in_millimetres[distance.attribute('uom') ?? 'mm'] ?? NaN));

@@ -61,7 +61,7 @@ const problems: Record<Problem, Both> = {
   no_distance: ['A distance is missing', '距離がありません'],
   reversed: ['The second value is before the first', '後のものが先のものより前です'],
   no_xml: ['Not a single XML element', '一つの XML 要素ではありません'],
-  unwritable: ['XML does not allow one of these characters', 'XML に書けない文字があります'],
+  unwritable: ['The text contains a character that XML does not allow', 'テキストに XML で使えない文字が含まれています'],
 };
 
 export const purpose_named = text_of((purpose: Purpose) => purposes[purpose]);
@@ -140,9 +140,18 @@ export const remove_sort = text('Remove from the order', '順序から外す');
 export const ascending = text('ascending', '昇順');
 export const descending = text('descending', '降順');
 export const matches = text('Matches now', '今の一致');
-export const matching = text_of((found: number, all: number) => [`${found} of ${all} ${all === 1 ? 'component' : 'components'}`, `${all} 個中 ${found} 個のコンポーネント`]);
-export const can_match = text_of((n: number) => [n === 1 ? '1 component can send it' : `${n} components can send it`, `送れるコンポーネント ${n} 個`]);
-export const can_answer = text_of((n: number) => [n === 1 ? '1 component can answer' : `${n} components can answer`, `答えられるコンポーネント ${n} 個`]);
+export const matching = text_of((found: number, all: number) => [
+  `${found} of ${all} ${all === 1 ? 'component' : 'components'}`,
+  `${all} 個中 ${found} 個のコンポーネント`,
+]);
+export const can_match = text_of((n: number) => [
+  n === 1 ? '1 component can send it' : `${n} components can send it`,
+  `送れるコンポーネント ${n} 個`,
+]);
+export const can_answer = text_of((n: number) => [
+  n === 1 ? '1 component can answer' : `${n} components can answer`,
+  `答えられるコンポーネント ${n} 個`,
+]);
 export const on_results = text('Results are tested when an event or answer arrives.', 'イベントや応答の内容は、届いたときに調べられます。');
 export const incomplete_request = text('Something is missing above.', '上にまだ未記入の項目があります。');
 export const incomplete = text_of((n: number) => [

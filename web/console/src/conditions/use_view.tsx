@@ -7,7 +7,7 @@ import { Checkbox, type IconName } from '../ui';
 import { is_complete } from './checking';
 import type { Purpose } from './model';
 import type { ConditionStore } from './store';
-import * as t from './texts';
+import * as texts from './texts';
 import { condition_of, request_of } from './writing';
 
 const icons: Record<Purpose, IconName> = { search: 'search', bind_any: 'link', subscribe: 'messages', query: 'info' };
@@ -32,10 +32,12 @@ export function UseView({ store }: { store: ConditionStore }) {
   };
   const complete = is_complete(draft, references);
   return (
-    <section class="conditions-part" aria-label={t.request()}>
-      <h3>{t.request()}</h3>
-      {draft.purpose === 'subscribe' && <Checkbox label={t.details()} checked={draft.inline_results} change={(inline_results) => store.change({ inline_results })} />}
-      {!complete && <p class="field-hint">{t.incomplete_request()}</p>}
+    <section class="conditions-part" aria-label={texts.request()}>
+      <h3>{texts.request()}</h3>
+      {draft.purpose === 'subscribe' && (
+        <Checkbox label={texts.details()} checked={draft.inline_results} change={(inline_results) => store.change({ inline_results })} />
+      )}
+      {!complete && <p class="field-hint">{texts.incomplete_request()}</p>}
       <Exchange
         key={draft.purpose}
         title={draft.purpose}
@@ -43,7 +45,7 @@ export function UseView({ store }: { store: ConditionStore }) {
         request={request_of(draft, condition)}
         act={act}
         can_send={complete}
-        label={t.action_named(draft.purpose)}
+        label={texts.action_named(draft.purpose)}
         icon={icons[draft.purpose]}
       />
     </section>

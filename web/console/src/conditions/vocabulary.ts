@@ -38,9 +38,17 @@ export function references_of(known: Known, { purpose, event_type, query_type }:
     path, type: 'text', is_list: false, of: 'component', description: '', unit: '', options, is_closed: true, ...more,
   });
   const { components } = known;
-  const results = purpose === 'subscribe' ? results_of(components, 'events', event_type) : purpose === 'query' ? results_of(components, 'queries', query_type) : [];
-  const of_results = results.map((one) => typed(words.includes(one.name.toLowerCase()) ? `Result/${one.name}` : one.name, one, 'result', known));
-  if (of_results.some((one) => one.type === 'position')) of_results.push(word('located', [], { type: 'position', is_list: true, of: 'result' }));
+  const results =
+    purpose === 'subscribe'
+      ? results_of(components, 'events', event_type)
+      : purpose === 'query'
+        ? results_of(components, 'queries', query_type)
+        : [];
+  const of_results = results.map((one) =>
+    typed(words.includes(one.name.toLowerCase()) ? `Result/${one.name}` : one.name, one, 'result', known),
+  );
+  if (of_results.some((one) => one.type === 'position'))
+    of_results.push(word('located', [], { type: 'position', is_list: true, of: 'result' }));
   return [
     ...of_results,
     word('component_ref', components.map((one) => one.ref)),
@@ -77,19 +85,28 @@ function first_step(path: string): string {
 
 // The results of all messages of this name; the first result of a name counts.
 function results_of(components: readonly ComponentView[], kind: 'events' | 'queries', name: string): ParameterProfile[] {
-  return unique_names(components.flatMap((one) => one[kind].filter((message) => message.name === name).flatMap((message) => message.results)));
+  return unique_names(
+    components.flatMap((one) => one[kind].filter((message) => message.name === name).flatMap((message) => message.results)),
+  );
 }
 
 function parameters_of(components: readonly ComponentView[]): ParameterProfile[] {
   const readable = (one: ComponentView) =>
-    (one.profile?.messages ?? []).filter((message) => message.kind === 'query' && message.name === 'get_parameter').flatMap((message) => message.results);
-  return unique_names(components.flatMap((one) => [...one.parameters, ...readable(one)])).sort((a, b) => a.name.localeCompare(b.name, 'en'));
+    (one.profile?.messages ?? [])
+      .filter((message) => message.kind === 'query' && message.name === 'get_parameter')
+      .flatMap((message) => message.results);
+  return unique_names(components.flatMap((one) => [...one.parameters, ...readable(one)])).sort((a, b) =>
+    a.name.localeCompare(b.name, 'en'),
+  );
 }
 
 function typed(path: string, profile: ParameterProfile, of: Reference['of'], known: Known): Reference {
   const of_type = data_type(profile.data_type_ref.code);
   const type = type_of(of_type, profile);
-  const { list, is_closed } = options_for({ ...profile, need: { kind: 'optional' } }, { ...known, components: known.components.map((one) => one.ref), parameters: undefined });
+  const { list, is_closed } = options_for(
+    { ...profile, need: { kind: 'optional' } },
+    { ...known, components: known.components.map((one) => one.ref), parameters: undefined },
+  );
   const options = list.map((one) => one.value);
   const unit = type === 'number' ? (units_of(profile.description)[0] ?? '') : '';
   return { path, type, is_list: of_type.is_list, of, description: profile.description ?? '', unit, options, is_closed };

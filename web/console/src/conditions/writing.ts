@@ -1,5 +1,19 @@
 // Writes a condition as Filter Encoding, and the request with it.
-import { all_of, any_of, box, Condition, distance, element, everything, type Geometry, not, point, property, request, text_element } from 'rois-client';
+import {
+  all_of,
+  any_of,
+  box,
+  Condition,
+  distance,
+  element,
+  everything,
+  type Geometry,
+  not,
+  point,
+  property,
+  request,
+  text_element,
+} from 'rois-client';
 
 import { is_number, problems_of } from './checking';
 import type { Area, Draft, Node, Predicate, SortKey } from './model';
@@ -53,7 +67,7 @@ const relations = { Within: 'within', Intersects: 'intersects', Disjoint: 'disjo
 function predicate_of(one: Predicate, references: readonly Reference[]): Condition {
   const subject = property(one.reference.trim());
   const has_several = one.matching !== 'Any' && resolved(one.reference, references)?.is_list;
-  const how = { ...(has_several && { match_action: one.matching }), ...(!one.match_case && { match_case: false }) };
+  const options = { ...(has_several && { match_action: one.matching }), ...(!one.match_case && { match_case: false }) };
   switch (one.operator) {
     case 'Between':
       return subject.between(one.value.trim(), one.upper.trim());
@@ -76,7 +90,7 @@ function predicate_of(one: Predicate, references: readonly Reference[]): Conditi
     case 'During':
       return subject.during(new Date(one.value), new Date(one.upper));
     default:
-      return subject[comparisons[one.operator]](one.value.trim(), how);
+      return subject[comparisons[one.operator]](one.value.trim(), options);
   }
 }
 

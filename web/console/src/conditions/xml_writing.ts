@@ -13,7 +13,9 @@ export function wrapped(fragment: string): string {
 
 /** Without white space between elements. */
 export function text_of_element(one: XmlElement): string {
-  const attributes = Object.fromEntries(one.attributes.map(({ name, namespace, value }) => [(prefixes.get(namespace) ?? '') + name, value]));
+  const attributes = Object.fromEntries(
+    one.attributes.map(({ name, namespace, value }) => [(prefixes.get(namespace) ?? '') + name, value]),
+  );
   const text = one.children.length > 0 ? one.text.trim() : one.text;
   return element((prefixes.get(one.namespace) ?? '') + one.name, attributes, escape_text(text), ...one.children.map(text_of_element));
 }

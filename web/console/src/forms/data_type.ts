@@ -1,6 +1,7 @@
 // Data types of profiles (docs/profiles.md) and validation of values.
 
-export type Kind = 'integer' | 'number' | 'bool' | 'text' | 'date_time' | 'date' | 'time' | 'identifier' | 'component_status' | 'stream_status';
+export type Kind =
+  'integer' | 'number' | 'bool' | 'text' | 'date_time' | 'date' | 'time' | 'identifier' | 'component_status' | 'stream_status';
 
 export interface DataType {
   kind: Kind;

@@ -4,13 +4,24 @@ import type { MessageProfile, ParameterProfile } from 'rois-client';
 import type { ComponentView } from '../state/engine/profile_state';
 import { data_type } from './data_type';
 
-const names: Record<string, string> = { millimetre: 'mm', millimeter: 'mm', degree: '°', millisecond: 'ms', second: 's', percent: '%', metre: 'm', meter: 'm' };
+const names: Record<string, string> = {
+  millimetre: 'mm',
+  millimeter: 'mm',
+  degree: '°',
+  millisecond: 'ms',
+  second: 's',
+  percent: '%',
+  metre: 'm',
+  meter: 'm',
+};
 const unit = '(?:mm|ms|(?:millimet(?:re|er)|met(?:re|er)|degree|millisecond|second|percent)s?)';
 const mentioned = new RegExp(`\\bin (${unit}(?:(?:, | and )${unit})*)\\b`, 'g');
 
 /** The units that a description names, in order: `["mm", "°"]` for "Distance in millimetre and direction in degree." */
 export function units_of(description = ''): string[] {
-  return [...description.matchAll(mentioned)].flatMap(([, list]) => list!.split(/, | and /).map((one) => names[one.replace(/s$/, '')] ?? names[one] ?? one));
+  return [...description.matchAll(mentioned)].flatMap(([, list]) =>
+    list!.split(/, | and /).map((one) => names[one.replace(/s$/, '')] ?? names[one] ?? one),
+  );
 }
 
 /** The values that a description names, as in "`time` or `distance`"; none if it names only one. */
@@ -61,7 +72,10 @@ export function fixed_length({ data_type_ref, description }: ParameterProfile): 
 
 /** The description without the need (shown by the form) and without references to the specification. */
 export function shown_description(description = ''): string {
-  return description.replace(/\s*\b(Optional|Mandatory|Either this or \w+ is mandatory)\.?\s*$/i, '').replace(/ \((?:table )?[\d.]+\)/g, '').replaceAll('`', '');
+  return description
+    .replace(/\s*\b(Optional|Mandatory|Either this or \w+ is mandatory)\.?\s*$/i, '')
+    .replace(/ \((?:table )?[\d.]+\)/g, '')
+    .replaceAll('`', '');
 }
 
 /** Whether its texts are positions that can be chosen on the map. */

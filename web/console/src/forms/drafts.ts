@@ -9,12 +9,12 @@ export function draft<T>(key: string): T | undefined {
 }
 
 export function useDraft<T>(key: string, usual: T): [T, (to: T) => void] {
-  const [, again] = useState(0);
+  const [, set_renders] = useState(0);
   const put = (to: T) => {
     kept.delete(key);
     kept.set(key, to);
     if (kept.size > most) kept.delete(kept.keys().next().value!);
-    again((n) => n + 1);
+    set_renders((n) => n + 1);
   };
   return [kept.has(key) ? (kept.get(key) as T) : usual, put];
 }

@@ -13,7 +13,7 @@ import type { LoggedDocument } from '../state/session/document_log';
 import { Button, CurlButton, error_text, type IconName, StatusBadge, XmlView } from '../ui';
 import { CommandProgress } from './command_progress';
 import { draft, useDraft } from './drafts';
-import * as t from './exchange_texts';
+import * as texts from './exchange_texts';
 import { ResultsTable } from './results_table';
 
 export interface ExchangeProps {
@@ -42,15 +42,26 @@ export interface Outcome {
   error: unknown;
 }
 
-export function Exchange({ title, operation, request, act, may_send, can_send = true, by_enter = false, label, icon, children }: ExchangeProps) {
+export function Exchange({
+  title,
+  operation,
+  request,
+  act,
+  may_send,
+  can_send = true,
+  by_enter = false,
+  label,
+  icon,
+  children,
+}: ExchangeProps) {
   const console = useConsole();
   const [outcome, set_outcome] = useDraft<Outcome | undefined>(key_of(title), undefined);
   const [is_busy, set_busy] = useState(false);
-  const whole = useRef<HTMLDivElement>(null);
+  const frame = useRef<HTMLDivElement>(null);
   const sent = useRef<string>();
   const send = async () => {
     if (may_send && !may_send()) {
-      const form = whole.current?.closest('form') ?? whole.current?.parentElement;
+      const form = frame.current?.closest('form') ?? frame.current?.parentElement;
       requestAnimationFrame(() => form?.querySelector<HTMLElement>('[aria-invalid="true"]')?.focus());
       return;
     }
@@ -60,19 +71,26 @@ export function Exchange({ title, operation, request, act, may_send, can_send = 
     set_busy(false);
   };
   return (
-    <div class="exchange" ref={whole}>
+    <div class="exchange" ref={frame}>
       <div class="exchange-parts">
         <div class="exchange-buttons">
-          <Button type={by_enter ? 'submit' : 'button'} look="primary" icon={icon ?? 'play'} busy={is_busy} disabled={!can_send || !console.link.is_open} onClick={() => void send()}>
-            {label ?? t.send()}
+          <Button
+            type={by_enter ? 'submit' : 'button'}
+            look="primary"
+            icon={icon ?? 'play'}
+            busy={is_busy}
+            disabled={!can_send || !console.link.is_open}
+            onClick={() => void send()}
+          >
+            {label ?? texts.send()}
           </Button>
           {children}
           <CurlButton request={request} disabled={request === ''} class="exchange-curl" />
         </div>
         <div class="exchange-came" aria-live="polite">
-          {outcome ? <Came title={title} follows={sent.current === request} {...outcome} /> : <p class="exchange-none">{t.none()}</p>}
+          {outcome ? <Came title={title} follows={sent.current === request} {...outcome} /> : <p class="exchange-none">{texts.none()}</p>}
         </div>
-        {request !== '' && <div class="exchange-request"><XmlView text={request} label={t.request(title)} /></div>}
+        {request !== '' && <div class="exchange-request"><XmlView text={request} label={texts.request(title)} /></div>}
       </div>
     </div>
   );
@@ -106,30 +124,30 @@ export async function watched(console: Console, operation: Operation, act: () =>
 function Came({ title, answer, error, follows }: Outcome & { title: string; follows: boolean }) {
   const { commands } = useConsole();
   void commands.pulse.beat.value;
-  const made = answer ? commands.all.list().filter((one) => one.sequence.document === answer.request?.number) : [];
+  const sent = answer ? commands.all.list().filter((one) => one.sequence.document === answer.request?.number) : [];
   const results = answer && answer.return_code === 'OK' ? results_in(answer) : new Results();
   const refused = error instanceof RoisError && error.failure === 'refused' && answer !== undefined;
-  const said = useRef<HTMLDivElement>(null);
+  const frame = useRef<HTMLDivElement>(null);
   const height = useRef(0);
   useEffect(() => {
-    const now = said.current!.offsetHeight;
-    if (follows && now !== height.current) said.current!.scrollIntoView({ block: 'nearest' });
+    const now = frame.current!.offsetHeight;
+    if (follows && now !== height.current) frame.current!.scrollIntoView({ block: 'nearest' });
     height.current = now;
   });
   return (
     <>
-      <div class="exchange-said" ref={said}>
-        {made.map((one: CommandEntry) => <CommandProgress key={one.id} entry={one} />)}
-        {(made.length === 0 || error !== undefined) && (
+      <div class="exchange-said" ref={frame}>
+        {sent.map((one: CommandEntry) => <CommandProgress key={one.id} entry={one} />)}
+        {(sent.length === 0 || error !== undefined) && (
           <p class="exchange-line">
             <StatusBadge status={answer ? (answer.return_code ?? answer.name) : 'ERROR'} />
             {error !== undefined && <span class="exchange-why">{refused ? reason_in(answer) : error_text(error)}</span>}
           </p>
         )}
       </div>
-      {answer?.took !== undefined && <p class="soft">{t.took(duration(answer.took))}</p>}
-      {results.parameters.length > 0 && <ResultsTable label={t.results(title)} results={results} />}
-      {answer && <XmlView text={answer.text} label={t.answer(title)} />}
+      {answer?.took !== undefined && <p class="soft">{texts.took(duration(answer.took))}</p>}
+      {results.parameters.length > 0 && <ResultsTable label={texts.results(title)} results={results} />}
+      {answer && <XmlView text={answer.text} label={texts.answer(title)} />}
     </>
   );
 }

@@ -6,7 +6,10 @@ const ends: Record<CommandState, Both> = {
   running: ['Running.', '実行中です。'],
   OK: ['Done.', '完了しました。'],
   ERROR: ['The component failed.', 'コンポーネントは実行できませんでした。'],
-  ABORT: ['Aborted: it was stopped, its component was released or removed, or an earlier command failed.', '中断されました。stop、解放、コンポーネントの消失、または先行コマンドの失敗によります。'],
+  ABORT: [
+    'Aborted: it was stopped, its component was released or removed, or an earlier command failed.',
+    '中断されました。stop、解放、コンポーネントの消失、または先行コマンドの失敗によります。',
+  ],
   OUT_OF_RESOURCES: ['A required resource is in use.', '必要なものが使用中です。'],
   TIMEOUT: ['It exceeded its time limit.', '許された時間を超えました。'],
   unknown: ['The session was lost before it ended.', '終わる前にセッションが失われました。'],
@@ -30,7 +33,10 @@ export const outside = text_of((text: string, x: string, y: string) => [
 ]);
 export const in_furniture = text_of((text: string) => [`${text} is inside furniture.`, `${text} には家具があります。`]);
 export const in_use = text_of((components: string) => [`Running on the same robot: ${components}.`, `同じロボットで実行中: ${components}。`]);
-export const reported_error = text_of((type: string) => [`The engine reported an error meanwhile: ${type}.`, `その間にエンジンがエラーを通知しました: ${type}。`]);
+export const reported_error = text_of((type: string) => [
+  `The engine reported an error meanwhile: ${type}.`,
+  `その間にエンジンがエラーを通知しました: ${type}。`,
+]);
 export const document_gone = text('The document is no longer stored.', '文書は残っていません。');
 export const in_messages = text('Show in messages', 'メッセージで見る');
 export const fetching = text('Fetching …', '取得中…');

@@ -30,7 +30,11 @@ export function given(asked: Asked, inputs: Inputs): string[] | undefined {
 }
 
 /** Problems by parameter name. `has_value`: whether the component already has a value, from an earlier set_parameter. */
-export function problems_of(all: readonly Asked[], inputs: Inputs, has_value: (name: string) => boolean = () => false): Record<string, Problem> {
+export function problems_of(
+  all: readonly Asked[],
+  inputs: Inputs,
+  has_value: (name: string) => boolean = () => false,
+): Record<string, Problem> {
   const problems: Record<string, Problem> = {};
   for (const asked of all) {
     const items = given(asked, inputs);
@@ -56,7 +60,11 @@ function missing({ name, need }: Asked, all: readonly Asked[], inputs: Inputs, h
 }
 
 /** The parameters of the message, in the profile's order. `codebook` returns the codebook of an identifier. */
-export function parameters_from(all: readonly Asked[], inputs: Inputs, codebook: (name: string, code: string) => string | undefined = () => undefined): Parameter[] {
+export function parameters_from(
+  all: readonly Asked[],
+  inputs: Inputs,
+  codebook: (name: string, code: string) => string | undefined = () => undefined,
+): Parameter[] {
   return all.flatMap((asked): Parameter[] => {
     const items = given(asked, inputs);
     if (items === undefined) return [];
@@ -88,5 +96,7 @@ export function inputs_of(parameters: readonly Parameter[]): Inputs {
 /** A copy of the inputs with one changed. */
 export function with_input(inputs: Inputs, name: string, input: Input | undefined): Inputs {
   const { [name]: _, ...others } = inputs;
-  return input === undefined || (input.texts.every((text) => text === '') && !input.is_empty && input.texts.length < 2) ? others : { ...others, [name]: input };
+  return input === undefined || (input.texts.every((text) => text === '') && !input.is_empty && input.texts.length < 2)
+    ? others
+    : { ...others, [name]: input };
 }

@@ -54,8 +54,8 @@ function things_for(name: string, { robots, entities, components }: World): Opti
   const people: Option[] = [];
   const known: Option[] = [];
   const kind = /^(face|sound)/i.exec(name)?.[1]?.toLowerCase() ?? 'person';
-  for (const { ref, codebook, identity, kind: its, is_seen } of entities) {
-    if (its !== kind || !is_seen) continue;
+  for (const { ref, codebook, identity, kind: entity_kind, is_seen } of entities) {
+    if (entity_kind !== kind || !is_seen) continue;
     people.push({ value: ref, codebook, ...(identity && { label: `${ref} (${identity.ref})` }) });
     if (identity) known.push({ value: identity.ref, codebook: identity.codebook, label: `${identity.ref} (${ref})` });
   }

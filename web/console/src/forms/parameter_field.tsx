@@ -6,7 +6,7 @@ import { type DataType, data_type, type Problem } from './data_type';
 import { type Asked, fixed_length, is_position, shown_description, units_of } from './describe';
 import type { Input } from './inputs';
 import type { Options } from './options';
-import * as t from './texts';
+import * as texts from './texts';
 
 export interface ParameterFieldProps {
   asked: Asked;
@@ -22,8 +22,13 @@ export function ParameterField(props: ParameterFieldProps) {
   const { asked, problem } = props;
   const type = data_type(asked.data_type_ref.code);
   const called = props.options.list.find((one) => one.value === props.input?.texts[0]?.trim())?.label; // of the chosen option
-  const hint = joined(!props.options.is_closed && called && `“${called}”.`, shown_description(asked.description), t.of_type(asked.data_type_ref.code), asked.default_value && t.preset(asked.default_value));
-  const shared = { label: asked.name, hint, error: problem && t.problem(problem), required: asked.need.kind === 'needed' };
+  const hint = joined(
+    !props.options.is_closed && called && `“${called}”.`,
+    shown_description(asked.description),
+    texts.of_type(asked.data_type_ref.code),
+    asked.default_value && texts.preset(asked.default_value),
+  );
+  const shared = { label: asked.name, hint, error: problem && texts.problem(problem), required: asked.need.kind === 'needed' };
   if (type.is_list) return <ListField {...props} type={type} {...shared} />;
   const unit = units_of(asked.description);
   return (
@@ -59,10 +64,30 @@ function ListField({ type, label, hint, error, required, ...props }: ParameterFi
       </span>
       {items.map((text, i) => (
         <div key={i} class="field-control">
-          <Item {...props} type={type} own={{ 'aria-label': t.item(label, i + 1), 'aria-invalid': Boolean(error), 'aria-describedby': error ? `${id}-error` : undefined }} text={text} put={(to) => put(i, to)} />
+          <Item
+            {...props}
+            type={type}
+            own={{
+              'aria-label': texts.item(label, i + 1),
+              'aria-invalid': Boolean(error),
+              'aria-describedby': error ? `${id}-error` : undefined,
+            }}
+            text={text}
+            put={(to) => put(i, to)}
+          />
           {units[i] && <span class="field-unit">{units[i]}</span>}
-          {fixed === 0 && items.length > 1 && <IconButton small icon="close" label={t.remove(label, i + 1)} onClick={() => without(i)} />}
-          {fixed === 0 && i === items.length - 1 && <IconButton small icon="plus" label={t.add(label)} disabled={text.trim() === ''} onClick={() => change({ texts: [...items, ''] })} />}
+          {fixed === 0 && items.length > 1 && (
+            <IconButton small icon="close" label={texts.remove(label, i + 1)} onClick={() => without(i)} />
+          )}
+          {fixed === 0 && i === items.length - 1 && (
+            <IconButton
+              small
+              icon="plus"
+              label={texts.add(label)}
+              disabled={text.trim() === ''}
+              onClick={() => change({ texts: [...items, ''] })}
+            />
+          )}
           {i === 0 && items.length === 1 && <EmptyToggle {...props} />}
         </div>
       ))}
@@ -83,17 +108,26 @@ const long = /ssml|grammar|xml|document/i;
 
 function Item({ asked, input, options, now, type, own, text, put }: ItemProps) {
   const list = useId();
-  const preset = now !== undefined ? t.now(now) : (asked.default_value ?? (is_position(asked) ? t.position() : ''));
+  const preset = now !== undefined ? texts.now(now) : (asked.default_value ?? (is_position(asked) ? texts.position() : ''));
   if (options.is_closed)
     return (
       <select {...own} value={text} onChange={(event) => put(event.currentTarget.value)}>
-        <option value="">{preset === '' ? t.left_out() : `${t.left_out()} (${preset})`}</option>
+        <option value="">{preset === '' ? texts.left_out() : `${texts.left_out()} (${preset})`}</option>
         {options.list.map((one) => <option key={one.value} value={one.value}>{one.label ?? one.value}</option>)}
       </select>
     );
-  const placeholder = input?.is_empty ? t.is_empty() : preset;
+  const placeholder = input?.is_empty ? texts.is_empty() : preset;
   if (type.kind === 'text' && !type.is_list && long.test(asked.name))
-    return <textarea {...own} rows={3} spellcheck={false} placeholder={placeholder} value={text} onInput={(event) => put(event.currentTarget.value)} />;
+    return (
+      <textarea
+        {...own}
+        rows={3}
+        spellcheck={false}
+        placeholder={placeholder}
+        value={text}
+        onInput={(event) => put(event.currentTarget.value)}
+      />
+    );
   const mode = type.kind === 'integer' ? 'numeric' : type.kind === 'number' ? 'decimal' : undefined;
   return (
     <>
@@ -113,9 +147,19 @@ function Item({ asked, input, options, now, type, own, text, put }: ItemProps) {
           <datalist id={list}>
             {options.list.map((one) => <option key={one.value} value={one.value} label={one.label} />)}
           </datalist>
-          <select class="form-choose" aria-label={t.choose()} title={t.choose()} value="" onChange={(event) => put(event.currentTarget.value)}>
+          <select
+            class="form-choose"
+            aria-label={texts.choose()}
+            title={texts.choose()}
+            value=""
+            onChange={(event) => put(event.currentTarget.value)}
+          >
             <option value="" disabled hidden />
-            {options.list.map(({ value, label = value }) => <option key={value} value={value}>{label.includes(value) ? label : `${value} – ${label}`}</option>)}
+            {options.list.map(({ value, label = value }) => (
+              <option key={value} value={value}>
+                {label.includes(value) ? label : `${value} – ${label}`}
+              </option>
+            ))}
           </select>
         </>
       )}
@@ -132,7 +176,7 @@ function EmptyToggle({ asked, input, change }: ParameterFieldProps) {
       icon="empty"
       class="form-empty"
       aria-pressed={is_empty}
-      label={t.send_empty(asked.name)}
+      label={texts.send_empty(asked.name)}
       disabled={(input?.texts ?? []).some((text) => text !== '')}
       onClick={() => change(is_empty ? undefined : { texts: [], is_empty: true })}
     />

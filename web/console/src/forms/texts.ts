@@ -16,11 +16,19 @@ const kinds: Record<Kind, readonly [en: string, ja: string]> = {
 
 export const problem = text_of((problem: Problem) => {
   switch (problem.what) {
-    case 'missing': return ['Required.', '入力が必要です。'];
-    case 'either': return [`Either this or ${problem.other} is required.`, `これか ${problem.other} のどちらかが必要です。`];
-    case 'not_of_kind': return [`Enter ${kinds[problem.kind][0]}.`, `${kinds[problem.kind][1]}を入力してください。`];
-    case 'out_of_range': return [`Enter a value from ${problem.least} to ${problem.most}.`, `${problem.least} から ${problem.most} までの値を入力してください。`];
-    case 'unwritable': return ['It has a character that XML does not allow.', 'XML に書けない文字が含まれています。'];
+    case 'missing':
+      return ['Required.', '入力が必要です。'];
+    case 'either':
+      return [`Either this or ${problem.other} is required.`, `これか ${problem.other} のどちらかが必要です。`];
+    case 'not_of_kind':
+      return [`Enter ${kinds[problem.kind][0]}.`, `${kinds[problem.kind][1]}を入力してください。`];
+    case 'out_of_range':
+      return [
+        `Enter a value from ${problem.least} to ${problem.most}.`,
+        `${problem.least} から ${problem.most} までの値を入力してください。`,
+      ];
+    case 'unwritable':
+      return ['It has a character that XML does not allow.', 'XML に書けない文字が含まれています。'];
   }
 });
 export const of_type = text_of((type: string) => [`Type ${type}.`, `型 ${type}。`]);

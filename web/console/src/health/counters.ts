@@ -18,7 +18,10 @@ export function sessions_in(scrape: Scrape, mine: ReadonlySet<string>, begun: nu
   const of = (name: string, session: string) => scrape.value(name, { session }) ?? 0;
   const rows = scrape.all('rois_session_age_seconds').map(({ labels, value }): SessionRow => {
     const number = labels['session'] ?? '';
-    const bound = scrape.all('rois_component_bound').filter((one) => one.value > 0 && one.labels['session'] === number).map((one) => one.labels['component_ref'] ?? '');
+    const bound = scrape
+      .all('rois_component_bound')
+      .filter((one) => one.value > 0 && one.labels['session'] === number)
+      .map((one) => one.labels['component_ref'] ?? '');
     return {
       number,
       is_mine: false,
@@ -54,7 +57,13 @@ export function limits_in(latest: Scrape, oldest: Scrape | undefined): LimitRow[
   return latest.all('rois_limit').map(({ labels, value: most }): LimitRow => {
     const name = labels['limit'] ?? '';
     const reached = latest.value('rois_limit_reached_total', { limit: name }) ?? 0;
-    return { name, now: now_of(name, latest), most, reached, lately: grown(reached, oldest?.value('rois_limit_reached_total', { limit: name })) };
+    return {
+      name,
+      now: now_of(name, latest),
+      most,
+      reached,
+      lately: grown(reached, oldest?.value('rois_limit_reached_total', { limit: name })),
+    };
   });
 }
 

@@ -8,7 +8,7 @@ import * as shell from '../shell/texts';
 import type { Phase } from '../state/session/link_state';
 import { Badge, Button, type Tone, XmlView } from '../ui';
 import { type LogEntry, log_of, reason_of, refused_component } from './log';
-import * as t from './texts';
+import * as texts from './texts';
 
 const shown_at_first = 50;
 
@@ -22,8 +22,8 @@ export function ErrorLog() {
   const entries = log_of(console);
   return (
     <section class="health-part health-log">
-      <h3>{t.log()}</h3>
-      {entries.length === 0 && <p class="health-soft">{t.no_log()}</p>}
+      <h3>{texts.log()}</h3>
+      {entries.length === 0 && <p class="health-soft">{texts.no_log()}</p>}
       <ol class="plain-list">
         {entries.slice(0, most).map((entry) => (
           <li key={entry.key}>
@@ -33,7 +33,7 @@ export function ErrorLog() {
       </ol>
       {entries.length > most && (
         <Button small onClick={() => set_most(most + 200)}>
-          {t.older(entries.length - most)}
+          {texts.older(entries.length - most)}
         </Button>
       )}
     </section>
@@ -54,24 +54,30 @@ function description_of(entry: LogEntry): Description {
       const { error, details } = entry.entry;
       const shown = details.state === 'there' ? details.results.parameters.filter((one) => !/^(component_ref|time)$/.test(one.name)) : [];
       const more = shown.map((one) => one.values.join('; ')).join(' · ');
-      return { tone: 'bad', kind: t.error(), title: error.error_type, component: error.component_ref?.code ?? '', more };
+      return { tone: 'bad', kind: texts.error(), title: error.error_type, component: error.component_ref?.code ?? '', more };
     }
     case 'gap': {
       const { gap } = entry.entry;
-      return { tone: 'warning', kind: t.missed(), title: gap.reason === 'session' ? t.gap_session() : t.gap_lost(gap.count), component: '', more: '' };
+      return {
+        tone: 'warning',
+        kind: texts.missed(),
+        title: gap.reason === 'session' ? texts.gap_session() : texts.gap_lost(gap.count),
+        component: '',
+        more: '',
+      };
     }
     case 'refused': {
       const { document } = entry;
       const title = [document.request?.name, document.return_code ?? document.name].filter(Boolean).join(': ');
-      return { tone: 'warning', kind: t.refused(), title, component: refused_component(document), more: reason_of(document) };
+      return { tone: 'warning', kind: texts.refused(), title, component: refused_component(document), more: reason_of(document) };
     }
     case 'command': {
       const { state, command_type, component, results } = entry.command;
-      return { tone: 'bad', kind: t.command(), title: `${command_type}: ${state}`, component, more: results?.text('reason') ?? '' };
+      return { tone: 'bad', kind: texts.command(), title: `${command_type}: ${state}`, component, more: results?.text('reason') ?? '' };
     }
     case 'link': {
       const { value, from, to, note } = entry.span;
-      return { tone: 'bad', kind: t.link(), title: shell.phase(value as Phase), component: duration(to - from), more: note };
+      return { tone: 'bad', kind: texts.link(), title: shell.phase(value as Phase), component: duration(to - from), more: note };
     }
   }
 }
@@ -96,18 +102,20 @@ function Entry({ entry }: { entry: LogEntry }) {
       <summary class="health-entry">{summary}</summary>
       {is_open && (
         <div class="health-opened">
-          {entry.kind === 'error' && <DetailsOf details={entry.entry.details} label={`${t.details()}: ${at}`} none={t.no_details()} />}
+          {entry.kind === 'error' && (
+            <DetailsOf details={entry.entry.details} label={`${texts.details()}: ${at}`} none={texts.no_details()} />
+          )}
           {entry.kind === 'refused' && entry.document.request?.text && (
             <>
-              <h4>{t.request()}</h4>
-              <XmlView text={entry.document.request.text} label={`${t.request()}, ${at}`} />
+              <h4>{texts.request()}</h4>
+              <XmlView text={entry.document.request.text} label={`${texts.request()}, ${at}`} />
             </>
           )}
           {entry.kind === 'command' && <CommandProgress entry={entry.command} />}
           {document !== undefined && (
             <>
-              <h4>{t.document()}</h4>
-              <LoggedXml label={`${t.document()}, ${at}`} document={document} />
+              <h4>{texts.document()}</h4>
+              <LoggedXml label={`${texts.document()}, ${at}`} document={document} />
             </>
           )}
         </div>

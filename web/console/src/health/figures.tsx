@@ -4,7 +4,7 @@ import { bytes_text, count_text, duration } from '../i18n/i18n';
 import * as shell from '../shell/texts';
 import { Badge, Fact, tone_of } from '../ui';
 import { fresh_for, growth, latencies, type Series } from './series';
-import * as t from './texts';
+import * as texts from './texts';
 import { ms_text } from './plots';
 
 export function Figures() {
@@ -14,27 +14,39 @@ export function Figures() {
   const from = now.value - fresh_for;
   const number = (name: string) => {
     const value = scrape?.value(name);
-    return value === undefined ? t.none() : count_text(value);
+    return value === undefined ? texts.none() : count_text(value);
   };
-  const last = (series: Series, text: (value: number) => string) => (series.length === 0 ? t.none() : text(series.at(-1)!.value));
+  const last = (series: Series, text: (value: number) => string) => (series.length === 0 ? texts.none() : text(series.at(-1)!.value));
   const memory = scrape?.value('process_resident_memory_bytes');
   return (
     <>
-      {metrics.trouble.value === '' && metrics.is_stale(now.value) && <p class="health-trouble">{t.stale(duration(now.value - scrape!.at))}</p>}
-      {metrics.trouble.value !== '' && <p class="health-trouble">{t.metrics_trouble(metrics.trouble.value)}</p>}
+      {metrics.trouble.value === '' && metrics.is_stale(now.value) && (
+        <p class="health-trouble">{texts.stale(duration(now.value - scrape!.at))}</p>
+      )}
+      {metrics.trouble.value !== '' && <p class="health-trouble">{texts.metrics_trouble(metrics.trouble.value)}</p>}
       <dl class="health-figures">
-        <Fact name={t.link()}>
+        <Fact name={texts.link()}>
           <Badge tone={tone_of(phase)} title={reason}>{shell.phase(phase)}</Badge>
-          <small>{t.since(Math.max(0, now.value - since))}</small>
+          <small>{texts.since(Math.max(0, now.value - since))}</small>
         </Fact>
-        <Fact name={t.latency()}>{last(latencies(traffic.seconds, from).middle, ms_text)}</Fact>
-        <Fact name={t.requests()}>{last(growth(metrics.history, from, (one) => one.value('rois_requests_total')), (n) => t.a_second(Math.round(n)))}</Fact>
-        <Fact name={t.sessions()}>{number('rois_sessions')}</Fact>
-        <Fact name={t.connections()}>{number('rois_connections')}</Fact>
-        <Fact name={t.components()}>{number('rois_components')}</Fact>
-        <Fact name={t.memory()}>{memory === undefined ? t.none() : bytes_text(memory)}</Fact>
-        <Fact name={t.processor()}>{last(growth(metrics.history, from, (one) => one.value('process_cpu_seconds_total')), (n) => t.share(Math.round(n * 100)))}</Fact>
-        <Fact name={t.files()}>{number('process_open_fds')}</Fact>
+        <Fact name={texts.latency()}>{last(latencies(traffic.seconds, from).middle, ms_text)}</Fact>
+        <Fact name={texts.requests()}>
+          {last(
+            growth(metrics.history, from, (one) => one.value('rois_requests_total')),
+            (n) => texts.a_second(Math.round(n)),
+          )}
+        </Fact>
+        <Fact name={texts.sessions()}>{number('rois_sessions')}</Fact>
+        <Fact name={texts.connections()}>{number('rois_connections')}</Fact>
+        <Fact name={texts.components()}>{number('rois_components')}</Fact>
+        <Fact name={texts.memory()}>{memory === undefined ? texts.none() : bytes_text(memory)}</Fact>
+        <Fact name={texts.processor()}>
+          {last(
+            growth(metrics.history, from, (one) => one.value('process_cpu_seconds_total')),
+            (n) => texts.share(Math.round(n * 100)),
+          )}
+        </Fact>
+        <Fact name={texts.files()}>{number('process_open_fds')}</Fact>
       </dl>
     </>
   );

@@ -7,7 +7,7 @@ import type { CommandEntry } from '../state/session/commands_state';
 import type { LoggedDocument } from '../state/session/document_log';
 import type { ErrorEntry, GapEntry } from '../state/session/events_state';
 import { placed_commands, units_of } from '../state/session/sequences';
-import { unescaped } from '../ui/xml/xml_text';
+import { unescaped } from '../ui';
 
 export type LogEntry = { at: number; key: string } & (
   | { kind: 'error'; entry: ErrorEntry }
@@ -24,9 +24,11 @@ export function log_of({ events, traffic, history, commands }: Console): LogEntr
   for (const entry of events.gaps) entries.push({ kind: 'gap', at: entry.at, key: `gap ${entry.at}`, entry });
   for (const document of traffic.refused) entries.push({ kind: 'refused', at: document.at, key: `document ${document.number}`, document });
   for (const command of commands.all)
-    if (/^(ERROR|TIMEOUT|OUT_OF_RESOURCES)$/.test(command.state)) entries.push({ kind: 'command', at: command.ended_at!, key: `command ${command.id}`, command });
+    if (/^(ERROR|TIMEOUT|OUT_OF_RESOURCES)$/.test(command.state))
+      entries.push({ kind: 'command', at: command.ended_at!, key: `command ${command.id}`, command });
   for (const span of [...history.past, ...history.present.values()])
-    if (span.kind === 'link' && /^(lost|refused|draining|token)$/.test(span.value)) entries.push({ kind: 'link', at: span.from, key: `span ${span.number}`, span });
+    if (span.kind === 'link' && /^(lost|refused|draining|token)$/.test(span.value))
+      entries.push({ kind: 'link', at: span.from, key: `span ${span.number}`, span });
   return entries.sort((a, b) => b.at - a.at);
 }
 
@@ -41,7 +43,10 @@ export function refused_component(document: LoggedDocument): string {
   const { component = '', request } = document;
   if (request?.name !== 'execute') return component;
   try {
-    const all = placed_commands(units_of(parse_xml(request.text))).map(({ path, command }) => ({ path, ref: code_of(command.component_ref) }));
+    const all = placed_commands(units_of(parse_xml(request.text))).map(({ path, command }) => ({
+      path,
+      ref: code_of(command.component_ref),
+    }));
     const reason = reason_of(document);
     const meant = all.find(({ path }) => reason.startsWith(`${path}:`));
     return meant ? meant.ref : [...new Set(all.map(({ ref }) => ref))].join(', ');

@@ -9,7 +9,7 @@ import { Figures } from './figures';
 import { ErrorLog } from './error_log';
 import { Plots } from './plots';
 import { Limits, Sessions, Troubles } from './tables';
-import * as t from './texts';
+import * as texts from './texts';
 
 export default function HealthPanel() {
   const { metrics, traffic, now } = useConsole();
@@ -19,7 +19,7 @@ export default function HealthPanel() {
   // Once a second, not with each answer.
   const is_stale = untracked(() => metrics.is_stale(at));
   return (
-    <div class={is_stale ? 'health health-stale' : 'health'} role="region" aria-label={t.all()} tabIndex={0}>
+    <div class={is_stale ? 'health health-stale' : 'health'} role="region" aria-label={texts.all()} tabIndex={0}>
       <h2 class="unseen">{panel_titles.health()}</h2>
       <Figures />
       <Plots />

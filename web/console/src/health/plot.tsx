@@ -4,11 +4,9 @@ import { useRef } from 'preact/hooks';
 
 import { clock_time } from '../i18n/i18n';
 import { shown_theme } from '../shell/theme';
-import { Table } from '../ui';
-import { type Sheet, useDrawing } from '../ui/drawing/drawing';
-import { time_marks, value_marks } from '../ui/drawing/scales';
+import { type Sheet, Table, time_marks, useDrawing, value_marks } from '../ui';
 import { fresh_for, highest, longest_gap, point_near, type Series, shown_for } from './series';
-import * as t from './texts';
+import * as texts from './texts';
 
 /** Lines differ in colour and dash pattern. */
 export type Ink = 'first' | 'second' | 'third';
@@ -58,9 +56,10 @@ export function Plot({ title, lines, now, text, short, cursor }: PlotProps) {
   const value_at = (line: Line) => {
     const last = line.series.at(-1);
     const point = pointed !== undefined ? point_near(line.series, pointed) : last && now - last.at <= fresh_for ? last : undefined;
-    return point === undefined ? t.none() : text(point.value);
+    return point === undefined ? texts.none() : text(point.value);
   };
   const values = lines.map((line) => `${line.name} ${value_at(line)}`).join(', ');
+  const summary = ({ name, series }: Line) => texts.summary(name, series.length === 0 ? texts.none() : text(highest(series)!));
   return (
     <figure class="health-plot">
       <figcaption>
@@ -79,7 +78,7 @@ export function Plot({ title, lines, now, text, short, cursor }: PlotProps) {
         class="health-canvas"
         role="slider"
         tabIndex={0}
-        aria-label={`${title}: ${lines.map((line) => t.summary(line.name, line.series.length === 0 ? t.none() : text(highest(line.series)!))).join('; ')}`}
+        aria-label={`${title}: ${lines.map(summary).join('; ')}`}
         aria-orientation="horizontal"
         aria-valuemin={-shown_for / 1000}
         aria-valuemax={0}
@@ -92,7 +91,7 @@ export function Plot({ title, lines, now, text, short, cursor }: PlotProps) {
         {pointed !== undefined && <span class="health-time" aria-hidden="true">{clock_time(pointed, false)}</span>}
       </div>
       <details onToggle={(event) => (is_open.value = event.currentTarget.open)}>
-        <summary>{t.as_table()}</summary>
+        <summary>{texts.as_table()}</summary>
         {is_open.value && <Values title={title} lines={lines} now={now} text={text} />}
       </details>
     </figure>
@@ -112,18 +111,18 @@ function Values({ title, lines, now, text }: Pick<PlotProps, 'title' | 'lines' |
   const times = Array.from({ length: 13 }, (_, i) => now - i * 5000);
   return (
     <Table
-      label={t.values_of(title)}
+      label={texts.values_of(title)}
       rows={times}
       key_of={(at) => Math.round((now - at) / 1000)}
       columns={[
-        { id: 'at', title: t.time(), cell: (at) => clock_time(at, false) },
+        { id: 'at', title: texts.time(), cell: (at) => clock_time(at, false) },
         ...lines.map((line) => ({
           id: line.name,
           title: line.name,
           numeric: true,
           cell: (at: number) => {
             const point = point_near(line.series, at);
-            return point ? text(point.value) : t.none();
+            return point ? text(point.value) : texts.none();
           },
         })),
       ]}

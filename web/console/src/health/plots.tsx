@@ -7,11 +7,11 @@ import type { LoggedDocument } from '../state/session/document_log';
 import type { Second } from '../state/session/traffic';
 import { Plot } from './plot';
 import { documents_a_second, growth, inside, latencies, shown_for } from './series';
-import * as t from './texts';
+import * as texts from './texts';
 
 /** Rounded to significant digits. */
 export function ms_text(ms: number): string {
-  return t.ms(Number(digits(ms)));
+  return texts.ms(Number(digits(ms)));
 }
 
 function digits(value: number): string {
@@ -27,46 +27,46 @@ export function Plots() {
   const { middle, slowest } = latencies(traffic.seconds, from);
   const counted = (name: string) => growth(metrics.history, from, (one: Scrape) => one.value(name));
   const own = (count: (one: Second) => number) => documents_a_second(traffic.seconds, from, now, count);
-  const rate = { text: (n: number) => t.a_second(Number(digits(n))), short: count_text };
+  const rate = { text: (n: number) => texts.a_second(Number(digits(n))), short: count_text };
   const worst = worst_of([...traffic.seconds].filter((one) => one.at >= from));
   return (
-    <section class="health-plots" aria-label={t.plots()}>
-      <h3>{t.plots()}</h3>
+    <section class="health-plots" aria-label={texts.plots()}>
+      <h3>{texts.plots()}</h3>
       <div class="health-grid">
         <div>
           <Plot
-            title={t.latency_plot()}
+            title={texts.latency_plot()}
             now={now}
             cursor={cursor}
             text={ms_text}
             short={digits}
             lines={[
-              { name: t.middle(), ink: 'first', series: middle },
-              { name: t.slowest(), ink: 'second', series: slowest },
-              { name: t.inside(), ink: 'third', series: inside(metrics.history, from) },
+              { name: texts.middle(), ink: 'first', series: middle },
+              { name: texts.slowest(), ink: 'second', series: slowest },
+              { name: texts.inside(), ink: 'third', series: inside(metrics.history, from) },
             ]}
           />
-          {worst && <p class="health-note">{t.slowest_was(asked(worst), ms_text(worst.took ?? 0))}</p>}
+          {worst && <p class="health-note">{texts.slowest_was(asked(worst), ms_text(worst.took ?? 0))}</p>}
         </div>
         <Plot
-          title={t.gateway_plot()}
+          title={texts.gateway_plot()}
           now={now}
           cursor={cursor}
           {...rate}
           lines={[
-            { name: t.requests(), ink: 'first', series: counted('rois_requests_total') },
-            { name: t.notifications(), ink: 'second', series: counted('rois_notifications_delivered_total') },
-            { name: t.fired(), ink: 'third', series: counted('rois_events_total') },
+            { name: texts.requests(), ink: 'first', series: counted('rois_requests_total') },
+            { name: texts.notifications(), ink: 'second', series: counted('rois_notifications_delivered_total') },
+            { name: texts.fired(), ink: 'third', series: counted('rois_events_total') },
           ]}
         />
         <Plot
-          title={t.own_plot()}
+          title={texts.own_plot()}
           now={now}
           cursor={cursor}
           {...rate}
           lines={[
-            { name: t.sent(), ink: 'first', series: own((one) => one.sent) },
-            { name: t.received(), ink: 'second', series: own((one) => one.received) },
+            { name: texts.sent(), ink: 'first', series: own((one) => one.sent) },
+            { name: texts.received(), ink: 'second', series: own((one) => one.received) },
           ]}
         />
       </div>

@@ -20,10 +20,10 @@ const since = <T extends { at: number }>(all: Iterable<T>, from: number) => [...
 
 /** Response times in ms: median and maximum of each second. */
 export function latencies(seconds: Iterable<Second>, from: number): { middle: Series; slowest: Series } {
-  const those = since(seconds, from).filter((one) => one.tooks.length > 0);
+  const measured = since(seconds, from).filter((one) => one.tooks.length > 0);
   return {
-    middle: those.map(({ at, tooks }) => ({ at, value: median(tooks)! })),
-    slowest: those.map(({ at, tooks, slowest }) => ({ at, value: slowest?.took ?? Math.max(...tooks) })),
+    middle: measured.map(({ at, tooks }) => ({ at, value: median(tooks)! })),
+    slowest: measured.map(({ at, tooks, slowest }) => ({ at, value: slowest?.took ?? Math.max(...tooks) })),
   };
 }
 

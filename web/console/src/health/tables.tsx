@@ -3,7 +3,7 @@ import { useConsole } from '../context';
 import { count_text, duration } from '../i18n/i18n';
 import { Badge, Table } from '../ui';
 import { type LimitRow, limits_in, type SessionRow, sessions_in, type TroubleRow, troubles_in } from './counters';
-import * as t from './texts';
+import * as texts from './texts';
 
 export function Sessions() {
   const { metrics, bindings, link } = useConsole();
@@ -12,25 +12,33 @@ export function Sessions() {
   const rows = scrape ? sessions_in(scrape, mine, link.session_since) : [];
   return (
     <section class="health-part">
-      <h3>{t.sessions()}</h3>
+      <h3>{texts.sessions()}</h3>
       {!scrape ? (
-        <p>{t.no_metrics()}</p>
+        <p>{texts.no_metrics()}</p>
       ) : rows.length === 0 ? (
         <p>
-          {t.sessions_without_details(count_text(scrape.value('rois_sessions') ?? 0))} <Refs refs={[...mine].sort()} />
+          {texts.sessions_without_details(count_text(scrape.value('rois_sessions') ?? 0))} <Refs refs={[...mine].sort()} />
         </p>
       ) : (
         <Table<SessionRow>
-          label={t.sessions()}
+          label={texts.sessions()}
           rows={rows}
           key_of={(row) => row.number}
           columns={[
-            { id: 'number', title: t.session(), cell: (row) => <>{row.number} {row.is_mine && <Badge tone="good">{t.mine()}</Badge>}</> },
-            { id: 'bound', title: t.bound(), cell: (row) => <Refs refs={row.bound} /> },
-            { id: 'age', title: t.age(), numeric: true, cell: (row) => duration(row.age) },
-            { id: 'commands', title: t.commands(), numeric: true, cell: (row) => count_text(row.commands) },
-            { id: 'subscriptions', title: t.subscriptions(), numeric: true, cell: (row) => count_text(row.subscriptions) },
-            { id: 'waiting', title: t.waiting(), numeric: true, cell: (row) => count_text(row.waiting) },
+            {
+              id: 'number',
+              title: texts.session(),
+              cell: (row) => (
+                <>
+                  {row.number} {row.is_mine && <Badge tone="good">{texts.mine()}</Badge>}
+                </>
+              ),
+            },
+            { id: 'bound', title: texts.bound(), cell: (row) => <Refs refs={row.bound} /> },
+            { id: 'age', title: texts.age(), numeric: true, cell: (row) => duration(row.age) },
+            { id: 'commands', title: texts.commands(), numeric: true, cell: (row) => count_text(row.commands) },
+            { id: 'subscriptions', title: texts.subscriptions(), numeric: true, cell: (row) => count_text(row.subscriptions) },
+            { id: 'waiting', title: texts.waiting(), numeric: true, cell: (row) => count_text(row.waiting) },
           ]}
         />
       )}
@@ -39,7 +47,7 @@ export function Sessions() {
 }
 
 function Refs({ refs }: { refs: readonly string[] }) {
-  if (refs.length === 0) return <span class="health-soft">{t.nothing_bound()}</span>;
+  if (refs.length === 0) return <span class="health-soft">{texts.nothing_bound()}</span>;
   return <span class="health-refs">{refs.map((ref) => <code key={ref}>{ref}</code>)}</span>;
 }
 
@@ -50,19 +58,19 @@ export function Limits() {
   const rows = limits_in(scrape, metrics.history.at(0));
   return (
     <section class="health-part">
-      <h3>{t.limits()}</h3>
+      <h3>{texts.limits()}</h3>
       {rows.length === 0 ? (
-        <p class="health-soft">{t.limits_unknown()}</p>
+        <p class="health-soft">{texts.limits_unknown()}</p>
       ) : (
         <Table<LimitRow>
-          label={t.limits()}
+          label={texts.limits()}
           rows={rows}
           key_of={(row) => row.name}
           columns={[
-            { id: 'name', title: t.limit(), cell: (row) => t.limit_name(row.name) },
-            { id: 'now', title: t.now(), numeric: true, cell: (row) => (row.now === undefined ? t.none() : count_text(row.now)) },
-            { id: 'most', title: t.most(), numeric: true, cell: (row) => count_text(row.most) },
-            { id: 'reached', title: t.reached(), cell: (row) => <Reached row={row} /> },
+            { id: 'name', title: texts.limit(), cell: (row) => texts.limit_name(row.name) },
+            { id: 'now', title: texts.now(), numeric: true, cell: (row) => (row.now === undefined ? texts.none() : count_text(row.now)) },
+            { id: 'most', title: texts.most(), numeric: true, cell: (row) => count_text(row.most) },
+            { id: 'reached', title: texts.reached(), cell: (row) => <Reached row={row} /> },
           ]}
         />
       )}
@@ -71,10 +79,10 @@ export function Limits() {
 }
 
 function Reached({ row }: { row: LimitRow }) {
-  if (row.reached === 0) return <span class="health-soft">{t.never()}</span>;
+  if (row.reached === 0) return <span class="health-soft">{texts.never()}</span>;
   return (
     <>
-      {t.times(row.reached)} {row.lately > 0 && <Badge tone="bad">{t.lately(row.lately)}</Badge>}
+      {texts.times(row.reached)} {row.lately > 0 && <Badge tone="bad">{texts.lately(row.lately)}</Badge>}
     </>
   );
 }
@@ -85,17 +93,22 @@ export function Troubles() {
   if (!scrape) return null;
   return (
     <section class="health-part">
-      <h3>{t.troubles()}</h3>
+      <h3>{texts.troubles()}</h3>
       <Table<TroubleRow>
-        label={t.troubles()}
+        label={texts.troubles()}
         rows={troubles_in(scrape, metrics.history.at(0))}
         key_of={(row) => `${row.name} ${row.detail}`}
-        empty={<p class="health-soft">{t.no_troubles()}</p>}
+        empty={<p class="health-soft">{texts.no_troubles()}</p>}
         columns={[
-          { id: 'what', title: t.what(), cell: (row) => t.trouble_name(row.name) },
-          { id: 'detail', title: t.detail(), cell: (row) => row.detail !== '' && <code>{row.detail}</code> },
-          { id: 'count', title: t.count(), numeric: true, cell: (row) => count_text(row.count) },
-          { id: 'lately', title: t.in_minutes(), numeric: true, cell: (row) => (row.lately > 0 ? <strong>{count_text(row.lately)}</strong> : '0') },
+          { id: 'what', title: texts.what(), cell: (row) => texts.trouble_name(row.name) },
+          { id: 'detail', title: texts.detail(), cell: (row) => row.detail !== '' && <code>{row.detail}</code> },
+          { id: 'count', title: texts.count(), numeric: true, cell: (row) => count_text(row.count) },
+          {
+            id: 'lately',
+            title: texts.in_minutes(),
+            numeric: true,
+            cell: (row) => (row.lately > 0 ? <strong>{count_text(row.lately)}</strong> : '0'),
+          },
         ]}
       />
     </section>

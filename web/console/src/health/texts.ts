@@ -43,7 +43,10 @@ export const latency_plot = text('Response time, ms', '応答にかかる時間�
 export const middle = text('Round trip', '往復時間');
 export const slowest = text('Slowest', '最も遅い応答');
 export const inside = text('In the gateway', 'ゲートウェイ内');
-export const slowest_was = text_of((what: string, ms: string) => [`Slowest in the last minute: ${what}, ${ms}.`, `直近 1 分で最も遅い応答: ${what}、${ms}。`]);
+export const slowest_was = text_of((what: string, ms: string) => [
+  `Slowest in the last minute: ${what}, ${ms}.`,
+  `直近 1 分で最も遅い応答: ${what}、${ms}。`,
+]);
 export const gateway_plot = text('The gateway, per second', 'ゲートウェイ（毎秒）');
 export const notifications = text('Notifications', '通知');
 export const fired = text('Events', 'イベント');

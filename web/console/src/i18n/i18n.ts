@@ -14,8 +14,8 @@ export const language = signal<Language>('en');
 export type Both = readonly [en: string, ja: string] | string;
 
 /**
- * Defines a text of a `texts.ts`: `export const title = text('Health', '状態監視')`. Components call it while rendering, `t.title()`, and so
- * are rendered again when the language changes.
+ * Defines a text of a `texts.ts`: `export const title = text('Health', '状態監視')`. Components call it while rendering, `texts.title()`,
+ * and so are rendered again when the language changes.
  */
 export function text(en: string, ja = en): () => string {
   return () => translated([en, ja]);

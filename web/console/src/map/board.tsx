@@ -31,16 +31,20 @@ export function Board({ begun, pointed, send }: BoardProps) {
 
   useEffect(() => {
     const canvas = element.current!;
-    const made = new Drawing(console, session, canvas, {
+    const board_drawing = new Drawing(console, session, canvas, {
       make_sheet: () => document.createElement('canvas'),
       read_palette,
       theme: () => shown_theme.value,
       age_text: age,
       distance_text: (mm) => metres(mm, 1),
     });
-    drawing.current = made;
-    const stops = [made.start(), follow_size(canvas, made), follow_query('(prefers-reduced-motion: reduce)', (is_so) => (made.is_still = is_so))];
-    begun(made);
+    drawing.current = board_drawing;
+    const stops = [
+      board_drawing.start(),
+      follow_size(canvas, board_drawing),
+      follow_query('(prefers-reduced-motion: reduce)', (is_so) => (board_drawing.is_still = is_so)),
+    ];
+    begun(board_drawing);
     return () => {
       for (const stop of stops) stop();
       begun(undefined);
@@ -92,13 +96,24 @@ export function Board({ begun, pointed, send }: BoardProps) {
   function spoken(): string {
     const { cursor } = session.interaction.value;
     if (!cursor) return '';
-    const near = drawing.current!.near(cursor).slice(0, 3).map((one) => texts.near(one.name, metres(Math.hypot(one.x - cursor.x, one.y - cursor.y), 1)));
+    const near = drawing
+      .current!.near(cursor)
+      .slice(0, 3)
+      .map((one) => texts.near(one.name, metres(Math.hypot(one.x - cursor.x, one.y - cursor.y), 1)));
     return [position(cursor), ...near].join('; ');
   }
 
   return (
     <>
-      <canvas ref={element} class="map-canvas" tabIndex={0} role="application" aria-label={texts.canvas()} onKeyDown={pressed} {...pointers} />
+      <canvas
+        ref={element}
+        class="map-canvas"
+        tabIndex={0}
+        role="application"
+        aria-label={texts.canvas()}
+        onKeyDown={pressed}
+        {...pointers}
+      />
       <p class="unseen" role="status">
         {announcement.value}
       </p>

@@ -24,11 +24,11 @@ const moving_types = ['Navigation', 'Follow', 'Move'];
 
 export function drivers_of({ profile, robots }: Console): Driver[] {
   const movers = moving_types.map((type) => profile.of_type(type));
-  const engines = new Set(movers.flatMap((those) => those.map((one) => one.engine)));
+  const engines = new Set(movers.flatMap((components) => components.map((one) => one.engine)));
   return [...engines].map((engine): Driver => {
-    const [navigation, follow, move] = movers.map((those) => those.find((one) => one.engine === engine)?.ref);
-    const there = [...robots.all.values()].filter((one) => profile.component(one.component)?.engine === engine);
-    const robot = there.find((one) => one.ref === engine) ?? there[0];
+    const [navigation, follow, move] = movers.map((components) => components.find((one) => one.engine === engine)?.ref);
+    const engine_robots = [...robots.all.values()].filter((one) => profile.component(one.component)?.engine === engine);
+    const robot = engine_robots.find((one) => one.ref === engine) ?? engine_robots[0];
     const wheels = [navigation, follow, move].filter((one) => one !== undefined);
     return { engine, name: robot?.ref ?? engine, robot, navigation, follow, wheels };
   });
@@ -54,8 +54,15 @@ export async function go(console: Console, driver: Driver, target: Target, time_
 /** Makes the robot follow a person, by the permanent name if known. */
 export async function follow(console: Console, driver: Driver, { thing, identity, name }: Shown, distance: number): Promise<void> {
   const { ref: code, codebook } = identity ?? thing;
-  const whom = value.identifier(codebook === '' ? code : { code, codebook_ref: codebook });
-  await drive(console, driver, driver.follow!, { target_object_ref: whom, distance: value.int(distance) }, name, texts.followed(driver.name, name));
+  const person = value.identifier(codebook === '' ? code : { code, codebook_ref: codebook });
+  await drive(
+    console,
+    driver,
+    driver.follow!,
+    { target_object_ref: person, distance: value.int(distance) },
+    name,
+    texts.followed(driver.name, name),
+  );
 }
 
 /** Stops the robot's motions of this console. */
@@ -79,7 +86,14 @@ export function whither_of(entry: CommandEntry | undefined): string | undefined 
 
 // Stops another component of the same wheels first; a new start of the same component replaces its motion. The map shows the motion with
 // a stop button.
-async function drive(console: Console, driver: Driver, ref: string, named: Parameters<Console['run']>[2], whither: string, done: string): Promise<void> {
+async function drive(
+  console: Console,
+  driver: Driver,
+  ref: string,
+  named: Parameters<Console['run']>[2],
+  whither: string,
+  done: string,
+): Promise<void> {
   const { notices, commands } = console;
   const about = `drive ${driver.engine}`;
   notices.dismiss(about);

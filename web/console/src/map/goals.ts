@@ -30,14 +30,18 @@ export function goals_of(console: Console, shown: readonly Shown[]): Goal[] {
 }
 
 function goal_of(console: Console, driver: Driver, shown: readonly Shown[]): Goal | undefined {
-  const mine = motions_of(console, driver).at(-1);
+  const motion = motions_of(console, driver).at(-1);
   const view = console.map.view.value;
-  for (const ref of mine ? [mine.component] : components_of(console, driver)) {
-    const given = (name: string) => mine?.arguments.find((one) => one.name.toLowerCase() === name) ?? console.parameters.of(ref)?.get(name);
-    const goal = ref === driver.follow ? followed(given('target_object_ref'), shown) : place_of(given('target_position'), view.state === 'there' ? view.map : undefined);
+  for (const ref of motion ? [motion.component] : components_of(console, driver)) {
+    const given = (name: string) =>
+      motion?.arguments.find((one) => one.name.toLowerCase() === name) ?? console.parameters.of(ref)?.get(name);
+    const goal =
+      ref === driver.follow
+        ? followed(given('target_object_ref'), shown)
+        : place_of(given('target_position'), view.state === 'there' ? view.map : undefined);
     if (!goal) continue;
     const is_there = driver.robot !== undefined && distance(driver.robot, goal) < arrived;
-    if (mine || !is_there) return { ...goal, text: whither_of(mine) ?? goal.text, driver, is_mine: mine !== undefined };
+    if (motion || !is_there) return { ...goal, text: whither_of(motion) ?? goal.text, driver, is_mine: motion !== undefined };
   }
   return undefined;
 }
@@ -45,7 +49,9 @@ function goal_of(console: Console, driver: Driver, shown: readonly Shown[]): Goa
 /** Components whose parameters give the robot's goal: bound by other sessions, or working for this console. */
 function components_of(console: Console, driver: Driver): string[] {
   const at_work = motions_of(console, driver).map((one) => one.component);
-  return [driver.navigation, driver.follow].filter((ref) => ref !== undefined).filter((ref) => at_work.includes(ref) || console.status.of(ref)?.status === 'BUSY');
+  return [driver.navigation, driver.follow]
+    .filter((ref) => ref !== undefined)
+    .filter((ref) => at_work.includes(ref) || console.status.of(ref)?.status === 'BUSY');
 }
 
 /** Polls their parameters. */
@@ -73,6 +79,8 @@ function place_of(target: Parameter | undefined, map: FloorMap | undefined): Pla
 
 function followed(target: Parameter | undefined, shown: readonly Shown[]): Place | undefined {
   const ref = target?.values[0];
-  const whom = shown.find((one) => (one.kind === 'person' || one.kind === 'robot') && (one.identity?.ref === ref || one.thing.ref === ref));
-  return whom && { kind: 'follow', x: whom.x, y: whom.y, text: whom.name };
+  const object = shown.find(
+    (one) => (one.kind === 'person' || one.kind === 'robot') && (one.identity?.ref === ref || one.thing.ref === ref),
+  );
+  return object && { kind: 'follow', x: object.x, y: object.y, text: object.name };
 }

@@ -84,7 +84,10 @@ export function stepped(before: Interaction, input: Input, around: Surroundings)
     case 'wheel':
       return { ...before, view: zoomed(view, around.size, input.at, input.factor) };
     case 'zoom':
-      return { ...before, view: zoomed(view, around.size, before.cursor ? to_screen(view, around.size, before.cursor) : middle, input.factor) };
+      return {
+        ...before,
+        view: zoomed(view, around.size, before.cursor ? to_screen(view, around.size, before.cursor) : middle, input.factor),
+      };
     case 'fit':
       return { ...before, view: undefined };
     case 'target':
@@ -107,7 +110,13 @@ function pressed(before: Interaction, { pointer, at, aims }: Input & { kind: 'pr
     return { ...before, gesture: { kind: 'pinching', pointers: [gesture.pointer, pointer], at: [gesture.at, at] } };
   if (gesture.kind !== 'none') return before;
   const without_cursor = { ...before, cursor: undefined };
-  if (aims) return { ...without_cursor, target: rounded(to_floor(before.view ?? around.whole, around.size, at)), chosen: undefined, gesture: { kind: 'turning', pointer } };
+  if (aims)
+    return {
+      ...without_cursor,
+      target: rounded(to_floor(before.view ?? around.whole, around.size, at)),
+      chosen: undefined,
+      gesture: { kind: 'turning', pointer },
+    };
   return { ...without_cursor, gesture: { kind: 'pressed', pointer, at, hit: around.hit(at) } };
 }
 
@@ -174,7 +183,11 @@ function typed(before: Interaction, { key, shift, ctrl }: Input & { kind: 'key' 
   if (arrow) {
     const step = shift ? steps.coarse : steps.fine;
     const from = before.cursor ?? before.target ?? { x: view.x, y: view.y };
-    return to_cursor(before, { x: (Math.round(from.x / step) + arrow[0]!) * step, y: (Math.round(from.y / step) + arrow[1]!) * step }, around);
+    return to_cursor(
+      before,
+      { x: (Math.round(from.x / step) + arrow[0]!) * step, y: (Math.round(from.y / step) + arrow[1]!) * step },
+      around,
+    );
   }
   if (ctrl) return before;
   switch (key) {

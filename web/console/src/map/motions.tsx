@@ -5,7 +5,7 @@ import { motions_of, stop } from './driving';
 import { type Goal, goals_of, useGoals } from './goals';
 import { age } from './formats';
 import { session_of } from './session';
-import * as t from './texts';
+import * as texts from './texts';
 
 export function Motions() {
   const console = useConsole();
@@ -26,19 +26,21 @@ export function Motions() {
           <span>{words(driver.name, goal)}</span>
           {motion ? (
             <>
-              <span class="map-soft">{motion.state === 'waiting' ? t.waits() : age(console.environment.now() - (motion.started_at ?? motion.sent_at))}</span>
+              <span class="map-soft">
+                {motion.state === 'waiting' ? texts.waits() : age(console.environment.now() - (motion.started_at ?? motion.sent_at))}
+              </span>
               <Button
                 small
                 look="danger"
                 icon="stop"
-                aria-label={t.stop_robot(driver.name)}
+                aria-label={texts.stop_robot(driver.name)}
                 onClick={() => tried(console, driver.engine, stop(console, driver))}
               >
-                {t.stop()}
+                {texts.stop()}
               </Button>
             </>
           ) : (
-            <span class="map-soft">{t.by_others()}</span>
+            <span class="map-soft">{texts.by_others()}</span>
           )}
         </li>
       ))}
@@ -47,6 +49,6 @@ export function Motions() {
 }
 
 function words(robot: string, goal: Goal | undefined): string {
-  if (!goal) return t.moves(robot);
-  return goal.kind === 'follow' ? t.follows(robot, goal.text) : t.moves_to(robot, goal.text);
+  if (!goal) return texts.moves(robot);
+  return goal.kind === 'follow' ? texts.follows(robot, goal.text) : texts.moves_to(robot, goal.text);
 }

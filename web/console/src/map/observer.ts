@@ -6,7 +6,7 @@ import type { Console } from '../state/console';
 import type { GiveBack } from '../state/session/bindings';
 
 /** Types of components to bind and start, if the engine has them. */
-export const observing_types = ['PersonDetection', 'PersonLocalization', 'PersonIdentification', 'FaceLocalization', 'SoundLocalization'];
+const observing_types = ['PersonDetection', 'PersonLocalization', 'PersonIdentification', 'FaceLocalization', 'SoundLocalization'];
 
 export interface Observing {
   is_wanted: boolean;
@@ -87,7 +87,8 @@ export class Observer {
         await this.start(ref);
         this.update({ on: this.sensing(), refused: this.state.value.refused.filter((one) => one.ref !== ref) });
       } catch (error) {
-        if (error instanceof RoisError && ['link_lost', 'session_lost', 'closed'].includes(error.failure)) return; // retried with the next link
+        // Retried with the next link.
+        if (error instanceof RoisError && ['link_lost', 'session_lost', 'closed'].includes(error.failure)) return;
         this.update({ refused: [...this.state.value.refused.filter((one) => one.ref !== ref), { ref, error }] });
       }
     }

@@ -14,7 +14,7 @@ import type { Drawing } from './painting/drawing';
 import { short_name } from './painting/ground';
 import { age, metres, position } from './formats';
 import { session_of } from './session';
-import * as t from './texts';
+import * as texts from './texts';
 import { ThingsTable } from './things_table';
 import { Toolbar } from './toolbar';
 import { type Point, round_step } from './view';
@@ -42,9 +42,9 @@ export default function MapPanel() {
       </div>
       <div class="map-foot">
         <div class="map-zoom">
-          <IconButton icon="plus" label={t.zoom_in()} onClick={() => drawing.value?.act({ kind: 'zoom', factor: key_zoom })} />
-          <IconButton icon="minus" label={t.zoom_out()} onClick={() => drawing.value?.act({ kind: 'zoom', factor: 1 / key_zoom })} />
-          <IconButton icon="fit" label={t.fit()} onClick={() => drawing.value?.act({ kind: 'fit' })} />
+          <IconButton icon="plus" label={texts.zoom_in()} onClick={() => drawing.value?.act({ kind: 'zoom', factor: key_zoom })} />
+          <IconButton icon="minus" label={texts.zoom_out()} onClick={() => drawing.value?.act({ kind: 'zoom', factor: 1 / key_zoom })} />
+          <IconButton icon="fit" label={texts.fit()} onClick={() => drawing.value?.act({ kind: 'fit' })} />
         </div>
         {drawing.value && <Scale drawing={drawing.value} />}
         <Frame />
@@ -75,7 +75,11 @@ function Chosen({ sending, drawing }: { sending: Sending; drawing: Drawing | und
     before.current = about;
   }, [about]);
   if (key === undefined) return null;
-  return <div ref={cards} class={at_left ? 'map-cards map-cards-left' : 'map-cards'}>{target ? <TargetCard target={target} sending={sending} /> : <ChosenThing chosen={chosen!} />}</div>;
+  return (
+    <div ref={cards} class={at_left ? 'map-cards map-cards-left' : 'map-cards'}>
+      {target ? <TargetCard target={target} sending={sending} /> : <ChosenThing chosen={chosen!} />}
+    </div>
+  );
 }
 
 // Updated with every position.
@@ -84,7 +88,9 @@ function ChosenThing({ chosen }: { chosen: string }) {
   const session = session_of(console);
   for (const one of [console.robots.pulse.beat, console.entities.pulse.beat, console.now]) void one.value;
   const thing = session.scene().shown.find((one) => one.key === chosen);
-  return thing ? <ThingCard key={chosen} thing={thing} close={() => (session.interaction.value = { ...session.interaction.value, chosen: undefined })} /> : null;
+  return thing ? (
+    <ThingCard key={chosen} thing={thing} close={() => (session.interaction.value = { ...session.interaction.value, chosen: undefined })} />
+  ) : null;
 }
 
 const least_bar = 60; // px
@@ -95,7 +101,7 @@ function Scale({ drawing }: { drawing: Drawing }) {
   const length = round_step(least_bar / scale);
   const text = metres(length, length < 100 ? 2 : length < 1000 ? 1 : 0);
   return (
-    <span class="map-scale" role="img" aria-label={t.scale(text)}>
+    <span class="map-scale" role="img" aria-label={texts.scale(text)}>
       <span class="map-scale-bar" style={{ width: `${length * scale}px` }} />
       <span>{text}</span>
     </span>
@@ -110,8 +116,8 @@ function Frame() {
   const crs = session.map?.crs ?? [...console.robots.all.values()][0]?.crs ?? '';
   if (crs === '') return null;
   return (
-    <span class="map-frame" title={`${t.frame()}: ${crs}`}>
-      {t.frame()}: {short_name(crs)}
+    <span class="map-frame" title={`${texts.frame()}: ${crs}`}>
+      {texts.frame()}: {short_name(crs)}
     </span>
   );
 }
@@ -126,19 +132,26 @@ function Remarks() {
   const { lost } = session.scene();
   return (
     <>
-      {!link.is_open && link.received_at > 0 && <p class="map-remark map-stale">{t.not_live(age(now.value - link.received_at))}</p>}
-      {view.state === 'unknown' && link.is_open && <p class="map-remark">{t.loading_map()}</p>}
-      {view.state === 'none' && <p class="map-remark">{t.no_map()}</p>}
+      {!link.is_open && link.received_at > 0 && <p class="map-remark map-stale">{texts.not_live(age(now.value - link.received_at))}</p>}
+      {view.state === 'unknown' && link.is_open && <p class="map-remark">{texts.loading_map()}</p>}
+      {view.state === 'none' && <p class="map-remark">{texts.no_map()}</p>}
       {view.state === 'trouble' && (
         <p class="map-remark">
-          {t.map_trouble(view.reason)}{' '}
+          {texts.map_trouble(view.reason)}{' '}
           <Button small icon="refresh" onClick={() => void map.load()}>
-            {t.reload()}
+            {texts.reload()}
           </Button>
         </p>
       )}
-      {link.is_open && console.entities.all.size === 0 && !session.observer.state.value.is_wanted && session.observer.components.length > 0 && <p class="map-remark map-soft">{t.nobody_hint()}</p>}
-      {lost.length > 0 && <p class="map-remark" title={[...new Set(lost.map((one) => one.crs))].join(', ')}>{t.unplaced(lost.length)}</p>}
+      {link.is_open &&
+        console.entities.all.size === 0 &&
+        !session.observer.state.value.is_wanted &&
+        session.observer.components.length > 0 && <p class="map-remark map-soft">{texts.nobody_hint()}</p>}
+      {lost.length > 0 && (
+        <p class="map-remark" title={[...new Set(lost.map((one) => one.crs))].join(', ')}>
+          {texts.unplaced(lost.length)}
+        </p>
+      )}
     </>
   );
 }

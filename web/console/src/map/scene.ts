@@ -77,7 +77,8 @@ export function scene_of({ robots, entities, map, now, is_live, senses }: SceneI
     const { kind, identity } = entity;
     const age = now - entity.at;
     const is_sensed = is_live && (age < surely_sensed || senses(entity.component));
-    const is_over = age > quiet_after[kind] && (kind === 'sound' || (kind === 'face' && !people.some((one) => distance(one, entity) < head)));
+    const is_over =
+      age > quiet_after[kind] && (kind === 'sound' || (kind === 'face' && !people.some((one) => distance(one, entity) < head)));
     const freshness = freshness_of(entity, age, is_sensed, is_over);
     if (is_live && (freshness === 'gone' || !is_sensed) && age > (kind === 'person' ? shown_for : echo)) continue;
     add(entity, kind, { name: identity?.ref ?? entity.ref, radius: radii[kind], freshness, identity });

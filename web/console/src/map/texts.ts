@@ -126,8 +126,14 @@ export const follow_whom = text_of((name: string) => [`Follow ${name}`, `${name}
 export const distance = text('Distance', '距離');
 export const gap = text('Distance to keep', '保つ間隔');
 export const go_there = text('Go there', 'そこへ行く');
-export const followed = text_of((robot: string, whom: string) => [`${robot} no longer follows ${whom}`, `${robot} は ${whom} を追うのをやめました`]);
-export const follow_or_go = text('Follow stays near a moving person. Go there sends the robot once, to their present place.', '「追う」は動きに合わせて付いて行き、「そこへ行く」は今いる場所へ一度だけ行きます。');
+export const followed = text_of((robot: string, whom: string) => [
+  `${robot} no longer follows ${whom}`,
+  `${robot} は ${whom} を追うのをやめました`,
+]);
+export const follow_or_go = text(
+  'Follow stays near a moving person. Go there sends the robot once, to their present place.',
+  '「追う」は動きに合わせて付いて行き、「そこへ行く」は今いる場所へ一度だけ行きます。',
+);
 export const or_point = text('Or choose a point on the floor.', '床の上の点を選ぶこともできます。');
 export const speak = text('Speak', '話す');
 export const speak_hint = text('A sentence', '文を入力');
@@ -144,8 +150,14 @@ export const name = text('Name', '名前');
 // Help
 export const help_title = text('The floor map', 'フロアマップ');
 export const keys = text('Keys, while the map has the focus', '地図にフォーカスがあるときのキー');
-export const key_arrows = text('move the cursor by 0.25 m; with Shift by 1 m; with Ctrl the map', 'カーソルを 0.25 m 動かす。Shift で 1 m、Ctrl で地図を動かす');
-export const key_enter = text('selects the thing under the cursor, or sets the target there', 'カーソルの下のものを選ぶ、または行き先にする');
+export const key_arrows = text(
+  'move the cursor by 0.25 m; with Shift by 1 m; with Ctrl the map',
+  'カーソルを 0.25 m 動かす。Shift で 1 m、Ctrl で地図を動かす',
+);
+export const key_enter = text(
+  'selects the thing under the cursor, or sets the target there',
+  'カーソルの下のものを選ぶ、または行き先にする',
+);
 export const key_turn = text('turn the target by 15°', '行き先の向きを 15° 回す');
 export const key_send = text('sends the robot to the target', 'ロボットを行き先へ送る');
 export const key_step = text('next and previous person or robot', '次・前の人やロボット');

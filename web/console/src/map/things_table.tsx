@@ -6,7 +6,7 @@ import { Button } from '../ui';
 import { age, certainty, degrees, position } from './formats';
 import type { Shown } from './scene';
 import { session_of } from './session';
-import * as t from './texts';
+import * as texts from './texts';
 
 export function ThingsTable() {
   const console = useConsole();
@@ -18,29 +18,37 @@ export function ThingsTable() {
   const choose = (key: string) => (session.interaction.value = { ...session.interaction.value, target: undefined, chosen: key });
   const table = (
     <table class={is_shown ? 'table' : undefined}>
-      <caption class="unseen">{t.table_label()}</caption>
+      <caption class="unseen">{texts.table_label()}</caption>
       <thead>
         <tr>
-          {[t.kind_column(), t.name(), t.state(), t.position(), t.direction(), t.certainty(), t.reported()].map((title) => (
-            <th key={title} scope="col">{title}</th>
-          ))}
-          {is_shown && <th scope="col"><span class="unseen">{t.choose()}</span></th>}
+          {[texts.kind_column(), texts.name(), texts.state(), texts.position(), texts.direction(), texts.certainty(), texts.reported()].map(
+            (title) => (
+              <th key={title} scope="col">
+                {title}
+              </th>
+            ),
+          )}
+          {is_shown && (
+            <th scope="col">
+              <span class="unseen">{texts.choose()}</span>
+            </th>
+          )}
         </tr>
       </thead>
       <tbody>
         {sorted(shown).map((one) => (
           <tr key={one.key} aria-selected={is_shown ? one.key === chosen : undefined}>
-            <td>{t.kind(one.kind)}</td>
+            <td>{texts.kind(one.kind)}</td>
             <th scope="row">{one.name}{one.identity && <span class="map-soft"> {one.thing.ref}</span>}</th>
-            <td>{t.freshness(one.freshness, one.kind, age(one.age))}</td>
+            <td>{texts.freshness(one.freshness, one.kind, age(one.age))}</td>
             <td>{position(one)}</td>
             <td>{one.th === undefined ? '–' : degrees(one.th)}</td>
             <td>{one.ellipse ? certainty(one.ellipse) : '–'}</td>
-            <td>{t.ago(age(one.age))}</td>
+            <td>{texts.ago(age(one.age))}</td>
             {is_shown && (
               <td>
-                <Button small aria-label={`${t.choose()}: ${one.name}`} onClick={() => choose(one.key)}>
-                  {t.choose()}
+                <Button small aria-label={`${texts.choose()}: ${one.name}`} onClick={() => choose(one.key)}>
+                  {texts.choose()}
                 </Button>
               </td>
             )}
@@ -51,8 +59,8 @@ export function ThingsTable() {
   );
   if (!is_shown) return <div class="unseen">{table}</div>;
   return (
-    <div class="map-table" role="region" aria-label={t.table_label()} tabIndex={0}>
-      {shown.length === 0 ? <p class="map-soft">{t.nothing()}</p> : table}
+    <div class="map-table" role="region" aria-label={texts.table_label()} tabIndex={0}>
+      {shown.length === 0 ? <p class="map-soft">{texts.nothing()}</p> : table}
     </div>
   );
 }

@@ -8,7 +8,7 @@ import { Help } from './help';
 import { all_layers, type Layers } from './painting/ground';
 import { age } from './formats';
 import { session_of } from './session';
-import * as t from './texts';
+import * as texts from './texts';
 
 export function Toolbar() {
   const session = session_of(useConsole());
@@ -22,10 +22,10 @@ export function Toolbar() {
         <PlaceChoice />
         <LayerChoice />
         <Button small icon="table" aria-pressed={shows_table} onClick={() => session.show_table(!shows_table)}>
-          {t.table()}
+          {texts.table()}
         </Button>
         <Button small icon="help" onClick={() => (is_helping.value = true)}>
-          {t.help()}
+          {texts.help()}
         </Button>
       </div>
       <Help open={is_helping.value} close={() => (is_helping.value = false)} />
@@ -45,6 +45,8 @@ function Observe() {
   const old = now.value - entities.reported_at; // ms
   const is_blind = on.length > 0 && entities.is_blind();
   const is_fresh = old < fresh_for;
+  const is_silent = entities.reported_at === 0;
+  const freshness = is_blind ? texts.observe_blind() : is_silent ? texts.observe_silent() : texts.observe_age(age(old));
   const why = refused.map(({ ref, error }) => `${ref}: ${error_text(error)}`).join('\n');
   return (
     <div class="map-observe">
@@ -55,20 +57,20 @@ function Observe() {
         aria-checked={is_wanted}
         aria-busy={is_busy}
         disabled={of === 0 || (!console.link.is_open && !is_wanted)}
-        title={of === 0 ? t.observe_none() : t.observe_hint()}
+        title={of === 0 ? texts.observe_none() : texts.observe_hint()}
         onClick={() => void observer.turn_to(!is_wanted)}
       >
         <span class="map-switch-track" aria-hidden="true" />
-        {t.observe()}
+        {texts.observe()}
       </button>
-      {is_wanted && !console.link.is_open && <Badge>{t.observe_unlinked()}</Badge>}
+      {is_wanted && !console.link.is_open && <Badge>{texts.observe_unlinked()}</Badge>}
       {is_wanted && console.link.is_open && (
         <Badge tone={refused.length > 0 || is_blind ? 'warning' : on.length === of && is_fresh ? 'good' : 'busy'} title={why || undefined}>
-          {t.observing(on.length, of)}, {is_blind ? t.observe_blind() : entities.reported_at === 0 ? t.observe_silent() : t.observe_age(age(old))}
+          {texts.observing(on.length, of)}, {freshness}
         </Badge>
       )}
       {refused.length > 0 && (
-        <Pop label={t.observe_refused()}>
+        <Pop label={texts.observe_refused()}>
           <ul class="plain-list">
             {refused.map(({ ref, error }) => (
               <li key={ref}>
@@ -90,13 +92,18 @@ export function PlaceChoice() {
   if (places.length === 0) return null;
   const choose = (name: string) => {
     const place = places.find((one) => one.name === name);
-    if (place) session.interaction.value = { ...session.interaction.value, chosen: undefined, target: { x: place.x, y: place.y, th: place.heading, place: name } };
+    if (place)
+      session.interaction.value = {
+        ...session.interaction.value,
+        chosen: undefined,
+        target: { x: place.x, y: place.y, th: place.heading, place: name },
+      };
   };
   return (
     <label class="map-places">
-      <span class="unseen">{t.go_to_place()}</span>
+      <span class="unseen">{texts.go_to_place()}</span>
       <select value={target?.place ?? ''} onChange={(event) => choose(event.currentTarget.value)}>
-        <option value="">{t.go_to()} …</option>
+        <option value="">{texts.go_to()} …</option>
         {places.map(({ name }) => (
           <option key={name} value={name}>
             {name}
@@ -111,9 +118,14 @@ function LayerChoice() {
   const session = session_of(useConsole());
   const names = Object.keys(all_layers) as (keyof Layers)[];
   return (
-    <Pop label={t.layers()} at_right>
+    <Pop label={texts.layers()} at_right>
       {names.map((name) => (
-        <Checkbox key={name} label={t.layer(name)} checked={session.layers.value[name]} change={(is_shown) => session.show(name, is_shown)} />
+        <Checkbox
+          key={name}
+          label={texts.layer(name)}
+          checked={session.layers.value[name]}
+          change={(is_shown) => session.show(name, is_shown)}
+        />
       ))}
     </Pop>
   );

@@ -21,7 +21,8 @@ export function is_gap(row: Row): row is GapEntry {
 }
 
 export function category_of({ kind, name, return_code }: LoggedDocument): Category {
-  if (kind === 'fault' || name === 'receive_error' || (kind === 'answer' && return_code !== undefined && return_code !== 'OK')) return 'error';
+  if (kind === 'fault' || name === 'receive_error' || (kind === 'answer' && return_code !== undefined && return_code !== 'OK'))
+    return 'error';
   if (kind === 'request' || kind === 'answer') return kind;
   if (name === 'receive_event') return 'event';
   return name === 'completed' ? 'completed' : 'notice';
@@ -67,7 +68,8 @@ export class Feed {
       changed = (this.passes(document) && this.rows.push(document) > 0) || changed;
     }
     const gaps_end = gaps.first + gaps.size;
-    for (this.next_gap = Math.max(this.next_gap, gaps.first); this.next_gap < gaps_end; ++this.next_gap) changed = this.insert(gaps.numbered(this.next_gap)!) || changed;
+    for (this.next_gap = Math.max(this.next_gap, gaps.first); this.next_gap < gaps_end; ++this.next_gap)
+      changed = this.insert(gaps.numbered(this.next_gap)!) || changed;
     return changed;
   }
 

@@ -7,13 +7,13 @@ import { useConsole } from '../context';
 import { is_touched } from '../i18n/i18n';
 import type { Console } from '../state/console';
 import type { LoggedDocument } from '../state/session/document_log';
-import { Button, EmptyState, SplitPane, useIsWide, VirtualList } from '../ui';
+import { Button, EmptyState, useIsWide, VirtualList, WidthSplit } from '../ui';
 import { categories, Feed, is_gap, no_filter, type Row, type Source } from './feed';
 import { Reader } from './reader';
 import { RowView } from './row';
 import { chosen_of_recording, filter, paused, recording, type ShownRecording } from './shown';
 import { command_of, component_of } from './summary';
-import * as t from './texts';
+import * as texts from './texts';
 import { Toolbar } from './toolbar';
 
 const look_every = 250; // ms, update period
@@ -25,14 +25,17 @@ export default function MessagesPanel() {
   const feed = useMemo(() => new Feed(tape ? source_of(tape) : live(console), filter.value), [tape, filter.value]);
   // The total: all documents that the filter could show, so without the console's own requests unless they are included.
   const { with_own } = filter.value;
-  const whole = useMemo(() => new Feed(tape ? source_of(tape) : live(console), { ...no_filter, with_own: with_own || tape !== undefined }), [tape, with_own]);
-  const [, again] = useState(0);
+  const whole = useMemo(
+    () => new Feed(tape ? source_of(tape) : live(console), { ...no_filter, with_own: with_own || tape !== undefined }),
+    [tape, with_own],
+  );
+  const [, set_renders] = useState(0);
   const is_bare = console.documents.ring.size === 0;
   useEffect(
     () =>
       console.environment.every(look_every, () => {
         const is_new = [feed, whole].filter((one) => one.update()).length > 0;
-        if (is_new || (is_bare && console.documents.ring.size > 0)) again((n) => n + 1);
+        if (is_new || (is_bare && console.documents.ring.size > 0)) set_renders((n) => n + 1);
       }),
     [feed, whole, is_bare],
   );
@@ -57,13 +60,19 @@ export default function MessagesPanel() {
     recording.value = paused.value = undefined;
     subscription.value = '';
   }, [subscription.value]);
-  const document = chosen === undefined ? undefined : tape ? tape.documents[chosen] : (console.documents.ring.numbered(chosen) ?? held?.rows.find((one): one is LoggedDocument => !is_gap(one) && one.number === chosen));
+  const document =
+    chosen === undefined
+      ? undefined
+      : tape
+        ? tape.documents[chosen]
+        : (console.documents.ring.numbered(chosen) ??
+          held?.rows.find((one): one is LoggedDocument => !is_gap(one) && one.number === chosen));
   const all = whole.rows.length;
 
   const list =
     rows.length > 0 ? (
       <VirtualList<Row>
-        label={t.list()}
+        label={texts.list()}
         rows={rows}
         row_height={is_touched() ? 40 : 26}
         key_of={key_of}
@@ -73,18 +82,36 @@ export default function MessagesPanel() {
         follow={!tape && !held}
       />
     ) : (
-      <EmptyState icon="messages" title={is_bare && !tape ? t.none() : filter.value === no_filter ? t.only_own() : t.none_pass()}>
-        {(tape || !is_bare) && <Button onClick={() => (filter.value = { ...no_filter, with_own: true })}>{t.clear()}</Button>}
+      <EmptyState
+        icon="messages"
+        title={is_bare && !tape ? texts.none() : filter.value === no_filter ? texts.only_own() : texts.none_pass()}
+      >
+        {(tape || !is_bare) && <Button onClick={() => (filter.value = { ...no_filter, with_own: true })}>{texts.clear()}</Button>}
       </EmptyState>
     );
-  const reader = document ? <Reader key={document.number} document={document} tape={tape} choose={({ number }) => ((tape ? chosen_of_recording : wanted).value = number)} /> : <EmptyState icon="messages" title={t.pick()} />;
-  const direction = is_wide ? 'row' : 'column';
+  const reader = document ? (
+    <Reader
+      key={document.number}
+      document={document}
+      tape={tape}
+      choose={({ number }) => ((tape ? chosen_of_recording : wanted).value = number)}
+    />
+  ) : (
+    <EmptyState icon="messages" title={texts.pick()} />
+  );
   return (
     <div class="messages" ref={frame}>
       <Toolbar feed={feed} rows={rows} all={all} />
       {tape && <TapeBanner tape={tape} />}
       <div class="messages-body">
-        <SplitPane key={direction} id={`messages.${direction}`} direction={direction} share={0.58} label={t.list()} first={list} second={reader} />
+        <WidthSplit
+          is_wide={is_wide}
+          row={{ id: 'messages.row', share: 0.58 }}
+          column={{ id: 'messages.column', share: 0.58 }}
+          label={texts.list()}
+          first={list}
+          second={reader}
+        />
       </div>
     </div>
   );
@@ -93,8 +120,8 @@ export default function MessagesPanel() {
 function TapeBanner({ tape }: { tape: ShownRecording }) {
   return (
     <p class="banner banner-warning" role="status">
-      <strong>{t.not_live()}</strong> {t.recording(tape.file, tape.documents.length, tape.begun, tape.url)}
-      <Button small onClick={() => (recording.value = undefined)}>{t.to_live()}</Button>
+      <strong>{texts.not_live()}</strong> {texts.recording(tape.file, tape.documents.length, tape.begun, tape.url)}
+      <Button small onClick={() => (recording.value = undefined)}>{texts.to_live()}</Button>
     </p>
   );
 }

@@ -12,7 +12,7 @@ import type { Details } from '../state/session/events_state';
 import { Badge, Button, Checkbox, CurlButton, StatusBadge, XmlView } from '../ui';
 import type { ShownRecording } from './shown';
 import { command_of, component_of, expire_of } from './summary';
-import * as t from './texts';
+import * as texts from './texts';
 
 export interface ReaderProps {
   document: LoggedDocument;
@@ -32,25 +32,25 @@ export function Reader({ document, tape, choose }: ReaderProps) {
       <div class="messages-head">
         <h3>{name === '' ? '—' : name}</h3>
         {return_code !== undefined && <StatusBadge status={return_code} />}
-        {tape && <Badge tone="warning">{t.not_live()}</Badge>}
+        {tape && <Badge tone="warning">{texts.not_live()}</Badge>}
         <span class="soft">
-          {direction === 'out' ? t.outward() : t.inward()} {t.at(document.at)} · {t.size(document.text.length)}
-          {document.took !== undefined && ` · ${t.took(document.took)}`}
+          {direction === 'out' ? texts.outward() : texts.inward()} {texts.at(document.at)} · {texts.size(document.text.length)}
+          {document.took !== undefined && ` · ${texts.took(document.took)}`}
         </span>
       </div>
       <div class="messages-head">
-        {document.request && <Button small icon="up" onClick={() => choose(document.request!)}>{t.to_request()}</Button>}
-        {answer && <Button small icon="down" onClick={() => choose(answer)}>{t.to_answer()}</Button>}
+        {document.request && <Button small icon="up" onClick={() => choose(document.request!)}>{texts.to_request()}</Button>}
+        {answer && <Button small icon="down" onClick={() => choose(answer)}>{texts.to_answer()}</Button>}
         {component !== '' && !tape && console.profile.component(component) && (
-          <Button small icon="components" onClick={() => show_component(console, component)}>{t.to_component(component)}</Button>
+          <Button small icon="components" onClick={() => show_component(console, component)}>{texts.to_component(component)}</Button>
         )}
         {direction === 'out' && !tape && <CurlButton request={document.text} />}
-        <Checkbox label={t.raw()} checked={raw} change={set_raw} />
+        <Checkbox label={texts.raw()} checked={raw} change={set_raw} />
       </div>
       {tape ? <Values results={values_in(document)} /> : <Live document={document} />}
-      {place && <p class="soft">{t.place(place.line, place.column)}</p>}
-      <XmlView text={document.text} raw={raw} label={t.document(name)} />
-      {place && document.request && <XmlView text={document.request.text} raw label={t.to_request()} marked_line={place.line} />}
+      {place && <p class="soft">{texts.place(place.line, place.column)}</p>}
+      <XmlView text={document.text} raw={raw} label={texts.document(name)} />
+      {place && document.request && <XmlView text={document.request.text} raw label={texts.to_request()} marked_line={place.line} />}
     </div>
   );
 }
@@ -66,7 +66,11 @@ function Live({ document }: { document: LoggedDocument }) {
   if (document.name === 'receive_event') {
     void events.pulse.beat.value;
     const entry = (document.is_own ? events.own_events : events.events).find(document.number, (one) => one.document);
-    return entry ? <DetailsOf details={entry.details} expire={expire_of(document)} ask={() => void events.fetch_event(entry)} /> : <p class="soft">{t.not_kept()}</p>;
+    return entry ? (
+      <DetailsOf details={entry.details} expire={expire_of(document)} ask={() => void events.fetch_event(entry)} />
+    ) : (
+      <p class="soft">{texts.not_kept()}</p>
+    );
   }
   if (document.name === 'receive_error') {
     void events.pulse.beat.value;
@@ -79,7 +83,12 @@ function Live({ document }: { document: LoggedDocument }) {
 function DetailsOf({ details, expire, ask }: { details: Details; expire: number | undefined; ask: () => void }) {
   const { now, link } = useConsole();
   const is_expired = expire !== undefined && expire <= now.value;
-  const until = expire === undefined ? null : is_expired ? <Badge>{t.expired()}</Badge> : <span class="soft">{t.expires(clock_time(expire, false))}</span>;
+  const until =
+    expire === undefined ? null : is_expired ? (
+      <Badge>{texts.expired()}</Badge>
+    ) : (
+      <span class="soft">{texts.expires(clock_time(expire, false))}</span>
+    );
   switch (details.state) {
     case 'there':
       return (
@@ -89,20 +98,20 @@ function DetailsOf({ details, expire, ask }: { details: Details; expire: number 
         </>
       );
     case 'gone':
-      return <p>{t.gone()} <span class="soft">{details.reason}</span> {until}</p>;
+      return <p>{texts.gone()} <span class="soft">{details.reason}</span> {until}</p>;
     case 'asked':
-      return <p class="soft" role="status">{t.fetching()}</p>;
+      return <p class="soft" role="status">{texts.fetching()}</p>;
     default:
       return (
         <p class="messages-head">
-          <Button small icon="download" disabled={!link.is_open} onClick={ask}>{t.fetch()}</Button> {until}
+          <Button small icon="download" disabled={!link.is_open} onClick={ask}>{texts.fetch()}</Button> {until}
         </p>
       );
   }
 }
 
 function Values({ results }: { results: Results }) {
-  return results.parameters.length === 0 ? null : <ResultsTable label={t.details()} results={results} />;
+  return results.parameters.length === 0 ? null : <ResultsTable label={texts.details()} results={results} />;
 }
 
 function values_in(document: LoggedDocument): Results {

@@ -1,6 +1,6 @@
 // Summarizes a document in a few words without parsing it.
 import type { LoggedDocument } from '../state/session/document_log';
-import { unescaped } from '../ui/xml/xml_text';
+import { unescaped } from '../ui';
 
 const known = new WeakMap<LoggedDocument, string>();
 
@@ -8,9 +8,9 @@ const known = new WeakMap<LoggedDocument, string>();
 export function summary(document: LoggedDocument): string {
   const before = known.get(document);
   if (before !== undefined) return before;
-  const made = made_of(document);
-  known.set(document, made);
-  return made;
+  const made_summary = made_of(document);
+  known.set(document, made_summary);
+  return made_summary;
 }
 
 /** The root's name; for an event, the event type. */
@@ -85,9 +85,9 @@ function values(text: string, element: string): string[] {
 
 // Positions come first and replace the lists of the same values.
 function of_event(document: LoggedDocument): string {
-  const those = located(document.text);
-  const more = values(document.text, 'result').filter((one) => those.length === 0 || !/^(\w+_ref|position_data):/.test(one));
-  return [...those, ...more].join('  ');
+  const positions = located(document.text);
+  const more = values(document.text, 'result').filter((one) => positions.length === 0 || !/^(\w+_ref|position_data):/.test(one));
+  return [...positions, ...more].join('  ');
 }
 
 // `person-1 1.00, 2.00 m`

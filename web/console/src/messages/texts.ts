@@ -20,11 +20,11 @@ export const own = text("Show the console's own requests", 'コンソール自�
 export const pause = text('Pause', '一時停止');
 export const go_on = text('Continue', '再開');
 export const waiting = text_of((n: number) => [`${count_text(n)} new`, `新着 ${count_text(n)} 件`]);
-export const shown = text_of((n: number, all: number) => [`${count_text(n)} of ${count_text(all)}`, `${count_text(all)} 件中 ${count_text(n)} 件`]);
-export const shown_hint = text(
-  'Documents that match the filter, of all stored ones',
-  'コンソールに残る文書のうち、条件に合う件数',
-);
+export const shown = text_of((n: number, all: number) => [
+  `${count_text(n)} of ${count_text(all)}`,
+  `${count_text(all)} 件中 ${count_text(n)} 件`,
+]);
+export const shown_hint = text('Documents that match the filter, of all stored ones', 'コンソールに残る文書のうち、条件に合う件数');
 export const export_it = text('Export all', 'すべて書き出す');
 export const import_it = text('Open a recording', '記録を開く');
 export const exported = text_of((n: number) => [
@@ -56,10 +56,16 @@ export const gap_lost = text_of((n: number) => [
   `The engine dropped ${count_text(n)} ${n === 1 ? 'notification' : 'notifications'}: its queue was full`,
   `通知 ${count_text(n)} 件がエンジンで破棄されました (待ちが多すぎました)`,
 ]);
-export const gap_session = text('The session was lost and a new one began. Events in between are unknown', 'セッションが失われ、新しく始まりました。その間に起きたことは分かりません');
+export const gap_session = text(
+  'The session was lost and a new one began. Events in between are unknown',
+  'セッションが失われ、新しく始まりました。その間に起きたことは分かりません',
+);
 export const document = text_of((name: string) => [`Document: ${name}`, `文書: ${name}`]);
 export const at = text_of((time: number) => clock_time(time));
-export const took = text_of((ms: number) => [`answered after ${ms < 10 ? ms.toFixed(1) : Math.round(ms)} ms`, `${ms < 10 ? ms.toFixed(1) : Math.round(ms)} ミリ秒で応答`]);
+export const took = text_of((ms: number) => [
+  `answered after ${ms < 10 ? ms.toFixed(1) : Math.round(ms)} ms`,
+  `${ms < 10 ? ms.toFixed(1) : Math.round(ms)} ミリ秒で応答`,
+]);
 export const size = text_of((bytes: number) => bytes_text(bytes));
 export const to_request = text('Show request', '要求を見る');
 export const to_answer = text('Show answer', '応答を見る');

@@ -10,7 +10,8 @@ import type { Scenario, State, Trigger } from './model';
 import { read_scenario } from './read';
 import { plain_lines } from './source';
 
-export type HistoryEntry = { number: number; at: number } & ({ kind: 'transition'; from: string; to: string; by: string; trigger: string } | { kind: 'print'; line: string });
+export type HistoryEntry = { number: number; at: number } & HistoryNote;
+type HistoryNote = { kind: 'transition'; from: string; to: string; by: string } | { kind: 'print'; line: string };
 
 /** A run. It changes in place: read `pulse.beat.value` first. */
 export interface Run {
@@ -32,7 +33,7 @@ export interface Run {
 
 const most_history = 1000;
 const most_undo = 100;
-export const shipped_name = 'reception.xml';
+const shipped_name = 'reception.xml';
 
 export class Desk {
   readonly text = signal('');
@@ -111,7 +112,15 @@ export class Desk {
     if (!scenario || this.is_running.value) return;
     const { environment } = this.console;
     const run: Run = {
-      began_at: environment.now(), state: '', entered_at: environment.now(), is_leaving: false, last_trigger: '', taken: 0, visits: new Map(), variables: new Map(), changed: new Map(),
+      began_at: environment.now(),
+      state: '',
+      entered_at: environment.now(),
+      is_leaving: false,
+      last_trigger: '',
+      taken: 0,
+      visits: new Map(),
+      variables: new Map(),
+      changed: new Map(),
     };
     this.run = run;
     this.is_running.value = true;
@@ -153,7 +162,7 @@ export class Desk {
   private left(run: Run, from: State, trigger: Trigger, by: string): void {
     run.last_trigger = trigger.node.path;
     run.taken += 1;
-    this.note({ kind: 'transition', from: from.name, to: trigger.to, by, trigger: trigger.node.path });
+    this.note({ kind: 'transition', from: from.name, to: trigger.to, by });
   }
 
   private changed(run: Run, variables: ReadonlyMap<string, readonly string[]>): void {
@@ -162,7 +171,7 @@ export class Desk {
     this.pulse.touch();
   }
 
-  private note(what: { kind: 'transition'; from: string; to: string; by: string; trigger: string } | { kind: 'print'; line: string }): void {
+  private note(what: HistoryNote): void {
     this.history.push({ number: this.next_number++, at: this.console.environment.now(), ...what });
     this.pulse.touch();
   }

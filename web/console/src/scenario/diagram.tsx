@@ -8,7 +8,7 @@ import { label_of, label_of_edge } from './graph';
 import { type Box, type DrawnEdge, path_of } from './layout';
 import type { Scenario, State } from './model';
 import { arrow_head, neighbour, picture_of, shown_name } from './picture';
-import * as t from './texts';
+import * as texts from './texts';
 
 const smallest = 0.5; // below this scale it scrolls
 
@@ -54,7 +54,7 @@ export function Diagram({ desk, scenario, edit }: { desk: Desk; scenario: Scenar
           height={layout.height * scale}
           viewBox={`0 0 ${layout.width} ${layout.height}`}
           role="group"
-          aria-label={`${t.diagram()}. ${t.diagram_hint()}`}
+          aria-label={`${texts.diagram()}. ${texts.diagram_hint()}`}
           onKeyDown={pressed}
         >
           {layout.edges.map((one) => (
@@ -75,7 +75,7 @@ export function Diagram({ desk, scenario, edit }: { desk: Desk; scenario: Scenar
         </svg>
       </div>
       <Button class="scenario-fit" small aria-pressed={is_whole.value} onClick={() => (is_whole.value = !is_whole.value)}>
-        {is_whole.value ? t.natural() : t.whole()}
+        {is_whole.value ? texts.natural() : texts.whole()}
       </Button>
     </div>
   );
@@ -127,21 +127,34 @@ function StatePicture({ state, box, run, is_start, is_chosen, is_reachable, choo
   const is_left = is_current && run.is_leaving;
   const visits = run?.visits.get(name) ?? 0;
   const [x, y] = [box.x - box.width / 2, box.y - box.height / 2];
-  const marks = [is_start && t.starts_here(), is_end && (failed ? t.is_failed() : t.is_end()), is_left ? t.is_left() : is_current && t.is_current(), visits > 0 && t.visits(visits)].filter(Boolean);
-  const leads = state.triggers.map((one) => t.leads_to(shown_name(one.to), label_of(one))).join(', ');
-  const classes = joined('scenario-state', is_end && 'scenario-end', failed && 'scenario-failed', is_current && 'scenario-current', is_current && run.ended_at === undefined && 'scenario-live', is_left && 'scenario-left', is_chosen && 'scenario-chosen');
+  const marks = [
+    is_start && texts.starts_here(),
+    is_end && (failed ? texts.is_failed() : texts.is_end()),
+    is_left ? texts.is_left() : is_current && texts.is_current(),
+    visits > 0 && texts.visits(visits),
+  ].filter(Boolean);
+  const leads = state.triggers.map((one) => texts.leads_to(shown_name(one.to), label_of(one))).join(', ');
+  const classes = joined(
+    'scenario-state',
+    is_end && 'scenario-end',
+    failed && 'scenario-failed',
+    is_current && 'scenario-current',
+    is_current && run.ended_at === undefined && 'scenario-live',
+    is_left && 'scenario-left',
+    is_chosen && 'scenario-chosen',
+  );
   return (
     <g
       class={classes}
       role="button"
       tabindex={is_reachable ? 0 : -1}
       data-state={name}
-      aria-label={t.state_name(shown_name(name), [...marks, leads].join('. '))}
+      aria-label={texts.state_name(shown_name(name), [...marks, leads].join('. '))}
       aria-pressed={is_chosen}
       aria-current={is_current ? 'step' : undefined}
       onClick={choose}
     >
-      {visits > 0 && <title>{t.visits(visits)}</title>}
+      {visits > 0 && <title>{texts.visits(visits)}</title>}
       <rect class="scenario-ring" x={x - 4} y={y - 4} width={box.width + 8} height={box.height + 8} rx={10} />
       <rect class="scenario-box" x={x} y={y} width={box.width} height={box.height} rx={is_end ? 16 : 7} />
       {is_end && <rect class="scenario-inner" x={x + 3} y={y + 3} width={box.width - 6} height={box.height - 6} rx={13} />}

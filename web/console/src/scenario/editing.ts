@@ -9,7 +9,7 @@ export function names_of(root: Node, ...elements: string[]): string[] {
 }
 
 /** The child before which a new element goes; undefined: at the end. */
-export function place_for(parent: Node, name: string): Node | undefined {
+function place_for(parent: Node, name: string): Node | undefined {
   const groups = rule_of(parent.name)?.content ?? [];
   const group = groups.findIndex((one) => one.names.includes(name));
   return parent.children.find((child) => groups.findIndex((one) => one.names.includes(child.name)) > group);
@@ -22,7 +22,7 @@ export function may_add(parent: Node, name: string): boolean {
 }
 
 /** A new element, filled with existing names so that it is as valid as possible. */
-export function begun(name: string, root: Node, state: string): string {
+function begun(name: string, root: Node, state: string): string {
   const first = (...elements: string[]) => names_of(root, ...elements)[0] ?? '';
   const [variable, component] = [first('variable'), first('component')];
   const to = names_of(root, 'state', 'end').find((one) => one !== state) ?? state;
@@ -85,19 +85,26 @@ export function relation_of(node: Node): (typeof relations)[number] | undefined 
 }
 
 /** The text with another relation; keeps the operand if it fits. */
-export function with_relation(text: string, node: Node, to: (typeof relations)[number], read: (text: string) => Node, variable: string): string {
+export function with_relation(
+  text: string,
+  node: Node,
+  to: (typeof relations)[number],
+  read: (text: string) => Node,
+  variable: string,
+): string {
   const from = relation_of(node);
-  const again = (changed: string) => at_path(read(changed), node.path);
+  const node_in = (changed: string) => at_path(read(changed), node.path);
   let changed = text;
-  for (const name of ['within', ...relations]) if (again(changed).element.attribute(name) !== undefined) changed = with_attribute(changed, again(changed), name, undefined);
+  for (const name of ['within', ...relations])
+    if (node_in(changed).element.attribute(name) !== undefined) changed = with_attribute(changed, node_in(changed), name, undefined);
   const was = from === undefined ? '' : (node.element.attribute(from) ?? '');
   const is_list = (one: string | undefined) => one === 'in' || one === 'not_in';
   let operand = was;
   if (to === 'empty') operand = 'true';
   else if (is_list(to) && !is_list(from)) operand = variable;
   else if (!is_list(to) && (is_list(from) || from === 'empty')) operand = '';
-  changed = with_attribute(changed, again(changed), to, operand);
-  return to === 'near' ? with_attribute(changed, again(changed), 'within', '500') : changed;
+  changed = with_attribute(changed, node_in(changed), to, operand);
+  return to === 'near' ? with_attribute(changed, node_in(changed), 'within', '500') : changed;
 }
 
 function at_path(root: Node, path: string): Node {
@@ -115,14 +122,20 @@ export function closed_choices(type: AttributeType, root: Node): string[] | unde
 }
 
 /** Names that the engine knows; others may be valid later. */
-export function suggestions(node: Node, attribute: string, components: readonly ComponentView[], meant: (name: string) => ComponentView | undefined): string[] | undefined {
+export function suggestions(
+  node: Node,
+  attribute: string,
+  components: readonly ComponentView[],
+  meant: (name: string) => ComponentView | undefined,
+): string[] | undefined {
   const own = meant(node.element.attribute('component') ?? '');
   const asked = own ? [own] : components;
   const all = (names: string[]) => [...new Set(names)].sort();
   if (attribute === 'type') {
     if (node.name === 'event') return all(asked.flatMap((one) => one.events.map(({ name }) => name)));
     if (node.name === 'query') return all(asked.flatMap((one) => one.queries.map(({ name }) => name)));
-    if (node.name === 'command') return own && all([...own.commands.map(({ name }) => name), ...(own.parameters.length > 0 ? ['set_parameter'] : [])]);
+    if (node.name === 'command')
+      return own && all([...own.commands.map(({ name }) => name), ...(own.parameters.length > 0 ? ['set_parameter'] : [])]);
     if (node.name === 'component') return all(components.map(({ type_name }) => type_name));
   }
   if (node.name === 'component' && attribute === 'ref') return all(components.map(({ ref }) => ref));
@@ -130,7 +143,10 @@ export function suggestions(node: Node, attribute: string, components: readonly 
   if (node.name === 'argument' && parent) {
     const component = meant(parent.element.attribute('component') ?? '');
     const type = parent.element.attribute('type') ?? '';
-    return component && all([...(component.commands.find((one) => one.name === type)?.arguments ?? []), ...component.parameters].map(({ name }) => name));
+    return (
+      component &&
+      all([...(component.commands.find((one) => one.name === type)?.arguments ?? []), ...component.parameters].map(({ name }) => name))
+    );
   }
   if (node.name === 'take' && (attribute === 'result' || attribute === 'beside')) return results_of(parent, components);
   return undefined;

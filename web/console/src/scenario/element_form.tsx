@@ -7,7 +7,7 @@ import { closed_choices, relation_of, relations, steps_for, suggestions, with_ne
 import { actions, type AttributeRule, is_of, rule_of, statuses } from './grammar';
 import type { Problem } from './read';
 import { moved, type Node, read_source, with_attribute, with_state_renamed, with_text, without } from './source';
-import * as t from './texts';
+import * as texts from './texts';
 
 export interface FormProps {
   desk: Desk;
@@ -22,7 +22,7 @@ export function problems_at(problems: readonly Problem[], node: Node): string[] 
 
 /** With its name and buttons to move and remove it. */
 export function ElementCard({ desk, root, node }: FormProps) {
-  const title = t.element(node.name);
+  const title = texts.element(node.name);
   const sisters = (node.parent?.children ?? []).filter((one) => same_group(one, node));
   const { text } = desk;
   const may_not = desk.is_running.value;
@@ -34,11 +34,29 @@ export function ElementCard({ desk, root, node }: FormProps) {
         <span class="scenario-card-title">{title}</span>
         {sisters.length > 1 && (
           <>
-            <IconButton small icon="up" label={t.earlier(title)} disabled={may_not || sisters[0] === node} onClick={() => desk.edit(moved(text.value, node, -1), '')} />
-            <IconButton small icon="down" label={t.later(title)} disabled={may_not || sisters.at(-1) === node} onClick={() => desk.edit(moved(text.value, node, 1), '')} />
+            <IconButton
+              small
+              icon="up"
+              label={texts.earlier(title)}
+              disabled={may_not || sisters[0] === node}
+              onClick={() => desk.edit(moved(text.value, node, -1), '')}
+            />
+            <IconButton
+              small
+              icon="down"
+              label={texts.later(title)}
+              disabled={may_not || sisters.at(-1) === node}
+              onClick={() => desk.edit(moved(text.value, node, 1), '')}
+            />
           </>
         )}
-        <IconButton small icon="close" label={t.remove(title)} disabled={may_not} onClick={() => desk.edit(without(text.value, node), '')} />
+        <IconButton
+          small
+          icon="close"
+          label={texts.remove(title)}
+          disabled={may_not}
+          onClick={() => desk.edit(without(text.value, node), '')}
+        />
       </header>
       {problems.map((one) => <p key={one} class="field-error">{one}</p>)}
       <ElementFields desk={desk} root={root} node={node} />
@@ -70,7 +88,7 @@ export function Adder({ desk, root, parent, names }: { desk: Desk; root: Node; p
   return (
     <div class="scenario-adder">
       <select
-        aria-label={`${t.add_choose()} ${t.element(parent.name)}`}
+        aria-label={`${texts.add_choose()} ${texts.element(parent.name)}`}
         value=""
         disabled={desk.is_running.value}
         onChange={(event) => {
@@ -78,8 +96,8 @@ export function Adder({ desk, root, parent, names }: { desk: Desk; root: Node; p
           event.currentTarget.value = '';
         }}
       >
-        <option value="">{t.add_choose()}</option>
-        {names.map((one) => <option key={one} value={one}>{t.element(one)}</option>)}
+        <option value="">{texts.add_choose()}</option>
+        {names.map((one) => <option key={one} value={one}>{texts.element(one)}</option>)}
       </select>
     </div>
   );
@@ -98,18 +116,29 @@ export function ElementFields({ desk, root, node }: FormProps) {
   const names = Object.keys(rule.attributes);
   const is_given = (name: string) => node.element.attribute(name) !== undefined;
   // Rarely used attributes are hidden until requested.
-  const hidden = node.name === 'take' || node.name === 'place' || node.name === 'command' ? names.filter((name) => !rule.attributes[name]!.required && !is_given(name)) : [];
-  const field = (name: string) => <AttributeField key={name} desk={desk} root={root} node={node} name={name} rule={rule.attributes[name]!} />;
+  const hidden =
+    node.name === 'take' || node.name === 'place' || node.name === 'command'
+      ? names.filter((name) => !rule.attributes[name]!.required && !is_given(name))
+      : [];
+  const field = (name: string) => (
+    <AttributeField key={name} desk={desk} root={root} node={node} name={name} rule={rule.attributes[name]!} />
+  );
   if (node.name === 'when') return <WhenFields desk={desk} root={root} node={node} />;
   return (
     <>
       {names.length > hidden.length && <div class="scenario-fields">{names.filter((one) => !hidden.includes(one)).map(field)}</div>}
       {rule.text && (
-        <TextField hide_label label={t.value_of(t.element(node.name))} value={node.element.text.trim()} change={change_text} input={{ disabled: desk.is_running.value, placeholder: t.text_with() }} />
+        <TextField
+          hide_label
+          label={texts.value_of(texts.element(node.name))}
+          value={node.element.text.trim()}
+          change={change_text}
+          input={{ disabled: desk.is_running.value, placeholder: texts.text_with() }}
+        />
       )}
       {hidden.length > 0 && (
         <details class="scenario-more">
-          <summary>{t.more()}</summary>
+          <summary>{texts.more()}</summary>
           <div class="scenario-fields">{hidden.map(field)}</div>
         </details>
       )}
@@ -120,18 +149,25 @@ export function ElementFields({ desk, root, node }: FormProps) {
 function AttributeField({ desk, root, node, name, rule }: FormProps & { name: string; rule: AttributeRule }) {
   const { profile } = useConsole();
   const value = node.element.attribute(name);
-  const label = t.attribute(name);
+  const label = texts.attribute(name);
   const is_locked = desk.is_running.value;
   const change = (to: string) => {
     const wanted = to === '' && !rule.required ? undefined : to;
     const is_name_of_state = name === 'name' && (node.name === 'state' || node.name === 'end');
     if (is_name_of_state && value !== undefined && desk.chosen.value === value) desk.chosen.value = to;
-    desk.edit(is_name_of_state && value !== undefined ? with_state_renamed(desk.text.value, root, value.trim(), to) : with_attribute(desk.text.value, node, name, wanted), `${node.path} ${name}`);
+    desk.edit(
+      is_name_of_state && value !== undefined
+        ? with_state_renamed(desk.text.value, root, value.trim(), to)
+        : with_attribute(desk.text.value, node, name, wanted),
+      `${node.path} ${name}`,
+    );
   };
   const closed = rule.type === 'status' ? [...statuses] : rule.type === 'boolean' ? ['true', 'false'] : closed_choices(rule.type, root);
   if (closed) {
     const now = (value ?? '').trim();
-    const none = rule.required ? [] : [{ value: '', label: name === 'status' || name === 'component' ? t.none_chosen() : t.not_given() }];
+    const none = rule.required
+      ? []
+      : [{ value: '', label: name === 'status' || name === 'component' ? texts.none_chosen() : texts.not_given() }];
     const unknown = now !== '' && !closed.includes(now) ? [{ value: now, label: `${now} ?` }] : [];
     const choices = [...none, ...closed.map((one) => ({ value: one, label: one })), ...unknown];
     return (
@@ -140,7 +176,7 @@ function AttributeField({ desk, root, node, name, rule }: FormProps & { name: st
       </fieldset>
     );
   }
-  const wrong = value !== undefined && !is_of(rule.type, value) ? t.wrong_value(name, node.name, value, rule.type) : undefined;
+  const wrong = value !== undefined && !is_of(rule.type, value) ? texts.wrong_value(name, node.name, value, rule.type) : undefined;
   const meant = (component: string) => component_meant(root, component, profile);
   return (
     <TextField
@@ -168,12 +204,19 @@ function WhenFields({ desk, root, node }: FormProps) {
   const rules = rule_of('when')!.attributes;
   const first_variable = closed_choices('variable', root)?.[0] ?? '';
   const turn = (to: (typeof relations)[number]) => desk.edit(with_relation(desk.text.value, node, to, read_source, first_variable), '');
-  const field = (name: string, required = true) => <AttributeField key={name} desk={desk} root={root} node={node} name={name} rule={{ ...rules[name]!, required }} />;
+  const field = (name: string, required = true) => (
+    <AttributeField key={name} desk={desk} root={root} node={node} name={name} rule={{ ...rules[name]!, required }} />
+  );
   return (
     <div class="scenario-fields">
       {field('variable')}
       <fieldset class="scenario-lock" disabled={desk.is_running.value}>
-        <SelectField label={t.relation()} value={relation ?? 'is'} change={turn} choices={relations.map((one) => ({ value: one, label: t.attribute(one).replace('_', ' ') }))} />
+        <SelectField
+          label={texts.relation()}
+          value={relation ?? 'is'}
+          change={turn}
+          choices={relations.map((one) => ({ value: one, label: texts.attribute(one).replace('_', ' ') }))}
+        />
       </fieldset>
       {relation && field(relation)}
       {relation === 'near' && field('within')}

@@ -1,7 +1,8 @@
 // The grammar of scenarios: schemas/scenario.xsd as tables, for validation and forms.
 
 /** `variable`, `component`, `state`: an existing name; `result`: a name of the engine; `text` may have {name}. */
-export type AttributeType = 'name' | 'variable' | 'component' | 'state' | 'result' | 'text' | 'token' | 'plain' | 'status' | 'boolean' | 'double' | 'natural';
+export type AttributeType =
+  'name' | 'variable' | 'component' | 'state' | 'result' | 'text' | 'token' | 'plain' | 'status' | 'boolean' | 'double' | 'natural';
 
 export interface AttributeRule {
   type: AttributeType;
@@ -36,16 +37,28 @@ export const actions = ['set', 'add', 'count', 'place', 'print'] as const;
 export const steps = ['take', 'when', ...actions] as const;
 export const triggers = ['event', 'completed', 'answered', 'after', 'at_once'] as const;
 
-const trigger = (attributes: Record<string, AttributeRule>): ElementRule => ({ attributes: { ...attributes, to: needed('state') }, content: [any(...steps)] });
+const trigger = (attributes: Record<string, AttributeRule>): ElementRule => ({
+  attributes: { ...attributes, to: needed('state') },
+  content: [any(...steps)],
+});
 const assignment: ElementRule = { attributes: { variable: needed('variable') }, content: [], text: 'text' };
 
 const rules: Readonly<Record<string, ElementRule>> = {
-  robot_scenario: { attributes: { name: optional('plain'), start: needed('state') }, content: [some('component'), any('variable'), some('state', 'end')] },
+  robot_scenario: {
+    attributes: { name: optional('plain'), start: needed('state') },
+    content: [some('component'), any('variable'), some('state', 'end')],
+  },
   component: { attributes: { name: needed('name'), ref: optional('token'), type: optional('token') }, content: [] },
   variable: { attributes: { name: needed('name') }, content: [], text: 'plain' },
-  state: { attributes: { name: needed('name') }, content: [any(...actions), any('command'), at_most_one('query'), any(...triggers), at_most_one('leaving')] },
+  state: {
+    attributes: { name: needed('name') },
+    content: [any(...actions), any('command'), at_most_one('query'), any(...triggers), at_most_one('leaving')],
+  },
   end: { attributes: { name: needed('name'), failed: optional('boolean') }, content: [any(...actions)] },
-  command: { attributes: { component: needed('component'), type: needed('result'), delay: optional('natural') }, content: [any('argument')] },
+  command: {
+    attributes: { component: needed('component'), type: needed('result'), delay: optional('natural') },
+    content: [any('argument')],
+  },
   argument: { attributes: { name: needed('result') }, content: [], text: 'text' },
   query: { attributes: { type: needed('result'), component: optional('component') }, content: [] },
   leaving: { attributes: {}, content: [some('command')] },
@@ -57,10 +70,20 @@ const rules: Readonly<Record<string, ElementRule>> = {
   set: assignment,
   add: assignment,
   count: { attributes: { variable: needed('variable') }, content: [] },
-  place: { attributes: { variable: needed('variable'), before: needed('text'), distance: needed('double'), turn: optional('double') }, content: [] },
+  place: {
+    attributes: { variable: needed('variable'), before: needed('text'), distance: needed('double'), turn: optional('double') },
+    content: [],
+  },
   print: { attributes: {}, content: [], text: 'text' },
   take: {
-    attributes: { variable: needed('variable'), result: needed('result'), not_in: optional('variable'), apart: optional('double'), beside: optional('result'), is: optional('text') },
+    attributes: {
+      variable: needed('variable'),
+      result: needed('result'),
+      not_in: optional('variable'),
+      apart: optional('double'),
+      beside: optional('result'),
+      is: optional('text'),
+    },
     content: [],
   },
   when: {

@@ -231,7 +231,11 @@ function settle(layer: Spot[], wanted: readonly number[]): void {
   for (const block of blocks) block.spots.forEach((spot, i) => (layer[spot]!.x = at(block) + block.offsets[i]!));
 }
 
-function drawn(layers: Spot[][], boxes: Map<string, Spot>, chains: { edge: Edge; chain: { spots: Spot[]; label: Spot; is_back: boolean } }[]): Layout {
+function drawn(
+  layers: Spot[][],
+  boxes: Map<string, Spot>,
+  chains: { edge: Edge; chain: { spots: Spot[]; label: Spot; is_back: boolean } }[],
+): Layout {
   const all = layers.flat();
   const edges = chains.map(({ edge, chain: { spots, label, is_back } }): DrawnEdge => {
     if (spots.length === 1) return { edge, points: loop(spots[0]!, label), label: box_of(label) };
@@ -259,9 +263,9 @@ function through({ x, y, height }: Spot): Point[] {
 
 // Ports of a box are in the order of the other ends, so that edges do not cross.
 function port(box: Spot, other: Spot, side: 'above' | 'below'): Point {
-  const those = [...box[side]].sort((a, b) => a.x - b.x);
-  const step = Math.min(26, (box.width - 24) / Math.max(1, those.length));
-  const x = box.x + (those.indexOf(other) - (those.length - 1) / 2) * step;
+  const neighbours = [...box[side]].sort((a, b) => a.x - b.x);
+  const step = Math.min(26, (box.width - 24) / Math.max(1, neighbours.length));
+  const x = box.x + (neighbours.indexOf(other) - (neighbours.length - 1) / 2) * step;
   return { x, y: box.y + (side === 'below' ? box.height / 2 : -box.height / 2) };
 }
 

@@ -1,5 +1,14 @@
 // Runs a scenario, as `rois scenario` does. docs/rois-command.md defines states, triggers and steps.
-import { code_of, type Completed, type CompletedStatus, component_ref, type CommandMessage, type ReceiveEvent, Results, type Subscription } from 'rois-client';
+import {
+  code_of,
+  type Completed,
+  type CompletedStatus,
+  component_ref,
+  type CommandMessage,
+  type ReceiveEvent,
+  Results,
+  type Subscription,
+} from 'rois-client';
 
 import type { Stop } from '../state/base/environment';
 import type { Console } from '../state/console';
@@ -7,7 +16,7 @@ import type { GiveBack } from '../state/session/bindings';
 import { to_double } from './grammar';
 import { Inbox } from './inbox';
 import type { Scenario, ScenarioCommand, State, Trigger, TriggerKind } from './model';
-import * as t from './texts';
+import * as texts from './texts';
 import { Trouble } from './trouble';
 import { typed_arguments } from './typed';
 import { listed, Variables } from './variables';
@@ -91,11 +100,11 @@ export class Machine {
   private check(): void {
     switch (this.inbox.ended) {
       case 'stopped':
-        return Trouble.raise(t.stopped);
+        return Trouble.raise(texts.stopped);
       case 'session':
-        return Trouble.raise(t.session_ended);
+        return Trouble.raise(texts.session_ended);
       case 'closed':
-        return Trouble.raise(t.connection_closed);
+        return Trouble.raise(texts.connection_closed);
     }
   }
 
@@ -123,7 +132,10 @@ export class Machine {
     for (const give_back of this.borrowed.reverse()) await give_back();
     if (!session_is_there) return;
     const kept = [...this.refs.values()].filter((ref) => bindings.mine.value.has(ref) && bindings.lent(ref) === 0);
-    await Promise.all([...kept.map((ref) => this.console.run(ref, 'stop', {}, { give_back: true }).catch(() => undefined)), ...this.subscriptions.map((one) => one.close().catch(() => undefined))]);
+    await Promise.all([
+      ...kept.map((ref) => this.console.run(ref, 'stop', {}, { give_back: true }).catch(() => undefined)),
+      ...this.subscriptions.map((one) => one.close().catch(() => undefined)),
+    ]);
   }
 
   private async enter(state: State): Promise<void> {
@@ -143,10 +155,16 @@ export class Machine {
   private async execute(commands: readonly ScenarioCommand[]): Promise<string[]> {
     const units = commands.map((command): CommandMessage => {
       const ref = this.refs.get(command.component)!;
-      const component = this.console.profile.component(ref) ?? Trouble.raise(() => t.no_component(ref));
+      const component = this.console.profile.component(ref) ?? Trouble.raise(() => texts.no_component(ref));
       const given = command.arguments.map(({ name, text }) => ({ name, text: this.variables.filled(text) }));
-      const made: CommandMessage = { kind: 'command', component_ref: ref, command_type: command.type, command_id: '', arguments: typed_arguments(component, command.type, given) };
-      return command.delay === undefined ? made : { ...made, delay_time: command.delay };
+      const message: CommandMessage = {
+        kind: 'command',
+        component_ref: ref,
+        command_type: command.type,
+        command_id: '',
+        arguments: typed_arguments(component, command.type, given),
+      };
+      return command.delay === undefined ? message : { ...message, delay_time: command.delay };
     });
     if (units.length === 0) return [];
     const { command_ids } = await this.console.client.execute(units);
@@ -169,7 +187,9 @@ export class Machine {
   private async take_event(event: ReceiveEvent): Promise<void> {
     if (!this.subscriptions.some((one) => one.subscribe_id === event.subscribe_id)) return; // of another subscriber
     const is_meant = (trigger: Trigger) =>
-      trigger.kind === 'event' && trigger.event_type === event.event_type && (trigger.component === '' || this.refs.get(trigger.component) === code_of(event.component_ref));
+      trigger.kind === 'event' &&
+      trigger.event_type === event.event_type &&
+      (trigger.component === '' || this.refs.get(trigger.component) === code_of(event.component_ref));
     await this.fire_if(is_meant, event.results, `${event.event_type} ${values_of(event.results)}`);
   }
 
@@ -182,7 +202,7 @@ export class Machine {
     const is_meant = (trigger: Trigger) => trigger.kind === 'completed' && (trigger.status === undefined || trigger.status === ended);
     if (await this.fire_if(is_meant, undefined, `completed ${ended}`)) return;
     const { name, triggers } = this.state;
-    if (!triggers.some(({ kind }) => kind === 'event' || kind === 'after')) Trouble.raise(() => t.unexpected_end(name, ended));
+    if (!triggers.some(({ kind }) => kind === 'event' || kind === 'after')) Trouble.raise(() => texts.unexpected_end(name, ended));
   }
 
   // --- Timers, from the entry of the state ---
@@ -190,7 +210,7 @@ export class Machine {
   private due(trigger: Trigger): number {
     const text = this.variables.filled(trigger.seconds);
     const seconds = to_double(text) ?? NaN;
-    if (!(seconds >= 0 && seconds < 1e9)) Trouble.raise(() => t.no_seconds(this.state.name, text));
+    if (!(seconds >= 0 && seconds < 1e9)) Trouble.raise(() => texts.no_seconds(this.state.name, text));
     return this.entered + seconds * 1000;
   }
 

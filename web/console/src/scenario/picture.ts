@@ -34,12 +34,14 @@ export function arrow_head({ points }: DrawnEdge): string {
 
 /** The state in the direction of an arrow key: the nearest that lies more in that direction than aside. */
 export function neighbour(boxes: ReadonlyMap<string, Box>, from: string, key: string): string | undefined {
-  const way = ({ ArrowUp: { x: 0, y: -1 }, ArrowDown: { x: 0, y: 1 }, ArrowLeft: { x: -1, y: 0 }, ArrowRight: { x: 1, y: 0 } } as Record<string, Point>)[key];
-  const here = boxes.get(from);
-  if (!way || !here) return undefined;
+  const way = (
+    { ArrowUp: { x: 0, y: -1 }, ArrowDown: { x: 0, y: 1 }, ArrowLeft: { x: -1, y: 0 }, ArrowRight: { x: 1, y: 0 } } as Record<string, Point>
+  )[key];
+  const start = boxes.get(from);
+  if (!way || !start) return undefined;
   let nearest: { name: string; cost: number } | undefined;
   for (const [name, box] of boxes) {
-    const [dx, dy] = [box.x - here.x, box.y - here.y];
+    const [dx, dy] = [box.x - start.x, box.y - start.y];
     const ahead = dx * way.x + dy * way.y;
     const aside = Math.abs(dx * way.y) + Math.abs(dy * way.x);
     if (name === from || ahead < 1 || (way.x !== 0 && aside > ahead * 2)) continue;

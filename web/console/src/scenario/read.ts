@@ -4,7 +4,7 @@ import { type CompletedStatus, XmlError } from 'rois-client';
 import { type ElementRule, is_of, namespace, rule_of, steps, to_double, triggers } from './grammar';
 import type { Relation, Scenario, ScenarioCommand, State, Step, Trigger, TriggerKind } from './model';
 import { line_and_column, type Node, read_source } from './source';
-import * as t from './texts';
+import * as texts from './texts';
 import type { Say } from './trouble';
 import { names_in } from './variables';
 
@@ -51,9 +51,16 @@ class ScenarioReader {
 
   scenario(): Scenario {
     const { root } = this;
-    if (root.name !== 'robot_scenario') this.complain(root, () => t.not_a_scenario(root.name));
+    if (root.name !== 'robot_scenario') this.complain(root, () => texts.not_a_scenario(root.name));
     else this.check_grammar(root);
-    const made: Scenario = { name: attribute(root, 'name'), start: name(root, 'start'), components: [], variables: this.variables, states: this.states, root };
+    const made: Scenario = {
+      name: attribute(root, 'name'),
+      start: name(root, 'start'),
+      components: [],
+      variables: this.variables,
+      states: this.states,
+      root,
+    };
     if (this.problems.length > 0) return made;
     const of = (...names: string[]) => root.children.filter((one) => names.includes(one.name));
     for (const node of of('component')) made.components.push(this.component(node));
@@ -77,24 +84,26 @@ class ScenarioReader {
     this.check_attributes(node, rule);
     this.check_content(node, rule);
     const text = node.element.text.trim();
-    if (!rule.text && text !== '') this.complain(node, () => t.no_text_here(text, node.name));
+    if (!rule.text && text !== '') this.complain(node, () => texts.no_text_here(text, node.name));
     for (const child of node.children) this.check_grammar(child);
   }
 
   private check_attributes(node: Node, rule: ElementRule): void {
     for (const { name: given, namespace: of, value } of node.element.attributes) {
       const expected = of === '' && Object.hasOwn(rule.attributes, given) ? rule.attributes[given] : undefined;
-      if (of === '' && !expected) this.complain(node, () => t.unknown_attribute(given, node.name, Object.keys(rule.attributes)));
-      if (expected && !is_of(expected.type, value)) this.complain(node, () => t.wrong_value(given, node.name, value, expected.type));
+      if (of === '' && !expected) this.complain(node, () => texts.unknown_attribute(given, node.name, Object.keys(rule.attributes)));
+      if (expected && !is_of(expected.type, value)) this.complain(node, () => texts.wrong_value(given, node.name, value, expected.type));
     }
     for (const [needed, { required }] of Object.entries(rule.attributes))
-      if (required && node.element.attribute(needed) === undefined) this.complain(node, () => t.missing_attribute(needed, node.name));
+      if (required && node.element.attribute(needed) === undefined) this.complain(node, () => texts.missing_attribute(needed, node.name));
   }
 
   private complain_of_namespace(node: Node): void {
     const { namespace: given } = node.element;
     const { parent } = node;
-    this.complain(node, () => (parent ? t.other_namespace(node.name, parent.name, namespace, given) : t.unknown_root(node.name, given)));
+    this.complain(node, () =>
+      parent ? texts.other_namespace(node.name, parent.name, namespace, given) : texts.unknown_root(node.name, given),
+    );
   }
 
   private check_content(node: Node, { content }: ElementRule): void {
@@ -104,42 +113,59 @@ class ScenarioReader {
       let count = 0;
       for (; count < most && names.includes(node.children[at]?.name ?? ''); ++at) count += 1;
       expected = [...(count === 0 ? expected : []), ...(count < most ? names : [])];
-      if (count < least && !node.children[at]) return this.complain(node, () => t.missing_element(names, node.name));
+      if (count < least && !node.children[at]) return this.complain(node, () => texts.missing_element(names, node.name));
       if (count < least) break;
     }
     const found = node.children[at];
     if (!found) return;
-    if (rule_of(node.name)!.content.some(({ names }) => names.includes(found.name))) this.complain(found, () => t.element_out_of_order(found.name, node.name, expected));
-    else this.complain(found, () => t.unknown_element(found.name, node.name, expected));
+    if (rule_of(node.name)!.content.some(({ names }) => names.includes(found.name)))
+      this.complain(found, () => texts.element_out_of_order(found.name, node.name, expected));
+    else this.complain(found, () => texts.unknown_element(found.name, node.name, expected));
   }
 
   // --- Content ---
 
   private component(node: Node): Scenario['components'][number] {
     const read = { name: name(node, 'name'), ref: name(node, 'ref'), type: name(node, 'type'), node };
-    if (read.ref !== '' && read.type !== '') this.complain(node, () => t.ref_or_type());
+    if (read.ref !== '' && read.type !== '') this.complain(node, () => texts.ref_or_type());
     if (read.ref === '' && read.type === '') read.ref = read.name;
-    if (this.components.has(read.name)) this.complain(node, () => t.duplicate('component', read.name));
+    if (this.components.has(read.name)) this.complain(node, () => texts.duplicate('component', read.name));
     this.components.add(read.name);
     return read;
   }
 
   private variable(node: Node): void {
     const own = name(node, 'name');
-    if (this.variables.has(own)) this.complain(node, () => t.duplicate('variable', own));
+    if (this.variables.has(own)) this.complain(node, () => texts.duplicate('variable', own));
     this.variables.set(own, node.element.text.trim());
   }
 
   // Collects all states before targets are checked.
   private announce(node: Node): void {
     const own = name(node, 'name');
-    if (this.states.has(own)) this.complain(node, () => t.duplicate('state', own));
-    this.states.set(own, { name: own, steps: [], commands: [], triggers: [], leaving: [], is_end: node.name === 'end', failed: false, node });
+    if (this.states.has(own)) this.complain(node, () => texts.duplicate('state', own));
+    this.states.set(own, {
+      name: own,
+      steps: [],
+      commands: [],
+      triggers: [],
+      leaving: [],
+      is_end: node.name === 'end',
+      failed: false,
+      node,
+    });
   }
 
   private state(node: Node): State {
     const state: State = {
-      name: name(node, 'name'), steps: [], commands: [], triggers: [], leaving: [], is_end: node.name === 'end', failed: is_true(attribute(node, 'failed')), node,
+      name: name(node, 'name'),
+      steps: [],
+      commands: [],
+      triggers: [],
+      leaving: [],
+      is_end: node.name === 'end',
+      failed: is_true(attribute(node, 'failed')),
+      node,
     };
     for (const child of node.children) {
       if (child.name === 'command') state.commands.push(this.command(child));
@@ -154,9 +180,9 @@ class ScenarioReader {
 
   private check_ways_out({ node, is_end, triggers: out, commands, query }: State): void {
     if (is_end) return;
-    if (out.length === 0) this.complain(node, () => t.no_way_out());
-    if (commands.length === 0 && out.some(({ kind }) => kind === 'completed')) this.complain(node, () => t.no_commands());
-    if (!query && out.some(({ kind }) => kind === 'answered')) this.complain(node, () => t.no_query());
+    if (out.length === 0) this.complain(node, () => texts.no_way_out());
+    if (commands.length === 0 && out.some(({ kind }) => kind === 'completed')) this.complain(node, () => texts.no_commands());
+    if (!query && out.some(({ kind }) => kind === 'answered')) this.complain(node, () => texts.no_query());
   }
 
   private command(node: Node): ScenarioCommand {
@@ -186,7 +212,7 @@ class ScenarioReader {
     this.check_state(node, read.to);
     const has_results = kind === 'event' || kind === 'answered';
     for (const child of node.children) {
-      if (child.name === 'take' && !has_results) this.complain(child, () => t.nothing_to_take());
+      if (child.name === 'take' && !has_results) this.complain(child, () => texts.nothing_to_take());
       read.steps.push(this.step(child));
     }
     return read;
@@ -208,14 +234,20 @@ class ScenarioReader {
       case 'when':
         return this.when(node, variable);
       default:
-        return { kind, variable, before: this.known_text(node, attribute(node, 'before')), distance: number(node, 'distance'), turn: number(node, 'turn') };
+        return {
+          kind,
+          variable,
+          before: this.known_text(node, attribute(node, 'before')),
+          distance: number(node, 'distance'),
+          turn: number(node, 'turn'),
+        };
     }
   }
 
   private take_result(node: Node, variable: string): Step {
     const has = (one: string) => node.element.attribute(one) !== undefined;
-    if (has('apart') && !has('not_in')) this.complain(node, () => t.needs_list());
-    if (has('beside') !== has('is')) this.complain(node, () => t.need_each_other('beside', 'is'));
+    if (has('apart') && !has('not_in')) this.complain(node, () => texts.needs_list());
+    if (has('beside') !== has('is')) this.complain(node, () => texts.need_each_other('beside', 'is'));
     return {
       kind: 'take',
       variable,
@@ -229,29 +261,30 @@ class ScenarioReader {
 
   private when(node: Node, variable: string): Step {
     const given = relations.filter((one) => node.element.attribute(one) !== undefined);
-    if (given.length !== 1) this.complain(node, () => t.one_relation(relations.join(', ')));
+    if (given.length !== 1) this.complain(node, () => texts.one_relation(relations.join(', ')));
     let relation: Relation = given[0] ?? 'is';
     const operand = this.known_text(node, attribute(node, relation));
     if (relation === 'in' || relation === 'not_in') this.known_variable(node, operand);
     if (relation === 'empty' && !is_true(operand)) relation = 'not_empty';
-    if ((relation === 'near') !== (node.element.attribute('within') !== undefined)) this.complain(node, () => t.need_each_other('near', 'within'));
+    if ((relation === 'near') !== (node.element.attribute('within') !== undefined))
+      this.complain(node, () => texts.need_each_other('near', 'within'));
     return { kind: 'when', variable, relation, operand, within: number(node, 'within') };
   }
 
   // --- References ---
 
   private check_state(node: Node, to: string): void {
-    if (!this.states.has(to)) this.complain(node, () => t.no_such('state', to, [...this.states.keys()]));
+    if (!this.states.has(to)) this.complain(node, () => texts.no_such('state', to, [...this.states.keys()]));
   }
 
   private known_component(node: Node): string {
     const used = name(node, 'component');
-    if (used !== '' && !this.components.has(used)) this.complain(node, () => t.no_such('component', used, [...this.components]));
+    if (used !== '' && !this.components.has(used)) this.complain(node, () => texts.no_such('component', used, [...this.components]));
     return used;
   }
 
   private known_variable(node: Node, used: string): string {
-    if (used !== '' && !this.variables.has(used)) this.complain(node, () => t.no_such('variable', used, [...this.variables.keys()]));
+    if (used !== '' && !this.variables.has(used)) this.complain(node, () => texts.no_such('variable', used, [...this.variables.keys()]));
     return used;
   }
 

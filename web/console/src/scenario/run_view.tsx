@@ -9,24 +9,28 @@ import { shown_name } from './picture';
 import { nodes_in, with_text } from './source';
 import { Trouble } from './trouble';
 import { listed } from './variables';
-import * as t from './texts';
+import * as texts from './texts';
 
 const most_shown = 300;
 
 /** The state of a run as tone and text. */
 export function state_of(run: Run | undefined, is_running: boolean): { tone: Tone; text: string; why?: string } {
-  if (!run) return { tone: 'calm', text: t.never_run() };
-  if (is_running) return { tone: 'busy', text: run.state === '' ? t.binding() : t.running() };
+  if (!run) return { tone: 'calm', text: texts.never_run() };
+  if (is_running) return { tone: 'busy', text: run.state === '' ? texts.binding() : texts.running() };
   const { outcome } = run;
   switch (outcome?.how) {
     case 'ended':
-      return { tone: 'good', text: t.ended(shown_name(outcome.state)) };
+      return { tone: 'good', text: texts.ended(shown_name(outcome.state)) };
     case 'failed':
-      return { tone: 'bad', text: t.failed(shown_name(outcome.state)) };
+      return { tone: 'bad', text: texts.failed(shown_name(outcome.state)) };
     case 'trouble':
-      return { tone: 'bad', text: t.trouble(), why: outcome.trouble instanceof Trouble ? outcome.trouble.say() : error_text(outcome.trouble) };
+      return {
+        tone: 'bad',
+        text: texts.trouble(),
+        why: outcome.trouble instanceof Trouble ? outcome.trouble.say() : error_text(outcome.trouble),
+      };
     default:
-      return { tone: 'calm', text: t.was_stopped() };
+      return { tone: 'calm', text: texts.was_stopped() };
   }
 }
 
@@ -39,7 +43,7 @@ export function RunState({ desk }: { desk: Desk }) {
   return (
     <span class="scenario-run-state">
       <Badge tone={tone}>{text}</Badge>
-      {run && <span class="scenario-soft">{t.for_so_long(duration(until - run.began_at))}</span>}
+      {run && <span class="scenario-soft">{texts.for_so_long(duration(until - run.began_at))}</span>}
     </span>
   );
 }
@@ -72,9 +76,9 @@ function History({ desk }: { desk: Desk }) {
   };
   return (
     <section class="scenario-history">
-      <h3>{t.history()}</h3>
-      <div class="scenario-history-frame" ref={frame} onScroll={scrolled} tabIndex={0} role="region" aria-label={t.history()}>
-        {entries.length === 0 && <p class="scenario-soft">{t.no_history()}</p>}
+      <h3>{texts.history()}</h3>
+      <div class="scenario-history-frame" ref={frame} onScroll={scrolled} tabIndex={0} role="region" aria-label={texts.history()}>
+        {entries.length === 0 && <p class="scenario-soft">{texts.no_history()}</p>}
         <ol>
           {entries.map((one) => <Entry key={one.number} entry={one} is_new={one.number === last && desk.is_running.value} />)}
         </ol>
@@ -90,15 +94,21 @@ function Entry({ entry, is_new }: { entry: HistoryEntry; is_new: boolean }) {
       <li class="scenario-print">
         {time}
         <Icon name="messages" />
-        <span><span class="unseen">{t.printed()}: </span><span class="scenario-printed">{entry.line}</span></span>
+        <span><span class="unseen">{texts.printed()}: </span><span class="scenario-printed">{entry.line}</span></span>
       </li>
     );
   return (
     <li class={is_new ? 'scenario-transition scenario-new' : 'scenario-transition'}>
       {time}
       <span>
-        {shown_name(entry.from)} <span class="scenario-soft" aria-hidden="true">→</span><span class="unseen">, </span> <strong>{shown_name(entry.to)}</strong>
-        <span class="scenario-by" title={entry.by}>{entry.by}</span>
+        {shown_name(entry.from)}{' '}
+        <span class="scenario-soft" aria-hidden="true">
+          →
+        </span>
+        <span class="unseen">, </span> <strong>{shown_name(entry.to)}</strong>
+        <span class="scenario-by" title={entry.by}>
+          {entry.by}
+        </span>
       </span>
     </li>
   );
@@ -108,25 +118,25 @@ function Entry({ entry, is_new }: { entry: HistoryEntry; is_new: boolean }) {
 function VariablesTable({ desk }: { desk: Desk }) {
   void desk.pulse.beat.value;
   const { root, text } = desk.reading.value;
-  const those = root ? [...nodes_in(root)].filter((one) => one.name === 'variable' && one.parent === root) : [];
+  const variables = root ? [...nodes_in(root)].filter((one) => one.name === 'variable' && one.parent === root) : [];
   const { run } = desk;
   return (
     <section class="scenario-variables">
-      <h3>{t.variables()} <span class="scenario-soft">{t.begins_hint()}</span></h3>
+      <h3>{texts.variables()} <span class="scenario-soft">{texts.begins_hint()}</span></h3>
       <div class="scenario-variables-frame">
-        {those.length === 0 ? (
-          <p class="scenario-soft">{t.no_variables()}</p>
+        {variables.length === 0 ? (
+          <p class="scenario-soft">{texts.no_variables()}</p>
         ) : (
           <table class="table">
             <thead>
               <tr>
-                <th scope="col">{t.column_name()}</th>
-                <th scope="col">{t.column_begins()}</th>
-                <th scope="col">{t.column_value()}</th>
+                <th scope="col">{texts.column_name()}</th>
+                <th scope="col">{texts.column_begins()}</th>
+                <th scope="col">{texts.column_value()}</th>
               </tr>
             </thead>
             <tbody>
-              {those.map((node) => {
+              {variables.map((node) => {
                 const name = (node.element.attribute('name') ?? '').trim();
                 const value = listed(run?.variables.get(name) ?? []);
                 const changed = run?.changed.get(name);
@@ -136,14 +146,18 @@ function VariablesTable({ desk }: { desk: Desk }) {
                     <td>
                       <input
                         type="text"
-                        aria-label={t.begins_with(name)}
+                        aria-label={texts.begins_with(name)}
                         value={node.element.text.trim()}
                         disabled={desk.is_running.value}
                         onInput={(event) => desk.edit(with_text(text, node, event.currentTarget.value), `variable ${name}`)}
                       />
                     </td>
                     <td class="scenario-value">
-                      {run && <span key={changed} class={changed === undefined ? undefined : 'scenario-changed'}>{value === '' ? <span class="scenario-soft">{t.nothing()}</span> : value}</span>}
+                      {run && (
+                        <span key={changed} class={changed === undefined ? undefined : 'scenario-changed'}>
+                          {value === '' ? <span class="scenario-soft">{texts.nothing()}</span> : value}
+                        </span>
+                      )}
                     </td>
                   </tr>
                 );

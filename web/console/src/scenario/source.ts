@@ -64,19 +64,26 @@ function node_at(text: string, at: number, parent: Node | undefined, element: Xm
     attributes.set(found[1]!, { start, end: start + found[0].length });
   }
   const path = parent ? `${parent.path}/${parent.children.length}` : '0';
-  return { element, name: element.name, parent, children: [], path, written, start: at, open_end: end, close: end, end, is_closed: inside.endsWith('/'), attributes };
+  return {
+    element,
+    name: element.name,
+    parent,
+    children: [],
+    path,
+    written,
+    start: at,
+    open_end: end,
+    close: end,
+    end,
+    is_closed: inside.endsWith('/'),
+    attributes,
+  };
 }
 
 /** From 1, as in editors. */
 export function line_and_column(text: string, offset: number): { line: number; column: number } {
   const before = text.slice(0, offset);
   return { line: before.split('\n').length, column: offset - before.lastIndexOf('\n') };
-}
-
-export function node_of(root: Node, path: string): Node | undefined {
-  let node: Node | undefined = root;
-  for (const index of path.split('/').slice(1)) node = node?.children[Number(index)];
-  return node;
 }
 
 /** All elements inside, itself first. */
@@ -93,10 +100,11 @@ function replaced(text: string, { start, end }: Span, by: string): string {
 
 /** `undefined` removes the attribute. */
 export function with_attribute(text: string, node: Node, name: string, value: string | undefined): string {
-  const there = node.attributes.get(name);
+  const attribute = node.attributes.get(name);
   const written = value === undefined ? '' : `${name}="${escape_attribute(value)}"`;
-  if (there && value !== undefined) return replaced(text, there, written);
-  if (there) return replaced(text, { start: there.start - /\s*$/.exec(text.slice(0, there.start))![0].length, end: there.end }, '');
+  if (attribute && value !== undefined) return replaced(text, attribute, written);
+  if (attribute)
+    return replaced(text, { start: attribute.start - /\s*$/.exec(text.slice(0, attribute.start))![0].length, end: attribute.end }, '');
   if (value === undefined) return text;
   const tag = text.slice(node.start, node.open_end - (node.is_closed ? 2 : 1)).trimEnd();
   return replaced(text, { start: node.start, end: node.start + tag.length }, `${tag} ${written}`);
@@ -142,7 +150,8 @@ export function moved(text: string, node: Node, by: 1 | -1): string {
 export function with_state_renamed(text: string, root: Node, from: string, to: string): string {
   const places: { node: Node; attribute: string }[] = [];
   for (const node of nodes_in(root)) {
-    if ((node.name === 'state' || node.name === 'end') && node.element.attribute('name')?.trim() === from) places.push({ node, attribute: 'name' });
+    if ((node.name === 'state' || node.name === 'end') && node.element.attribute('name')?.trim() === from)
+      places.push({ node, attribute: 'name' });
     if (node.element.attribute('to')?.trim() === from) places.push({ node, attribute: 'to' });
     if (node === root && node.element.attribute('start')?.trim() === from) places.push({ node, attribute: 'start' });
   }

@@ -69,7 +69,6 @@ export const triggers = text('Triggers', 'トリガー');
 export const triggers_hint = text('The first trigger whose conditions all hold is taken.', '条件がすべて成り立つ最初のものが次へ進めます。');
 export const on_leaving = text('When left', '出るとき');
 export const needed_components = text('Components', 'コンポーネント');
-export const add = text_of((what: string) => [`Add ${what}`, `${what}を追加`]);
 export const add_choose = text('Add …', '追加…');
 export const remove = text_of((what: string) => [`Remove ${what}`, `${what}を削除`]);
 export const earlier = text_of((what: string) => [`Move ${what} up`, `${what}を上へ`]);
@@ -98,7 +97,10 @@ export const unknown_element = text_of((name: string, parent: string, expected: 
   `unknown element '${name}' inside '${parent}': ${one_of(expected)}`,
   `'${parent}' の中に不明な要素 '${name}'。使えるもの: ${quoted(expected)}`,
 ]);
-export const unknown_root = text_of((name: string, namespace: string) => [`unknown element '${name}' in the namespace '${namespace}'`, `名前空間 '${namespace}' に要素 '${name}' はありません`]);
+export const unknown_root = text_of((name: string, namespace: string) => [
+  `unknown element '${name}' in the namespace '${namespace}'`,
+  `名前空間 '${namespace}' に要素 '${name}' はありません`,
+]);
 export const other_namespace = text_of((name: string, parent: string, expected: string, namespace: string) => [
   `element '${name}' inside '${parent}' must be in the namespace '${expected}', not in '${namespace}'`,
   `'${parent}' の中の要素 '${name}' の名前空間は '${namespace}' ではなく '${expected}' です`,
@@ -107,7 +109,10 @@ export const unknown_attribute = text_of((name: string, element: string, expecte
   `unknown attribute '${name}' of '${element}'${expected.length > 0 ? `: ${one_of(expected)}` : ''}`,
   `'${element}' に属性 '${name}' はありません${expected.length > 0 ? `。使えるもの: ${quoted(expected)}` : ''}`,
 ]);
-export const missing_attribute = text_of((name: string, element: string) => [`attribute '${name}' is missing in '${element}'`, `'${element}' に属性 '${name}' が必要です`]);
+export const missing_attribute = text_of((name: string, element: string) => [
+  `attribute '${name}' is missing in '${element}'`,
+  `'${element}' に属性 '${name}' が必要です`,
+]);
 export const missing_element = text_of((names: readonly string[], element: string) => [
   names.length === 1 ? `element '${names[0]}' is missing in '${element}'` : `one of ${quoted(names)} is missing in '${element}'`,
   `'${element}' に次のいずれかが必要です: ${quoted(names)}`,
@@ -120,20 +125,47 @@ export const wrong_value = text_of((name: string, element: string, value: string
   `attribute '${name}' of '${element}' has the value '${value}': expected ${forms[type]?.[0] ?? type}`,
   `'${element}' の属性 '${name}' の値 '${value}' は正しくありません。必要な形: ${forms[type]?.[1] ?? type}`,
 ]);
-export const no_text_here = text_of((text: string, element: string) => [`text '${text}' inside '${element}', which may contain only elements`, `'${element}' の中に文字列 '${text}' は書けません。書けるのは要素だけです`]);
+export const no_text_here = text_of((text: string, element: string) => [
+  `text '${text}' inside '${element}', which may contain only elements`,
+  `'${element}' の中に文字列 '${text}' は書けません。書けるのは要素だけです`,
+]);
 export const not_a_scenario = text_of((name: string) => [
   `this is not a robot scenario: expected the element robot_scenario, not '${name}'`,
   `ロボットシナリオではありません: 要素 '${name}' ではなく robot_scenario が必要です`,
 ]);
-export const ref_or_type = text_of(() => ["a component has both 'ref' and 'type': give only one of them", "コンポーネントに 'ref' と 'type' の両方があります。一方だけを書いてください"]);
-export const duplicate = text_of((what: string, name: string) => [`duplicate ${what} '${name}'`, `${kinds_ja[what] ?? what} '${name}' が重複しています`]);
-export const no_way_out = text_of(() => ["this state has no trigger: add one, or use the element 'end' instead of 'state'", "この状態にはトリガーがありません。トリガーを加えるか、要素 'state' の代わりに 'end' を使ってください"]);
-export const no_commands = text_of(() => ['this state waits for the end of its commands, and has none', 'この状態はコマンドの終了を待ちますが、コマンドがありません']);
-export const no_query = text_of(() => ['this state waits for an answer, and has no query', 'この状態は応答を待ちますが、query がありません']);
-export const nothing_to_take = text_of(() => ['only events and answers have results to take', '結果を取り出せるのはイベントと応答だけです']);
+export const ref_or_type = text_of(() => [
+  "a component has both 'ref' and 'type': give only one of them",
+  "コンポーネントに 'ref' と 'type' の両方があります。一方だけを書いてください",
+]);
+export const duplicate = text_of((what: string, name: string) => [
+  `duplicate ${what} '${name}'`,
+  `${kinds_ja[what] ?? what} '${name}' が重複しています`,
+]);
+export const no_way_out = text_of(() => [
+  "this state has no trigger: add one, or use the element 'end' instead of 'state'",
+  "この状態にはトリガーがありません。トリガーを加えるか、要素 'state' の代わりに 'end' を使ってください",
+]);
+export const no_commands = text_of(() => [
+  'this state waits for the end of its commands, and has none',
+  'この状態はコマンドの終了を待ちますが、コマンドがありません',
+]);
+export const no_query = text_of(() => [
+  'this state waits for an answer, and has no query',
+  'この状態は応答を待ちますが、query がありません',
+]);
+export const nothing_to_take = text_of(() => [
+  'only events and answers have results to take',
+  '結果を取り出せるのはイベントと応答だけです',
+]);
 export const needs_list = text_of(() => ["'apart' needs 'not_in'", "'apart' には 'not_in' が必要です"]);
-export const need_each_other = text_of((a: string, b: string) => [`'${a}' needs '${b}', and '${b}' needs '${a}'`, `'${a}' と '${b}' は一緒に使います`]);
-export const one_relation = text_of((names: string) => [`a 'when' needs exactly one of ${names}`, `'when' には次のちょうど一つが必要です: ${names}`]);
+export const need_each_other = text_of((a: string, b: string) => [
+  `'${a}' needs '${b}', and '${b}' needs '${a}'`,
+  `'${a}' と '${b}' は一緒に使います`,
+]);
+export const one_relation = text_of((names: string) => [
+  `a 'when' needs exactly one of ${names}`,
+  `'when' には次のちょうど一つが必要です: ${names}`,
+]);
 export const no_such = text_of((what: string, name: string, known: string[]) => [
   `no ${what} '${name}'; there are ${known.join(', ')}`,
   `${kinds_ja[what] ?? what} '${name}' はありません。あるもの: ${known.join(', ')}`,
@@ -143,8 +175,14 @@ export const no_such = text_of((what: string, name: string, known: string[]) => 
 export const stopped = text('stopped', '停止しました');
 export const session_ended = text('the session has ended, and its commands with it', 'セッションが終わり、ロボットの動作も終わりました');
 export const connection_closed = text('the connection has closed', '接続が閉じられました');
-export const no_place = text_of((text: string) => [`'${text}' is not a place: expected "x, y, th"`, `'${text}' は位置 "x, y, th" ではありません`]);
-export const no_seconds = text_of((state: string, text: string) => [`${state}: '${text}' is not a number of seconds`, `${state}: '${text}' は秒数ではありません`]);
+export const no_place = text_of((text: string) => [
+  `'${text}' is not a place: expected "x, y, th"`,
+  `'${text}' は位置 "x, y, th" ではありません`,
+]);
+export const no_seconds = text_of((state: string, text: string) => [
+  `${state}: '${text}' is not a number of seconds`,
+  `${state}: '${text}' は秒数ではありません`,
+]);
 export const unexpected_end = text_of((state: string, status: string) => [
   `the commands of '${state}' ended with ${status}, and no trigger expects that`,
   `'${state}' のコマンドが ${status} で終わり、それに対するトリガーがありません`,
@@ -164,8 +202,14 @@ export const one_value = text_of((name: string, type: string, count: number) => 
   `${name}: the type ${type} needs exactly one value, got ${count}`,
   `${name}: 型 ${type} の値はちょうど一つ必要ですが、${count} 個あります`,
 ]);
-export const no_query_of = text_of((type: string) => [`no component of this engine answers the query '${type}'`, `このエンジンに問い合わせ '${type}' に答えるコンポーネントはありません`]);
-export const no_event_of = text_of((type: string) => [`no matching component sends the event '${type}'`, `イベント '${type}' を通知するコンポーネントがありません`]);
+export const no_query_of = text_of((type: string) => [
+  `no component of this engine answers the query '${type}'`,
+  `このエンジンに問い合わせ '${type}' に答えるコンポーネントはありません`,
+]);
+export const no_event_of = text_of((type: string) => [
+  `no matching component sends the event '${type}'`,
+  `イベント '${type}' を通知するコンポーネントがありません`,
+]);
 
 // The forms of attribute values.
 const a_name: Both = ["a name: letters, digits, '_', '.' and '-', not beginning with a digit", "名前(英数字、'_'、'.'、'-'。数字では始まりません)"];

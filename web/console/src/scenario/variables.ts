@@ -3,7 +3,7 @@ import { type Pose, pose_of, pose_text, type Results } from 'rois-client';
 
 import type { Step, TakeResult, When } from './model';
 import { Trouble } from './trouble';
-import * as t from './texts';
+import * as texts from './texts';
 
 /** The names in braces, in order. */
 export function names_in(text: string): string[] {
@@ -132,7 +132,7 @@ function whole_number(text = ''): number {
 }
 
 function place(text: string): Pose {
-  return pose_of(text) ?? Trouble.raise(() => t.no_place(text));
+  return pose_of(text) ?? Trouble.raise(() => texts.no_place(text));
 }
 
 function distance(a: Pose, b: Pose): number {

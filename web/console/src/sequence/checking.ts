@@ -8,7 +8,16 @@ import { milliseconds } from './units';
 
 export interface Problem {
   step: number; // its id; 0: the sequence as a whole
-  what: 'nothing' | 'no_component' | 'unknown_component' | 'no_command' | 'unknown_command' | 'arguments' | 'unknown_arguments' | 'no_time' | 'no_branches';
+  what:
+    | 'nothing'
+    | 'no_component'
+    | 'unknown_component'
+    | 'no_command'
+    | 'unknown_command'
+    | 'arguments'
+    | 'unknown_arguments'
+    | 'no_time'
+    | 'no_branches';
   /** For `arguments`: by name. */
   fields?: Readonly<Record<string, FieldProblem>>;
 }

@@ -11,7 +11,7 @@ import { run_view, type RunView } from './running';
 import { SlotView } from './slot_view';
 import { CommandBox, ParallelHead, WaitBox } from './step_box';
 import type { SequenceStore } from './store';
-import * as t from './texts';
+import * as texts from './texts';
 
 export interface DrawingProps {
   store: SequenceStore;
@@ -44,15 +44,22 @@ export function Drawing({ store, adding, set_adding, open_form }: DrawingProps) 
   // Scrolls to the running step unless the focus is in the drawing.
   const running = [...view].find(([, one]) => one.state === 'running')?.[0];
   useEffect(() => {
-    if (running !== undefined && !frame.current?.contains(document.activeElement)) frame.current?.querySelector(`[data-step="${running}"]`)?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+    if (running !== undefined && !frame.current?.contains(document.activeElement))
+      frame.current?.querySelector(`[data-step="${running}"]`)?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
   }, [running]);
   const first = store.chosen.value !== 0 && found(root, store.chosen.value) ? store.chosen.value : root.steps[0]?.id;
   const context: LaneContext = { store, view, adding, set_adding, drag, first, go_to, open_form };
   return (
-    <div ref={frame} class={drag.dragged ? 'sequence-drawing sequence-dragging' : 'sequence-drawing'} role="group" aria-label={t.drawing()} onKeyDown={pressed}>
+    <div
+      ref={frame}
+      class={drag.dragged ? 'sequence-drawing sequence-dragging' : 'sequence-drawing'}
+      role="group"
+      aria-label={texts.drawing()}
+      onKeyDown={pressed}
+    >
       <div class="sequence-whole">
         <span class="sequence-begin" aria-hidden="true" />
-        <LaneView lane={root} label={t.steps()} context={context} />
+        <LaneView lane={root} label={texts.steps()} context={context} />
         <span class="sequence-end" aria-hidden="true" />
       </div>
     </div>
@@ -94,11 +101,18 @@ function ParallelView({ step, context }: { step: ParallelStep; context: LaneCont
       <ul class="sequence-branches">
         {step.branches.map((one, i) => (
           <li key={one.id} class="sequence-branch">
-            <LaneView lane={one} label={t.branch(i + 1)} context={context} />
+            <LaneView lane={one} label={texts.branch(i + 1)} context={context} />
           </li>
         ))}
       </ul>
-      <IconButton small class="sequence-add-branch" icon="plus" label={t.add_branch()} tabIndex={-1} onClick={() => store.change(with_branch(store.root.value, step.id))} />
+      <IconButton
+        small
+        class="sequence-add-branch"
+        icon="plus"
+        label={texts.add_branch()}
+        tabIndex={-1}
+        onClick={() => store.change(with_branch(store.root.value, step.id))}
+      />
     </div>
   );
 }

@@ -8,11 +8,11 @@ import { Button, EmptyState, error_text, Form, SelectField, TextField } from '..
 import { is_unfinished, type Problem } from './checking';
 import { type CommandStep, found, type ParallelStep, type Step, with_branch, with_changed, without_branch } from './model';
 import type { SequenceStore } from './store';
-import * as t from './texts';
+import * as texts from './texts';
 
 export function Inspector({ store }: { store: SequenceStore }) {
   const step = found(store.root.value, store.chosen.value)?.step;
-  if (!step) return <EmptyState icon="sequence" title={t.choose_step()}>{t.keys()}</EmptyState>;
+  if (!step) return <EmptyState icon="sequence" title={texts.choose_step()}>{texts.keys()}</EmptyState>;
   const problem = store.problems.value.find((one) => one.step === step.id);
   const change = (to: Partial<Step>) => store.change(with_changed(store.root.value, step.id, (one) => ({ ...one, ...to }) as Step));
   const shown = problem && (store.is_strict.value || !is_unfinished(problem)) ? problem : undefined;
@@ -22,7 +22,14 @@ export function Inspector({ store }: { store: SequenceStore }) {
       {step.kind === 'command' && <CommandForm step={step} problem={shown} all={problem} change={change} />}
       {step.kind === 'wait' && (
         <div class="sequence-fields">
-          <TextField label={t.wait_time()} unit="ms" value={step.time} change={(time) => change({ time })} error={shown && t.no_time()} input={{ inputMode: 'numeric' }} />
+          <TextField
+            label={texts.wait_time()}
+            unit="ms"
+            value={step.time}
+            change={(time) => change({ time })}
+            error={shown && texts.no_time()}
+            input={{ inputMode: 'numeric' }}
+          />
         </div>
       )}
       {step.kind === 'parallel' && <BranchesForm store={store} step={step} problem={shown} change={change} />}
@@ -47,11 +54,11 @@ interface CommandFormProps {
 }
 
 const complaints = {
-  no_component: t.no_component,
-  unknown_component: t.unknown_component,
-  no_command: t.no_command,
-  unknown_command: t.unknown_command,
-  no_time: t.no_time,
+  no_component: texts.no_component,
+  unknown_component: texts.unknown_component,
+  no_command: texts.no_command,
+  unknown_command: texts.unknown_command,
+  no_time: texts.no_time,
 };
 
 function CommandForm({ step, problem, all, change }: CommandFormProps) {
@@ -59,33 +66,56 @@ function CommandForm({ step, problem, all, change }: CommandFormProps) {
   const view = profile.component(step.component);
   const choose = (ref: string) => {
     const types = types_of(profile.component(ref));
-    change({ component: ref, command_type: types.find((one) => same(one, step.command_type)) ?? types.find((one) => same(one, 'start')) ?? types[0] ?? '' });
+    change({
+      component: ref,
+      command_type: types.find((one) => same(one, step.command_type)) ?? types.find((one) => same(one, 'start')) ?? types[0] ?? '',
+    });
   };
   const refs = profile.components.value.filter((one) => types_of(one).length > 0).map((one) => one.ref);
-  const error = (...these: (keyof typeof complaints)[]) => these.filter((one) => one === problem?.what).map((one) => complaints[one]())[0];
+  const error = (...kinds: (keyof typeof complaints)[]) => kinds.filter((one) => one === problem?.what).map((one) => complaints[one]())[0];
   const asked = view ? asked_by(view, step.command_type) : [];
   const missing = all?.what === 'arguments' && problem === undefined ? {} : (all?.fields ?? {});
   return (
     <>
       <div class="sequence-fields">
-        <SelectField label={t.component()} value={step.component} change={choose} choices={listed(refs, step.component, t.choose())} error={error('no_component', 'unknown_component')} />
         <SelectField
-          label={t.command()}
+          label={texts.component()}
+          value={step.component}
+          change={choose}
+          choices={listed(refs, step.component, texts.choose())}
+          error={error('no_component', 'unknown_component')}
+        />
+        <SelectField
+          label={texts.command()}
           value={step.command_type}
           change={(command_type) => change({ command_type })}
-          choices={listed(types_of(view), step.command_type, t.choose())}
+          choices={listed(types_of(view), step.command_type, texts.choose())}
           error={error('no_command', 'unknown_command')}
         />
-        <TextField label={t.delay()} unit="ms" value={step.delay} change={(delay) => change({ delay })} error={error('no_time')} input={{ inputMode: 'numeric', placeholder: '0' }} />
+        <TextField
+          label={texts.delay()}
+          unit="ms"
+          value={step.delay}
+          change={(delay) => change({ delay })}
+          error={error('no_time')}
+          input={{ inputMode: 'numeric', placeholder: '0' }}
+        />
       </div>
       {view && asked.length > 0 && (
-        <ArgumentFields key={`${view.ref} ${step.command_type}`} view={view} asked={asked} inputs={step.inputs} change={(inputs) => change({ inputs })} problems={missing} />
+        <ArgumentFields
+          key={`${view.ref} ${step.command_type}`}
+          view={view}
+          asked={asked}
+          inputs={step.inputs}
+          change={(inputs) => change({ inputs })}
+          problems={missing}
+        />
       )}
       {step.unknown.length > 0 && (
         <p class="field-error">
-          {t.unknown_arguments_are(step.unknown.map((one) => one.name).join(', '))}{' '}
+          {texts.unknown_arguments_are(step.unknown.map((one) => one.name).join(', '))}{' '}
           <Button small onClick={() => change({ unknown: [] })}>
-            {t.drop_arguments()}
+            {texts.drop_arguments()}
           </Button>
         </p>
       )}
@@ -103,7 +133,17 @@ function listed(all: readonly string[], chosen: string, choose: string) {
   return listed_ones.map((value) => ({ value, label: value === '' ? choose : value }));
 }
 
-function BranchesForm({ store, step, problem, change }: { store: SequenceStore; step: ParallelStep; problem: Problem | undefined; change: (to: Partial<ParallelStep>) => void }) {
+function BranchesForm({
+  store,
+  step,
+  problem,
+  change,
+}: {
+  store: SequenceStore;
+  step: ParallelStep;
+  problem: Problem | undefined;
+  change: (to: Partial<ParallelStep>) => void;
+}) {
   const remove = (lane: number) => {
     store.change(without_branch(store.root.value, lane));
     if (!found(store.root.value, step.id)) store.chosen.value = 0;
@@ -111,24 +151,31 @@ function BranchesForm({ store, step, problem, change }: { store: SequenceStore; 
   return (
     <>
       <div class="sequence-fields">
-        <TextField label={t.delay()} unit="ms" value={step.delay} change={(delay) => change({ delay })} error={problem?.what === 'no_time' ? t.no_time() : undefined} input={{ inputMode: 'numeric', placeholder: '0' }} />
+        <TextField
+          label={texts.delay()}
+          unit="ms"
+          value={step.delay}
+          change={(delay) => change({ delay })}
+          error={problem?.what === 'no_time' ? texts.no_time() : undefined}
+          input={{ inputMode: 'numeric', placeholder: '0' }}
+        />
       </div>
-      {problem?.what === 'no_branches' && <p class="field-error">{t.no_branches()}</p>}
+      {problem?.what === 'no_branches' && <p class="field-error">{texts.no_branches()}</p>}
       <ul class="sequence-list">
         {step.branches.map((one, i) => (
           <li key={one.id} class="row-spread">
             <span>
-              {t.branch(i + 1)}: {t.count(one.steps.length)}
+              {texts.branch(i + 1)}: {texts.count(one.steps.length)}
             </span>
             <Button small look="quiet" icon="close" onClick={() => remove(one.id)}>
-              {t.remove_branch(i + 1)}
+              {texts.remove_branch(i + 1)}
             </Button>
           </li>
         ))}
       </ul>
       <div>
         <Button small icon="plus" onClick={() => store.change(with_branch(store.root.value, step.id))}>
-          {t.add_branch()}
+          {texts.add_branch()}
         </Button>
       </div>
     </>

@@ -5,7 +5,7 @@ import { reason_of } from '../state/base/reason_of';
 import { Button, CopyButton, Dialog, Field, IconButton, save_file, TextArea, TextField } from '../ui';
 import { commands_in, new_lane } from './model';
 import type { SequenceStore } from './store';
-import * as t from './texts';
+import * as texts from './texts';
 
 export function LibraryDialog({ store, open, close }: { store: SequenceStore; open: boolean; close: () => void }) {
   const [pasted, set_pasted] = useState('');
@@ -19,7 +19,7 @@ export function LibraryDialog({ store, open, close }: { store: SequenceStore; op
       close();
     } catch (caught) {
       const reason = reason_of(caught);
-      set_error(reason === 'no CommandUnitSequence' ? t.no_sequence() : t.unreadable(reason));
+      set_error(reason === 'no CommandUnitSequence' ? texts.no_sequence() : texts.unreadable(reason));
     }
   };
   const chosen_file = async () => {
@@ -33,51 +33,60 @@ export function LibraryDialog({ store, open, close }: { store: SequenceStore; op
     close();
   };
   return (
-    <Dialog title={t.sequences()} open={open} close={close} wide>
+    <Dialog title={texts.sequences()} open={open} close={close} wide>
       <div class="sequence-library">
-        <section class="sequence-keep" aria-label={t.this_one()}>
-          <h3>{t.this_one()}</h3>
+        <section class="sequence-keep" aria-label={texts.this_one()}>
+          <h3>{texts.this_one()}</h3>
           <div class="sequence-keep-line">
-            <TextField label={t.name()} value={store.name.value} change={(name) => store.rename(name)} />
+            <TextField label={texts.name()} value={store.name.value} change={(name) => store.rename(name)} />
             <Button look="primary" disabled={is_empty || store.name.value.trim() === ''} onClick={() => store.keep()}>
-              {t.keep()}
+              {texts.keep()}
             </Button>
-            <Button icon="download" disabled={is_empty} onClick={() => save_file(`${(store.name.value || 'sequence').replace(/[^\w.-]+/g, '_')}.xml`, [store.document])}>
-              {t.export_it()}
+            <Button
+              icon="download"
+              disabled={is_empty}
+              onClick={() => save_file(`${(store.name.value || 'sequence').replace(/[^\w.-]+/g, '_')}.xml`, [store.document])}
+            >
+              {texts.export_it()}
             </Button>
-            <CopyButton small={false} look="quiet" disabled={is_empty} text={() => store.document} label={t.copy_xml()} />
+            <CopyButton small={false} look="quiet" disabled={is_empty} text={() => store.document} label={texts.copy_xml()} />
             <Button look="quiet" icon="plus" onClick={fresh}>
-              {t.new_one()}
+              {texts.new_one()}
             </Button>
           </div>
         </section>
-        <section aria-label={t.kept()}>
-          <h3>{t.kept()}</h3>
+        <section aria-label={texts.kept()}>
+          <h3>{texts.kept()}</h3>
           {store.kept.value.size === 0 ? (
-            <p class="field-hint">{t.none_kept()}</p>
+            <p class="field-hint">{texts.none_kept()}</p>
           ) : (
             <ul class="sequence-list">
               {[...store.kept.value].map(([name, text]) => (
                 <li key={name} class="row-spread">
                   <strong>{name}</strong>
                   <span class="row">
-                    <Button small aria-label={t.open_it(name)} onClick={() => take(name, text)}>
-                      {t.open()}
+                    <Button small aria-label={texts.open_it(name)} onClick={() => take(name, text)}>
+                      {texts.open()}
                     </Button>
-                    <IconButton small icon="close" label={t.drop_it(name)} onClick={() => store.drop(name)} />
+                    <IconButton small icon="close" label={texts.drop_it(name)} onClick={() => store.drop(name)} />
                   </span>
                 </li>
               ))}
             </ul>
           )}
         </section>
-        <section class="sequence-keep" aria-label={t.import_it()}>
-          <h3>{t.import_it()}</h3>
-          <Field label={t.file()} control={(props) => <input {...props} ref={file} type="file" accept=".xml,application/xml,text/xml" onChange={() => void chosen_file()} />} />
-          <TextArea label={t.paste()} hint={t.paste_hint()} value={pasted} change={set_pasted} error={error} rows={6} />
+        <section class="sequence-keep" aria-label={texts.import_it()}>
+          <h3>{texts.import_it()}</h3>
+          <Field
+            label={texts.file()}
+            control={(props) => (
+              <input {...props} ref={file} type="file" accept=".xml,application/xml,text/xml" onChange={() => void chosen_file()} />
+            )}
+          />
+          <TextArea label={texts.paste()} hint={texts.paste_hint()} value={pasted} change={set_pasted} error={error} rows={6} />
           <div>
             <Button disabled={pasted.trim() === ''} onClick={() => take('', pasted)}>
-              {t.take()}
+              {texts.take()}
             </Button>
           </div>
         </section>

@@ -104,7 +104,9 @@ export function commands_in(lane: Lane): CommandStep[] {
 // --- Edits. Each returns a new tree. ---
 
 function mapped(lane: Lane, change: (steps: Step[], lane: Lane) => Step[]): Lane {
-  const inside = lane.steps.map((step) => (step.kind === 'parallel' ? { ...step, branches: step.branches.map((one) => mapped(one, change)) } : step));
+  const inside = lane.steps.map((step) =>
+    step.kind === 'parallel' ? { ...step, branches: step.branches.map((one) => mapped(one, change)) } : step,
+  );
   return { ...lane, steps: change(inside, lane) };
 }
 
@@ -164,7 +166,9 @@ export function slot_towards(root: Lane, id: number, direction: Direction): Slot
     case 'earlier':
       return slot.index > 0 ? { lane: lane.id, index: slot.index - 1 } : around;
     case 'later':
-      return slot.index < lane.steps.length - 1 ? { lane: lane.id, index: slot.index + 2 } : around && { lane: around.lane, index: around.index + 1 };
+      return slot.index < lane.steps.length - 1
+        ? { lane: lane.id, index: slot.index + 2 }
+        : around && { lane: around.lane, index: around.index + 1 };
     case 'up':
     case 'down': {
       const neighbour = lane.steps[slot.index + (direction === 'up' ? -1 : 1)];
@@ -186,7 +190,9 @@ export function neighbour(root: Lane, id: number, direction: Direction): number 
     case 'earlier':
       return lane.steps[slot.index - 1]?.id ?? parallel?.id;
     case 'later':
-      return (step.kind === 'parallel' ? step.branches.find((one) => one.steps.length > 0)?.steps[0]?.id : undefined) ?? after(root, at)?.id;
+      return (
+        (step.kind === 'parallel' ? step.branches.find((one) => one.steps.length > 0)?.steps[0]?.id : undefined) ?? after(root, at)?.id
+      );
     case 'up':
     case 'down': {
       const beside = parallel?.branches.filter((one, i) => one.steps.length > 0 && (direction === 'up' ? i < branch : i > branch));

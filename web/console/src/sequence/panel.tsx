@@ -5,14 +5,14 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 
 import { useConsole, useWatch } from '../context';
 import * as panel_titles from '../shell/panel_titles';
-import { Button, CurlButton, EmptyState, SplitPane, Tabs, useIsWide, XmlView } from '../ui';
+import { Button, CurlButton, EmptyState, Tabs, useIsWide, WidthSplit, XmlView } from '../ui';
 import { Drawing } from './drawing';
 import { Inspector } from './inspector';
 import { LibraryDialog } from './library_dialog';
 import { commands_in, new_command, new_lane, new_parallel, type Slot, type Step, with_inserted } from './model';
 import { RunSummary } from './run_summary';
 import { type SequenceStore, store_of } from './store';
-import * as t from './texts';
+import * as texts from './texts';
 import { Toolbar } from './toolbar';
 
 type Part = 'step' | 'xml';
@@ -40,15 +40,14 @@ export default function SequencePanel() {
       <Toolbar store={store} set_adding={set_adding} open_library={() => set_library(true)} />
       <RunSummary store={store} />
       <div class="sequence-panes" ref={panes}>
-        <SplitPane
-          key={is_wide ? 'row' : 'column'}
-          id={is_wide ? 'sequence.row' : 'sequence'}
-          direction={is_wide ? 'row' : 'column'}
-          share={is_wide ? 0.62 : 0.5}
-          label={t.resize()}
+        <WidthSplit
+          is_wide={is_wide}
+          row={{ id: 'sequence.row', share: 0.62 }}
+          column={{ id: 'sequence' }}
+          label={texts.resize()}
           first={
             !knows_profile ? (
-              <EmptyState icon="sequence" title={t.no_profile()} />
+              <EmptyState icon="sequence" title={texts.no_profile()} />
             ) : root.steps.length === 0 && !adding ? (
               <Beginning store={store} open_form={open_form} />
             ) : (
@@ -57,8 +56,18 @@ export default function SequencePanel() {
           }
           second={
             <div class="sequence-below" ref={below}>
-              <Tabs<Part> label={t.parts()} tabs={[{ id: 'step', title: t.step() }, { id: 'xml', title: 'XML' }]} chosen={part} choose={set_part}>
-                <div class="sequence-part" tabIndex={0} role="region" aria-label={t.parts()}>{part === 'step' ? <Inspector store={store} /> : <AsXml store={store} />}</div>
+              <Tabs<Part>
+                label={texts.parts()}
+                tabs={[
+                  { id: 'step', title: texts.step() },
+                  { id: 'xml', title: 'XML' },
+                ]}
+                chosen={part}
+                choose={set_part}
+              >
+                <div class="sequence-part" tabIndex={0} role="region" aria-label={texts.parts()}>
+                  {part === 'step' ? <Inspector store={store} /> : <AsXml store={store} />}
+                </div>
               </Tabs>
             </div>
           }
@@ -90,13 +99,13 @@ function Beginning({ store, open_form }: { store: SequenceStore; open_form: () =
     begin(first, first);
   };
   return (
-    <EmptyState icon="sequence" title={t.empty()}>
+    <EmptyState icon="sequence" title={texts.empty()}>
       <div class="row sequence-beginning">
         <Button look="primary" icon="plus" onClick={one}>
-          {t.begin_command()}
+          {texts.begin_command()}
         </Button>
         <Button icon="sequence" onClick={both}>
-          {t.begin_parallel()}
+          {texts.begin_parallel()}
         </Button>
       </div>
     </EmptyState>
@@ -105,14 +114,14 @@ function Beginning({ store, open_form }: { store: SequenceStore; open_form: () =
 
 function AsXml({ store }: { store: SequenceStore }) {
   const { request } = store;
-  if (commands_in(store.root.value).length === 0) return <p class="field-hint">{t.nothing()}</p>;
+  if (commands_in(store.root.value).length === 0) return <p class="field-hint">{texts.nothing()}</p>;
   return (
     <div class="sequence-xml">
       <div class="row">
         <CurlButton request={request} disabled={request === ''} />
-        <span class="field-hint">{t.curl_hint()}</span>
+        <span class="field-hint">{texts.curl_hint()}</span>
       </div>
-      <XmlView text={request} label={t.request()} />
+      <XmlView text={request} label={texts.request()} />
     </div>
   );
 }

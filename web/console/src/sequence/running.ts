@@ -46,7 +46,9 @@ function step_end(step: Step, turn: End, entries: ReadonlyMap<number, CommandEnt
     case 'parallel': {
       const begin = typeof turn === 'number' ? turn + (milliseconds(step.delay) ?? 0) : turn;
       const ends = step.branches.map((one) => lane_end(one, begin, entries, now, view));
-      const inside = step.branches.flatMap((one) => one.steps.map(({ id }) => view.get(id))).filter((one): one is StepState => one !== undefined);
+      const inside = step.branches
+        .flatMap((one) => one.steps.map(({ id }) => view.get(id)))
+        .filter((one): one is StepState => one !== undefined);
       if (inside.length === 0) return turn;
       view.set(step.id, whole_of(inside, turn));
       if (ends.includes(undefined)) return undefined;
@@ -67,5 +69,8 @@ function state_of_entry(entry: CommandEntry, turn: End): StepState {
 function whole_of(inside: StepState[], turn: End): StepState {
   const is_open = inside.some(({ state }) => state === 'waiting' || state === 'running');
   if (is_open) return { state: typeof turn === 'number' || inside.some(({ state }) => state !== 'waiting') ? 'running' : 'waiting' };
-  return { state: inside.find(({ state }) => state !== 'OK' && state !== 'ABORT')?.state ?? inside.find(({ state }) => state !== 'OK')?.state ?? 'OK' };
+  return {
+    state:
+      inside.find(({ state }) => state !== 'OK' && state !== 'ABORT')?.state ?? inside.find(({ state }) => state !== 'OK')?.state ?? 'OK',
+  };
 }

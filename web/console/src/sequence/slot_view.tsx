@@ -5,7 +5,7 @@ import { useLayoutEffect, useRef } from 'preact/hooks';
 import { Button, IconButton, joined } from '../ui';
 import type { LaneContext } from './lane_context';
 import { new_command, new_parallel, new_wait, type Slot, type Step, with_inserted } from './model';
-import * as t from './texts';
+import * as texts from './texts';
 
 export function SlotView({ slot, context, is_empty = false }: { slot: Slot; context: LaneContext; is_empty?: boolean }) {
   const { adding, set_adding, drag, store, go_to, open_form } = context;
@@ -23,18 +23,25 @@ export function SlotView({ slot, context, is_empty = false }: { slot: Slot; cont
       {is(adding) ? (
         <Choices close={() => set_adding(undefined)}>
           <Button small icon="clock" onClick={() => add(new_wait())}>
-            {t.wait()}
+            {texts.wait()}
           </Button>
           {/* Under the pointer that opened the menu. */}
           <Button small look="primary" icon="components" onClick={() => add(new_command())}>
-            {t.command()}
+            {texts.command()}
           </Button>
           <Button small icon="sequence" onClick={() => add(new_parallel())}>
-            {t.parallel()}
+            {texts.parallel()}
           </Button>
         </Choices>
       ) : (
-        <IconButton small class="sequence-add" icon="plus" label={t.add_here()} tabIndex={is_empty ? 0 : -1} onClick={() => set_adding(slot)} />
+        <IconButton
+          small
+          class="sequence-add"
+          icon="plus"
+          label={texts.add_here()}
+          tabIndex={is_empty ? 0 : -1}
+          onClick={() => set_adding(slot)}
+        />
       )}
     </div>
   );
@@ -48,7 +55,14 @@ function Choices({ close, children }: { close: () => void; children: ComponentCh
     if (!box.current?.contains(event.relatedTarget as Node | null)) close();
   };
   return (
-    <div ref={box} class="sequence-choices" role="group" aria-label={t.add()} onFocusOut={left} onKeyDown={(event) => event.key === 'Escape' && close()}>
+    <div
+      ref={box}
+      class="sequence-choices"
+      role="group"
+      aria-label={texts.add()}
+      onFocusOut={left}
+      onKeyDown={(event) => event.key === 'Escape' && close()}
+    >
       {children}
     </div>
   );

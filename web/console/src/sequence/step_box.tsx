@@ -8,7 +8,7 @@ import { is_unfinished } from './checking';
 import type { LaneContext } from './lane_context';
 import type { CommandStep, ParallelStep, Step, WaitStep } from './model';
 import type { StepState } from './running';
-import * as t from './texts';
+import * as texts from './texts';
 import { milliseconds } from './units';
 
 type Of<T extends Step> = { step: T; context: LaneContext };
@@ -16,10 +16,10 @@ type Of<T extends Step> = { step: T; context: LaneContext };
 export function CommandBox({ step, context }: Of<CommandStep>) {
   return (
     <Box step={step} context={context} kind="command">
-      <span class="sequence-title">{step.component || t.no_component()}</span>
+      <span class="sequence-title">{step.component || texts.no_component()}</span>
       <span class="sequence-what">
         {step.delay.trim() !== '' && <Delay text={step.delay} />}
-        {step.command_type || t.no_command()}
+        {step.command_type || texts.no_command()}
       </span>
       <span class="sequence-arguments">{said_by(step)}</span>
     </Box>
@@ -30,7 +30,7 @@ export function WaitBox({ step, context }: Of<WaitStep>) {
   return (
     <Box step={step} context={context} kind="wait">
       <span class="sequence-title">
-        <Icon name="clock" /> {t.wait()}
+        <Icon name="clock" /> {texts.wait()}
       </span>
       <span class="sequence-what">{time_text(step.time)}</span>
     </Box>
@@ -42,7 +42,7 @@ export function ParallelHead({ step, context }: Of<ParallelStep>) {
     <Box step={step} context={context} kind="parallel">
       <span class="sequence-what">
         {step.delay.trim() !== '' && <Delay text={step.delay} />}
-        {t.together(step.branches.length)}
+        {texts.together(step.branches.length)}
       </span>
     </Box>
   );
@@ -50,7 +50,7 @@ export function ParallelHead({ step, context }: Of<ParallelStep>) {
 
 function Delay({ text }: { text: string }) {
   return (
-    <span class="sequence-delay" title={t.delay()}>
+    <span class="sequence-delay" title={texts.delay()}>
       <Icon name="clock" size={12} /> {time_text(text)}
     </span>
   );
@@ -98,7 +98,7 @@ function Box({ step, context, kind, children }: Of<Step> & { kind: Step['kind'];
       {children}
       {is_bad && (
         <span class="sequence-problem">
-          <Icon name="warning" size={13} /> {is_refused ? t.refused() : t.has_problem()}
+          <Icon name="warning" size={13} /> {is_refused ? texts.refused() : texts.has_problem()}
         </span>
       )}
       {state && <StateLine state={state} />}

@@ -98,8 +98,8 @@ export class SequenceStore {
 
   /** The sequence as a document. */
   get document(): string {
-    const whole = parse_and_cut(this.request);
-    return whole === '' ? '' : `<?xml version="1.0" encoding="UTF-8"?>\n${whole}\n`;
+    const xml = parse_and_cut(this.request);
+    return xml === '' ? '' : `<?xml version="1.0" encoding="UTF-8"?>\n${xml}\n`;
   }
 
   /** Throws XmlError if it is not XML, and Error if it has no sequence. */

@@ -1,9 +1,13 @@
 import { is_touched, text, text_of } from '../i18n/i18n';
 
-const with_keys = (en: string, ja: string, keys: string, ja_keys: string) => text_of(() => (is_touched() ? [en, ja] : [`${en} (${keys})`, `${ja} (${ja_keys})`]));
+const with_keys = (en: string, ja: string, keys: string, ja_keys: string) =>
+  text_of(() => (is_touched() ? [en, ja] : [`${en} (${keys})`, `${ja} (${ja_keys})`]));
 
 export const no_profile = text('No engine profile yet', 'エンジンについてまだ何も分かっていません');
-export const empty = text('No steps yet. Commands run one after the other; branches run at the same time.', 'まだ何もありません。コマンドは順番に、分岐は同時に実行されます。');
+export const empty = text(
+  'No steps yet. Commands run one after the other; branches run at the same time.',
+  'まだ何もありません。コマンドは順番に、分岐は同時に実行されます。',
+);
 export const begin_command = text('A command', 'コマンド');
 export const begin_parallel = text('Two at the same time', '二つを同時に');
 export const drawing = text('Drawing of the sequence', 'シーケンスの図');
@@ -36,8 +40,6 @@ export const no_command = text('Choose a command', 'コマンドを選んでく�
 export const unknown_command = text('The component does not have this command', 'コンポーネントにそのコマンドはありません');
 export const no_time = text('Enter a whole number of milliseconds', '整数のミリ秒が必要です');
 export const no_branches = text('Its branches are empty', '分岐の中にまだ何もありません');
-export const unknown_arguments = text('The command does not have these arguments', 'コマンドにその引数はありません');
-export const arguments_of = text('Arguments are missing or wrong', '引数が足りないか、誤っています');
 export const nothing = text('It has no command yet.', 'まだコマンドがありません。');
 export const unknown_arguments_are = text_of((names: string) => [`Unknown arguments: ${names}.`, `このコマンドの引数ではありません: ${names}。`]);
 export const drop_arguments = text('Remove them', '省く');
@@ -54,18 +56,23 @@ export const keys = text_of(() =>
   is_touched()
     ? ['The buttons above add, move and remove steps.', '上のボタンで追加・移動・削除できます。']
     : [
-        'Arrows select a step, Alt and arrows move it, Insert adds one after it, Delete removes it, Enter opens its form. The mouse drags steps.',
+        'Arrows select a step, Alt and arrows move it, Insert adds one after it, Delete removes it, ' +
+          'Enter opens its form. The mouse drags steps.',
         '矢印で移動、Alt+矢印で並べ替え、Insert で後ろに追加、Delete で削除、Enter で内容へ。マウスではドラッグできます。',
       ],
 );
 export const running = text('running', '実行中');
 export const stopped = text('stopped', '停止');
 export const left_queued = text_of((refs: string) => [
-  `Released: ${refs}. Waiting commands there are aborted at their turn, but run if you bind the component again before. To end them at once, disconnect.`,
+  `Released: ${refs}. Waiting commands there are aborted at their turn, but run if you bind the component again before. ` +
+    'To end them at once, disconnect.',
   `解放済み: ${refs}。待っているものは順番が来ると中断されますが、先にバインドすると実行されます。すぐに終えるには切断してください。`,
 ]);
 export const all_done = text_of((took: string) => [`Completed after ${took}.`, `${took}ですべて完了しました。`]);
-export const done_of = text_of((done: number, all: number, took: string) => [`${done} of ${all} done, after ${took}.`, `${all} 個中 ${done} 個完了、${took}経過。`]);
+export const done_of = text_of((done: number, all: number, took: string) => [
+  `${done} of ${all} done, after ${took}.`,
+  `${all} 個中 ${done} 個完了、${took}経過。`,
+]);
 export const failed = text_of((what: string, state: string) => [`${what} ended with ${state}.`, `${what} は ${state} で終わりました。`]);
 export const show_step = text('Show the step', 'ステップを表示');
 export const stays_bound = text_of((refs: string) => [`Still working and bound: ${refs}.`, `start の後も働き続けるものはバインドされたままです: ${refs}。`]);
@@ -88,6 +95,9 @@ export const take = text('Import', '取り込む');
 export const no_sequence = text('It has no CommandUnitSequence with commands', 'コマンドのある CommandUnitSequence がありません');
 export const unreadable = text_of((reason: string) => [`Invalid: ${reason}`, `読めません: ${reason}`]);
 export const request = text('The execute request as XML', 'XML としての execute 要求');
-export const curl_hint = text('The session must bind the components first; Run does that itself.', '先にセッションがコンポーネントをバインドしている必要があります。「実行」では自動です。');
+export const curl_hint = text(
+  'The session must bind the components first; Run does that itself.',
+  '先にセッションがコンポーネントをバインドしている必要があります。「実行」では自動です。',
+);
 export const resize = text('Size of the drawing', '図の大きさ');
 

@@ -4,7 +4,7 @@ import { Button, IconButton, tried } from '../ui';
 import { move } from './keys';
 import { copy_of, found, slot_towards, type Slot, with_inserted, without } from './model';
 import type { SequenceStore } from './store';
-import * as t from './texts';
+import * as texts from './texts';
 
 export interface ToolbarProps {
   store: SequenceStore;
@@ -24,33 +24,44 @@ export function Toolbar({ store, set_adding, open_library }: ToolbarProps) {
   };
   const stop = () => tried(console, 'sequence', store.stop());
   const add = () => set_adding({ lane: at?.lane.id ?? root.id, index: at ? at.slot.index + 1 : root.steps.length });
-  const can_move = (direction: 'earlier' | 'later' | 'up' | 'down') => at !== undefined && slot_towards(root, at.step.id, direction) !== undefined;
+  const can_move = (direction: 'earlier' | 'later' | 'up' | 'down') =>
+    at !== undefined && slot_towards(root, at.step.id, direction) !== undefined;
   const tool = (icon: 'left' | 'right' | 'up' | 'down', label: string, direction: 'earlier' | 'later' | 'up' | 'down') => (
     <IconButton icon={icon} label={label} disabled={!can_move(direction)} onClick={() => at && move(store, at.step.id, direction)} />
   );
   return (
-    <div class="sequence-toolbar" role="group" aria-label={t.tools()}>
-      <Button look="primary" icon="play" disabled={store.is_empty || store.is_running || store.still_queued.length > 0 || !console.link.is_open} onClick={run}>
-        {t.run()}
+    <div class="sequence-toolbar" role="group" aria-label={texts.tools()}>
+      <Button
+        look="primary"
+        icon="play"
+        disabled={store.is_empty || store.is_running || store.still_queued.length > 0 || !console.link.is_open}
+        onClick={run}
+      >
+        {texts.run()}
       </Button>
       <Button look="danger" icon="stop" disabled={!store.is_running} onClick={stop}>
-        {t.stop()}
+        {texts.stop()}
       </Button>
       <span class="sequence-gap" />
       <Button icon="plus" onClick={add}>
-        {t.add()}
+        {texts.add()}
       </Button>
-      <IconButton icon="copy" label={t.duplicate()} disabled={!at} onClick={() => at && store.change(with_inserted(root, { ...at.slot, index: at.slot.index + 1 }, copy_of(at.step)))} />
-      {tool('left', t.earlier(), 'earlier')}
-      {tool('right', t.later(), 'later')}
-      {tool('up', t.up(), 'up')}
-      {tool('down', t.down(), 'down')}
-      <IconButton icon="close" label={t.remove()} disabled={!at} onClick={() => at && store.change(without(root, at.step.id))} />
-      <IconButton icon="undo" label={t.undo()} disabled={!store.can_undo.value} onClick={() => store.undo()} />
+      <IconButton
+        icon="copy"
+        label={texts.duplicate()}
+        disabled={!at}
+        onClick={() => at && store.change(with_inserted(root, { ...at.slot, index: at.slot.index + 1 }, copy_of(at.step)))}
+      />
+      {tool('left', texts.earlier(), 'earlier')}
+      {tool('right', texts.later(), 'later')}
+      {tool('up', texts.up(), 'up')}
+      {tool('down', texts.down(), 'down')}
+      <IconButton icon="close" label={texts.remove()} disabled={!at} onClick={() => at && store.change(without(root, at.step.id))} />
+      <IconButton icon="undo" label={texts.undo()} disabled={!store.can_undo.value} onClick={() => store.undo()} />
       <span class="sequence-fill" />
-      <span class="sequence-name">{store.name.value || t.unnamed()}</span>
+      <span class="sequence-name">{store.name.value || texts.unnamed()}</span>
       <Button icon="download" onClick={open_library}>
-        {t.sequences()}
+        {texts.sequences()}
       </Button>
     </div>
   );

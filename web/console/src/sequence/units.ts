@@ -49,7 +49,11 @@ function messages_of(lane: Lane, arguments_of: ArgumentsOf): CommandMessage[] | 
 
 function message_of(step: CommandStep, arguments_of: ArgumentsOf): CommandMessage {
   const delay = milliseconds(step.delay);
-  return { ...command(step.component, step.command_type), arguments: [...arguments_of(step), ...step.unknown], ...(delay !== undefined && { delay_time: delay }) };
+  return {
+    ...command(step.component, step.command_type),
+    arguments: [...arguments_of(step), ...step.unknown],
+    ...(delay !== undefined && { delay_time: delay }),
+  };
 }
 
 /** A whole number of ms, 0 or more. */
@@ -68,12 +72,27 @@ export function lane_of(units: readonly CommandUnit[], knows: (component: string
         const component = code_of(unit.component_ref);
         const is_known = ({ name }: Parameter) => knows(component, unit.command_type, name);
         const inputs = inputs_of(unit.arguments.filter(is_known));
-        return [new_command({ component, command_type: unit.command_type, inputs, unknown: unit.arguments.filter((one) => !is_known(one)), delay })];
+        return [
+          new_command({
+            component,
+            command_type: unit.command_type,
+            inputs,
+            unknown: unit.arguments.filter((one) => !is_known(one)),
+            delay,
+          }),
+        ];
       }
       case 'concurrent':
         return [new_parallel(unit.branches.map((one) => new_lane(one.flatMap(step_of))), delay)];
       case 'parallel':
-        return [new_parallel(unit.units.map((one) => new_lane(one.kind === 'sequential' && one.delay_time === undefined ? one.units.flatMap(step_of) : step_of(one))), delay)];
+        return [
+          new_parallel(
+            unit.units.map((one) =>
+              new_lane(one.kind === 'sequential' && one.delay_time === undefined ? one.units.flatMap(step_of) : step_of(one)),
+            ),
+            delay,
+          ),
+        ];
       case 'sequential':
         // Within steps, a nested sequential unit makes no difference.
         return [...(delay === '' || delay === '0' ? [] : [new_wait(delay)]), ...unit.units.flatMap(step_of)];

@@ -11,7 +11,7 @@ import { Pop } from '../ui/pop';
 import { is_narrow } from './navigation';
 import { LinkMark } from './link_status';
 import { NoticeArea } from './notices';
-import * as t from './texts';
+import * as texts from './texts';
 import { theme, type Theme } from './theme';
 
 export function Header() {
@@ -21,7 +21,7 @@ export function Header() {
   return (
     <header class="head">
       <a class="skip" href="#panels">
-        {t.skip()}
+        {texts.skip()}
       </a>
       <h1>
         RoIS {name && <span class="head-engine">{name}</span>}
@@ -32,16 +32,20 @@ export function Header() {
       <Menu>
         <Bound />
         <label class="head-choice">
-          <span class="unseen">{t.theme()}</span>
-          <select value={theme.value} title={t.theme()} onChange={(event) => choose_theme(event.currentTarget.value as Theme)}>
-            <option value="system">{t.theme_system()}</option>
-            <option value="dark">{t.theme_dark()}</option>
-            <option value="light">{t.theme_light()}</option>
+          <span class="unseen">{texts.theme()}</span>
+          <select value={theme.value} title={texts.theme()} onChange={(event) => choose_theme(event.currentTarget.value as Theme)}>
+            <option value="system">{texts.theme_system()}</option>
+            <option value="dark">{texts.theme_dark()}</option>
+            <option value="light">{texts.theme_light()}</option>
           </select>
         </label>
         <label class="head-choice">
-          <span class="unseen">{t.language()}</span>
-          <select value={language.value} title={t.language()} onChange={(event) => choose_language(event.currentTarget.value as Language)}>
+          <span class="unseen">{texts.language()}</span>
+          <select
+            value={language.value}
+            title={texts.language()}
+            onChange={(event) => choose_language(event.currentTarget.value as Language)}
+          >
             {languages.map((one) => (
               <option key={one.code} value={one.code} lang={one.code}>
                 {one.name}
@@ -51,21 +55,21 @@ export function Header() {
         </label>
         {console.link.is_open && (
           <Button small look="quiet" onClick={ask_or_disconnect}>
-            {t.disconnect()}
+            {texts.disconnect()}
           </Button>
         )}
         <Dialog
-          title={t.disconnect_title()}
+          title={texts.disconnect_title()}
           open={asks.value}
           close={() => (asks.value = false)}
           actions={
             <>
-              <Button look="danger" onClick={disconnect}>{t.disconnect()}</Button>
-              <Button onClick={() => (asks.value = false)}>{t.cancel()}</Button>
+              <Button look="danger" onClick={disconnect}>{texts.disconnect()}</Button>
+              <Button onClick={() => (asks.value = false)}>{texts.cancel()}</Button>
             </>
           }
         >
-          <p>{t.disconnect_hint(console.bindings.mine.value.size, console.commands.open().length)}</p>
+          <p>{texts.disconnect_hint(console.bindings.mine.value.size, console.commands.open().length)}</p>
         </Dialog>
       </Menu>
     </header>
@@ -91,8 +95,8 @@ export function Header() {
 
 // A row if there is room, else a menu.
 function Menu({ children }: { children: ComponentChildren }) {
-  const those = <div class="head-end">{children}</div>;
-  return is_narrow.value ? <Pop label={t.menu()} at_right>{those}</Pop> : those;
+  const content = <div class="head-end">{children}</div>;
+  return is_narrow.value ? <Pop label={texts.menu()} at_right>{content}</Pop> : content;
 }
 
 // Lists the components that this console has bound, because other sessions cannot use them.
@@ -103,22 +107,28 @@ function Bound() {
   const mine = [...bindings.mine.value].sort();
   return (
     <>
-      <Button small look="quiet" icon="link" title={t.bound_title()} onClick={() => (is_open.value = true)}>
-        {t.bound(mine.length)}
+      <Button small look="quiet" icon="link" title={texts.bound_title()} onClick={() => (is_open.value = true)}>
+        {texts.bound(mine.length)}
       </Button>
       <Dialog
-        title={t.bound_title()}
+        title={texts.bound_title()}
         open={is_open.value}
         close={() => (is_open.value = false)}
-        actions={mine.length > 0 && <Button look="danger" onClick={() => tried(console, '', bindings.release_all())}>{t.release_all()}</Button>}
+        actions={
+          mine.length > 0 && (
+            <Button look="danger" onClick={() => tried(console, '', bindings.release_all())}>
+              {texts.release_all()}
+            </Button>
+          )
+        }
       >
-        {mine.length === 0 ? <p>{t.none_bound()}</p> : <p>{t.release_hint()}</p>}
+        {mine.length === 0 ? <p>{texts.none_bound()}</p> : <p>{texts.release_hint()}</p>}
         <ul class="plain-list">
           {mine.map((ref) => (
             <li key={ref} class="row-spread">
               <code>{ref}</code>
-              <Button small onClick={() => tried(console, ref, bindings.release(ref))} aria-label={`${t.release()}: ${ref}`}>
-                {t.release()}
+              <Button small onClick={() => tried(console, ref, bindings.release(ref))} aria-label={`${texts.release()}: ${ref}`}>
+                {texts.release()}
               </Button>
             </li>
           ))}

@@ -17,8 +17,15 @@ export function Layout() {
   const now = shown.value;
   useEffect(() => environment.remember('panels', `${now.main} ${now.below} ${now.side} ${now.all}`), [now]);
   if (!is_wide.value) return <Group id="all" label={texts.panels()} />;
-  const [main, below, side] = areas.map((area) => (panels_of(area).length === 0 ? undefined : <Group id={area} label={area_names[area]()} />));
-  const left = main && below ? <SplitPane id="below" direction="column" share={0.62} label={texts.below()} first={main} second={below} /> : (main ?? below);
+  const [main, below, side] = areas.map((area) =>
+    panels_of(area).length === 0 ? undefined : <Group id={area} label={area_names[area]()} />,
+  );
+  const left =
+    main && below ? (
+      <SplitPane id="below" direction="column" share={0.62} label={texts.below()} first={main} second={below} />
+    ) : (
+      (main ?? below)
+    );
   if (!left || !side) return left ?? side ?? null;
   return <SplitPane id="side" direction="row" share={0.64} label={texts.side()} first={left} second={side} />;
 }

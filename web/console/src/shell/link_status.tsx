@@ -2,7 +2,7 @@
 import { useConsole } from '../context';
 import { Badge, tone_of } from '../ui/states';
 import { Button } from '../ui/button';
-import * as t from './texts';
+import * as texts from './texts';
 
 const stale_after = 5000; // ms; the console sends a request every second
 
@@ -13,9 +13,9 @@ export function LinkMark() {
   return (
     <div class="link-mark">
       <Badge tone={link.is_open && age > stale_after ? 'warning' : tone_of(phase)} title={reason}>
-        {t.phase(phase)}
+        {texts.phase(phase)}
       </Badge>
-      {link.received_at > 0 && <span class="link-age">{t.age(Math.max(0, age))}</span>}
+      {link.received_at > 0 && <span class="link-age">{texts.age(Math.max(0, age))}</span>}
     </div>
   );
 }
@@ -28,40 +28,41 @@ export function LinkBanner() {
   // A quick reconnect should not flash a banner.
   const is_long = console.now.value - since > 1500;
   const sentence = () => {
-    if (phase === 'lost') return `${t.is_old(console.now.value - received_at)} ${t.lost_hint()}`;
-    if (phase === 'draining') return received_at > 0 ? `${t.draining_hint()} ${t.is_old(console.now.value - received_at)}` : t.draining_hint();
-    if (phase === 'connecting') return is_long ? t.connecting_hint() : '';
-    return { refused: t.refused_hint(), closed: t.closed_hint() }[phase as string] ?? '';
+    if (phase === 'lost') return `${texts.is_old(console.now.value - received_at)} ${texts.lost_hint()}`;
+    if (phase === 'draining')
+      return received_at > 0 ? `${texts.draining_hint()} ${texts.is_old(console.now.value - received_at)}` : texts.draining_hint();
+    if (phase === 'connecting') return is_long ? texts.connecting_hint() : '';
+    return { refused: texts.refused_hint(), closed: texts.closed_hint() }[phase as string] ?? '';
   };
   const text = sentence();
   return (
     <div class="banners" role="status" aria-live="polite">
       {text !== '' && (
         <p class={`banner banner-${tone_of(phase)}`}>
-          <strong>{t.phase(phase)}.</strong> {text} {reason !== '' && phase !== 'closed' && <code>{reason}</code>}
+          <strong>{texts.phase(phase)}.</strong> {text} {reason !== '' && phase !== 'closed' && <code>{reason}</code>}
           {/^(connecting|lost|draining|refused)$/.test(phase) && (
             <Button small icon="refresh" onClick={() => console.retry()}>
-              {t.try_now()}
+              {texts.try_now()}
             </Button>
           )}
           {phase === 'closed' && (
             <Button small onClick={() => console.connect(console.current_token)}>
-              {t.connect()}
+              {texts.connect()}
             </Button>
           )}
         </p>
       )}
       {missed && (
         <p class="banner banner-warning">
-          {missed.gap.reason === 'lost' ? t.missed_lost(missed.gap.count) : t.missed_session()}
+          {missed.gap.reason === 'lost' ? texts.missed_lost(missed.gap.count) : texts.missed_session()}
           <Button small onClick={() => console.link.forget_missed()}>
-            {t.seen()}
+            {texts.seen()}
           </Button>
         </p>
       )}
       {console.profile.is_empty.value && (
         <p class="banner banner-calm">
-          <strong>{t.empty_engine()}.</strong> {t.empty_engine_hint()}
+          <strong>{texts.empty_engine()}.</strong> {texts.empty_engine_hint()}
         </p>
       )}
     </div>

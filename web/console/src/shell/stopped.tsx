@@ -6,7 +6,7 @@ import { useConsole } from '../context';
 import { Button } from '../ui/button';
 import { Dialog } from '../ui/dialog';
 import { tried } from '../ui/error_text';
-import * as t from './texts';
+import * as texts from './texts';
 
 export function StoppedBanner() {
   const console = useConsole();
@@ -21,23 +21,24 @@ export function StoppedBanner() {
     <>
       {stopped && (
         <p class="banner banner-stopped" role="alert">
-          <strong>{t.stopped()}</strong> {t.stopped_hint()} {waiting.length > 0 && <strong>{t.not_confirmed(waiting.join(', '))}</strong>}
-          <Button onClick={() => (asks.value = true)}>{t.clear()}</Button>
+          <strong>{texts.stopped()}</strong> {texts.stopped_hint()}{' '}
+          {waiting.length > 0 && <strong>{texts.not_confirmed(waiting.join(', '))}</strong>}
+          <Button onClick={() => (asks.value = true)}>{texts.clear()}</Button>
         </p>
       )}
       <Dialog
-        title={t.clear_title()}
+        title={texts.clear_title()}
         open={asks.value && stopped}
         close={() => (asks.value = false)}
         actions={
           <>
-            <Button look="primary" onClick={clear}>{t.clear()}</Button>
-            <Button onClick={() => (asks.value = false)}>{t.cancel()}</Button>
+            <Button look="primary" onClick={clear}>{texts.clear()}</Button>
+            <Button onClick={() => (asks.value = false)}>{texts.cancel()}</Button>
           </>
         }
       >
-        <p>{t.clear_hint()}</p>
-        {waiting.length > 0 && <p>{t.not_confirmed(waiting.join(', '))}</p>}
+        <p>{texts.clear_hint()}</p>
+        {waiting.length > 0 && <p>{texts.not_confirmed(waiting.join(', '))}</p>}
       </Dialog>
     </>
   );
@@ -56,8 +57,8 @@ export function Holds() {
       const ref = one.error.component_ref?.code;
       const text = one.details.results.text('text') ?? '';
       if (ref === undefined || !text.startsWith('its motion is held')) continue;
-      const action = { label: t.resume(), act: () => tried(console, ref, console.run(ref, 'resume')) };
-      notices.show('error', t.held(ref), { detail: text, about: ref, ...(bindings.mine.value.has(ref) && { action }) });
+      const action = { label: texts.resume(), act: () => tried(console, ref, console.run(ref, 'resume')) };
+      notices.show('error', texts.held(ref), { detail: text, about: ref, ...(bindings.mine.value.has(ref) && { action }) });
     }
   }, [beat]);
   return null;

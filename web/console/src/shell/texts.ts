@@ -19,9 +19,18 @@ export const phase = text_of((phase: Phase) => phases[phase]);
 export const age = text_of((ms: number) => [`data ${duration(ms)} old`, `データは${duration(ms)}前`]);
 export const is_old = text_of((ms: number) => [`The data is ${duration(Math.max(0, ms))} old.`, `表示は${duration(Math.max(0, ms))}前のものです。`]);
 export const lost_hint = text('Reconnecting.', '再接続を試みています。');
-export const connecting_hint = text('The gateway does not answer yet. Retrying.', 'ゲートウェイからまだ応答がありません。接続を試みています。');
-export const draining_hint = text('The gateway is starting or shutting down. The console connects as soon as possible.', 'ゲートウェイは起動中か停止中です。可能になりしだい接続します。');
-export const refused_hint = text('The gateway refuses this console. Retrying every few seconds.', 'ゲートウェイはこのコンソールを受け入れません。数秒ごとに試みます。');
+export const connecting_hint = text(
+  'The gateway does not answer yet. Retrying.',
+  'ゲートウェイからまだ応答がありません。接続を試みています。',
+);
+export const draining_hint = text(
+  'The gateway is starting or shutting down. The console connects as soon as possible.',
+  'ゲートウェイは起動中か停止中です。可能になりしだい接続します。',
+);
+export const refused_hint = text(
+  'The gateway refuses this console. Retrying every few seconds.',
+  'ゲートウェイはこのコンソールを受け入れません。数秒ごとに試みます。',
+);
 export const closed_hint = text('The session has ended; its commands were stopped.', 'セッションは終了し、実行中のものは停止しました。');
 export const missed_lost = text_of((n: number) => [
   `${count_text(n)} ${n === 1 ? 'notification was' : 'notifications were'} missed while disconnected.`,
@@ -35,7 +44,8 @@ export const seen = text('Seen', '確認');
 export const try_now = text('Try now', '今すぐ試す');
 export const disconnect_title = text('Disconnect?', '切断しますか?');
 export const disconnect_hint = text_of((bound: number, commands: number) => [
-  `This ends the session${commands === 0 ? ' and' : ','} releases ${count_text(bound)} bound ${bound === 1 ? 'component' : 'components'}${commands === 0 ? '' : ` and stops ${count_text(commands)} ${commands === 1 ? 'command' : 'commands'}`}.`,
+  `This ends the session${commands === 0 ? ' and' : ','} releases ${count_text(bound)} bound ${bound === 1 ? 'component' : 'components'}` +
+    `${commands === 0 ? '' : ` and stops ${count_text(commands)} ${commands === 1 ? 'command' : 'commands'}`}.`,
   `セッションを終了します。バインドした ${count_text(bound)} 個のコンポーネントを解放${commands === 0 ? 'します' : `し、終わっていないコマンド ${count_text(commands)} 件を止めます`}。`,
 ]);
 export const cancel = text('Cancel', '取り消し');
@@ -52,7 +62,10 @@ export const none_bound = text('None. A component is bound when you first send i
 export const token_title = text('This gateway requires a token', 'このゲートウェイにはトークンが必要です');
 export const token_wrong = text('The gateway did not accept this token.', 'このトークンは受け入れられませんでした。');
 export const token_label = text('Token', 'トークン');
-export const token_hint = text("Ask the gateway's operator. The token is kept until this page is closed.", 'ゲートウェイの管理者に尋ねてください。このページを閉じるまで保持します。');
+export const token_hint = text(
+  "Ask the gateway's operator. The token is kept until this page is closed.",
+  'ゲートウェイの管理者に尋ねてください。このページを閉じるまで保持します。',
+);
 export const theme = text('Colours', '配色');
 export const theme_system = text('System colours', '配色: システムに合わせる');
 export const theme_dark = text('Dark colours', '配色: 暗い');

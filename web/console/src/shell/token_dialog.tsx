@@ -6,7 +6,7 @@ import { Button } from '../ui/button';
 import { Dialog } from '../ui/dialog';
 import { TextField } from '../ui/field';
 import { Form } from '../ui/form';
-import * as t from './texts';
+import * as texts from './texts';
 
 export function TokenDialog() {
   const console = useConsole();
@@ -17,21 +17,21 @@ export function TokenDialog() {
   };
   return (
     <Dialog
-      title={t.token_title()}
+      title={texts.token_title()}
       open={phase === 'token'}
       close={() => undefined}
       closable={false}
       actions={
         <Button look="primary" onClick={connect} disabled={token.value.trim() === ''}>
-          {t.connect()}
+          {texts.connect()}
         </Button>
       }
     >
       <Form submit={connect}>
         <TextField
-          label={t.token_label()}
-          hint={t.token_hint()}
-          error={console.current_token === undefined ? '' : `${t.token_wrong()} ${reason}`}
+          label={texts.token_label()}
+          hint={texts.token_hint()}
+          error={console.current_token === undefined ? '' : `${texts.token_wrong()} ${reason}`}
           value={token.value}
           change={(value) => (token.value = value)}
           input={{ type: 'password', autofocus: true }}

@@ -7,7 +7,6 @@ import {
   command,
   commands_of,
   type CommandUnit,
-  component_ref,
   type CompletedStatus,
   type Gap,
   type Identifier,
@@ -103,7 +102,9 @@ export class Console {
     const requests = new OwnRequests(environment, this.documents, client, () => this.link.is_open);
     this.status = new StatusState(environment, requests, this.profile);
     this.parameters = new ParametersState(requests);
-    this.metrics = new MetricsState(environment, token, () => !/^(connecting|lost|closed)$/.test(this.link.view.value.phase)); // else the gateway is unreachable
+    // In these phases, the gateway is unreachable.
+    const may_fetch = () => !/^(connecting|lost|closed)$/.test(this.link.view.value.phase);
+    this.metrics = new MetricsState(environment, token, may_fetch);
     this.everything = new EverythingState(environment, token, this.metrics);
     this.bindings = new Bindings(
       () => this.client,
@@ -163,7 +164,11 @@ export class Console {
     this.leave();
     this.token = token;
     // Bindings are not repeated: borrowers bind again in the new session.
-    const client = new Client(this.environment.origin, { most_delay, rebind: false, ...(token !== undefined && { token }) }, this.environment.open_socket);
+    const client = new Client(
+      this.environment.origin,
+      { most_delay, rebind: false, ...(token !== undefined && { token }) },
+      this.environment.open_socket,
+    );
     this.current_client = client;
     this.stops = [
       this.link.follow(client, token, () => void client.close({ deadline: 0 })), // first: the others ask whether it is open
@@ -297,11 +302,6 @@ export class Console {
     const ends = execution.statuses();
     ends.catch(() => undefined);
     return { command_ids: execution.command_ids, ends };
-  }
-
-  /** Returns a component's parameters. Needs no binding (decision 18). */
-  async get_parameter(ref: string): Promise<Results> {
-    return (await this.client.query('get_parameter', component_ref(ref))).results;
   }
 
   query(query_type: string, condition?: Writable): Promise<{ component_ref: Identifier; results: Results }> {

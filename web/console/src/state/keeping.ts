@@ -61,7 +61,13 @@ function in_short({ at, direction, kind, name, return_code, text, component, req
   const reason = /<(?:[\w.-]+:)?reason>([^<]*)</.exec(text)?.[1] ?? '';
   const about = request?.component ?? component;
   const short = { number: no_document, at, direction, kind, is_own, ...(about !== undefined && { component: about }) };
-  return { ...short, name, text: `<refused><reason>${reason}</reason></refused>`, ...(return_code !== undefined && { return_code }), ...(request && { request: { ...short, name: request.name, text: '' } }) };
+  return {
+    ...short,
+    name,
+    text: `<refused><reason>${reason}</reason></refused>`,
+    ...(return_code !== undefined && { return_code }),
+    ...(request && { request: { ...short, name: request.name, text: '' } }),
+  };
 }
 
 function revived(entry: EventEntry): EventEntry {

@@ -8,7 +8,6 @@ export type Severity = 'info' | 'good' | 'warning' | 'error';
 /** A notice. Its text is in the user's language. */
 export interface Notice {
   number: number;
-  at: number;
   severity: Severity;
   text: string;
   detail?: string;
@@ -24,10 +23,10 @@ export class Notices {
   readonly list = signal<readonly Notice[]>([]);
   private next = 1;
 
-  constructor(private readonly environment: Pick<Environment, 'now' | 'after'>) {}
+  constructor(private readonly environment: Pick<Environment, 'after'>) {}
 
   show(severity: Severity, text: string, more: Pick<Notice, 'detail' | 'action' | 'about'> = {}): number {
-    const notice: Notice = { number: this.next++, at: this.environment.now(), severity, text, ...more };
+    const notice: Notice = { number: this.next++, severity, text, ...more };
     const others = this.list.value.filter((one) => one.about === undefined || one.about !== notice.about);
     this.list.value = [...others, notice].slice(-most_notices);
     this.environment.after(severity === 'error' ? 30_000 : 8000, () => this.dismiss(notice.number));

@@ -4,13 +4,12 @@ import { useCallback, useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 
 import { useConsole } from '../context';
 import { shown_theme } from '../shell/theme';
-import { useDrawing } from '../ui/drawing/drawing';
-import { watch_size } from '../ui/use_width';
+import { useDrawing, watch_size } from '../ui';
 import { describe_whole, phase_text, sentence } from './describe';
 import { type Lane, lay_out, type Layout, next_thing, type Placed, thing_at, time_of } from './layout';
 import { axis_height, paint } from './paint';
 import { Pointing } from './pointing';
-import * as t from './texts';
+import * as texts from './texts';
 import { key_of, type Thing } from './things';
 import { Tooltip } from './tooltip';
 import type { TimeView } from './view';
@@ -38,7 +37,11 @@ export function Chart({ view, opened, open }: ChartProps) {
 
   const place = (width: number): Layout => {
     const { sources } = view;
-    return lay_out(sources, view.range(sources.at, sources), { width, hides_quiet: view.hides_quiet.peek(), with_own: view.with_own.peek() });
+    return lay_out(sources, view.range(sources.at, sources), {
+      width,
+      hides_quiet: view.hides_quiet.peek(),
+      with_own: view.with_own.peek(),
+    });
   };
   const drawing = useDrawing((sheet) => {
     const next = place(sheet.width);
@@ -70,7 +73,8 @@ export function Chart({ view, opened, open }: ChartProps) {
   useEffect(
     () =>
       effect(() => {
-        for (const one of [view.stretch, view.held, view.hides_quiet, view.with_own, hovered, focused, choice, console.profile.components]) void one.value;
+        for (const one of [view.stretch, view.held, view.hides_quiet, view.with_own, hovered, focused, choice, console.profile.components])
+          void one.value;
         if (view.is_live) for (const one of [console.commands.pulse, console.events.pulse, console.history.pulse]) void one.beat.value;
         redraw();
       }),
@@ -79,7 +83,8 @@ export function Chart({ view, opened, open }: ChartProps) {
   useEffect(() => {
     const is_calm = matchMedia('(prefers-reduced-motion: reduce)');
     const look = () => {
-      if (!view.is_live || console.environment.now() - drawn.current < view.stretch.peek().span / Math.max(1, layout.current?.width ?? 1)) return;
+      if (!view.is_live || console.environment.now() - drawn.current < view.stretch.peek().span / Math.max(1, layout.current?.width ?? 1))
+        return;
       redraw();
       if (pointer.current) hover(pointer.current); // other things move under it
     };
@@ -97,7 +102,11 @@ export function Chart({ view, opened, open }: ChartProps) {
   const found = (event: { clientX: number; clientY: number }): { placed: Placed | undefined; x: number; y: number } => {
     const box = canvas.current!.getBoundingClientRect();
     const [x, y] = [event.clientX - box.left, event.clientY - box.top];
-    return { x, y, placed: y < axis_height || !layout.current ? undefined : thing_at(layout.current, x, y - axis_height + frame.current!.scrollTop) };
+    return {
+      x,
+      y,
+      placed: y < axis_height || !layout.current ? undefined : thing_at(layout.current, x, y - axis_height + frame.current!.scrollTop),
+    };
   };
   const time_at = (x: number) => (layout.current ? time_of(x, layout.current.range, layout.current.width) : 0);
   const pointing = useRef<Pointing>();
@@ -146,7 +155,8 @@ export function Chart({ view, opened, open }: ChartProps) {
     event.preventDefault();
     const far = event.deltaMode === 1 ? 33 : 1;
     const { width } = layout.current ?? { width: 1 };
-    if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) view.move((((event.deltaX || event.deltaY) * far) / width) * view.stretch.peek().span);
+    if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY))
+      view.move((((event.deltaX || event.deltaY) * far) / width) * view.stretch.peek().span);
     else view.zoom(Math.exp((event.deltaY * far) / 400), time_at(found(event).x));
   }, []);
   // Preact's own listeners are passive: the page would scroll.
@@ -195,7 +205,7 @@ export function Chart({ view, opened, open }: ChartProps) {
           class="timeline-place"
           role="application"
           tabIndex={0}
-          aria-label={t.label()}
+          aria-label={texts.label()}
           aria-describedby="timeline-help"
           onKeyDown={pressed}
           onBlur={() => (focused.value = undefined)}
@@ -214,20 +224,25 @@ export function Chart({ view, opened, open }: ChartProps) {
           <Tip view={view} layout={layout} frame={frame} hovered={hovered.value} focused={chosen} />
         </div>
       </div>
-      <p id="timeline-help" class="unseen">{t.help()}</p>
+      <p id="timeline-help" class="unseen">{texts.help()}</p>
       <p class="unseen" role="status">{chosen ? sentence(describe_whole(console, chosen.thing, view.sources.at)) : ''}</p>
     </div>
   );
 }
 
-const lane_names = { link: t.link, commands: t.commands, events: t.events };
+const lane_names = { link: texts.link, commands: texts.commands, events: texts.events };
 
 function LaneNames({ lanes }: { lanes: readonly Lane[] }) {
   const name_of = ({ kind, ref }: Lane) => (kind === 'component' ? ref : lane_names[kind]());
   return (
-    <ul class="timeline-names" aria-label={t.lanes()} style={{ paddingTop: `${axis_height}px` }}>
+    <ul class="timeline-names" aria-label={texts.lanes()} style={{ paddingTop: `${axis_height}px` }}>
       {lanes.map((lane) => (
-        <li key={`${lane.kind} ${lane.ref}`} class={`timeline-name timeline-name-${lane.kind}`} style={{ height: `${lane.height}px` }} title={name_of(lane)}>
+        <li
+          key={`${lane.kind} ${lane.ref}`}
+          class={`timeline-name timeline-name-${lane.kind}`}
+          style={{ height: `${lane.height}px` }}
+          title={name_of(lane)}
+        >
           <span>{name_of(lane)}</span>
         </li>
       ))}
@@ -251,7 +266,13 @@ function Tip({ view, layout, frame, hovered, focused }: TipProps) {
   const placed = focused && layout.current?.placed.find((one) => one.spot === focused.spot);
   if (!placed) return null;
   const { x, y, width, height } = placed.box;
-  return <Tooltip description={describe_whole(console, placed.thing, at)} x={Math.max(0, x) + Math.min(width, 40) / 2} y={y + height + axis_height - (frame.current?.scrollTop ?? 0)} />;
+  return (
+    <Tooltip
+      description={describe_whole(console, placed.thing, at)}
+      x={Math.max(0, x) + Math.min(width, 40) / 2}
+      y={y + height + axis_height - (frame.current?.scrollTop ?? 0)}
+    />
+  );
 }
 
 function bring_into_sight(frame: HTMLDivElement, { box }: Placed): void {

@@ -9,7 +9,7 @@ import type { Span } from '../state/history';
 import type { CommandEntry } from '../state/session/commands_state';
 import type { EventEntry } from '../state/session/events_state';
 import type { Phase } from '../state/session/link_state';
-import * as t from './texts';
+import * as texts from './texts';
 import { began_at, has_failed, type Mark, mark_ref, opened_by, type Thing } from './things';
 
 export interface Description {
@@ -41,39 +41,66 @@ export function describe_whole(console: Console, thing: Thing, at: number): Desc
   const opened = opened_by(thing);
   if (opened.kind !== 'command' || !has_failed(opened.entry)) return described;
   const reasons = why(console, opened.entry);
-  return reasons.length === 0 ? described : { ...described, facts: [...described.facts.filter(([name]) => name !== t.reason()), [t.reason(), reasons.join(' ').replace(/^reason: /, '')]] };
+  return reasons.length === 0
+    ? described
+    : {
+        ...described,
+        facts: [
+          ...described.facts.filter(([name]) => name !== texts.reason()),
+          [texts.reason(), reasons.join(' ').replace(/^reason: /, '')],
+        ],
+      };
 }
 
 /** In one line. */
 export function sentence({ kind, title, component, state, facts }: Description): string {
-  return [kind, title, component === title ? '' : component, state === title ? '' : state, ...facts.map(([name, value]) => `${name} ${value}`)].filter((one) => one !== '').join(', ');
+  return [
+    kind,
+    title,
+    component === title ? '' : component,
+    state === title ? '' : state,
+    ...facts.map(([name, value]) => `${name} ${value}`),
+  ]
+    .filter((one) => one !== '')
+    .join(', ');
 }
 
 function of_span({ kind, ref, value, from, to, note }: Span, at: number): Description {
   const goes_on = at - to < 2000;
   const times: Description['facts'] = [
-    [t.from(), clock_time(from)],
-    [t.to(), goes_on ? t.goes_on() : clock_time(to)],
-    [t.lasted(), duration((goes_on ? at : to) - from)],
+    [texts.from(), clock_time(from)],
+    [texts.to(), goes_on ? texts.goes_on() : clock_time(to)],
+    [texts.lasted(), duration((goes_on ? at : to) - from)],
   ];
-  if (note !== '') times.push([t.reason(), note]);
-  if (kind === 'holder') return { at: from, kind: t.holder(), title: value === 'me' ? t.by_me() : t.by_session(value), component: ref, state: '', facts: times };
-  if (kind === 'link') return { at: from, kind: t.link(), title: phase_text(value), component: '', state: '', facts: times };
-  return { at: from, kind: t.status(), title: value, component: ref, state: value, facts: times };
+  if (note !== '') times.push([texts.reason(), note]);
+  if (kind === 'holder')
+    return {
+      at: from,
+      kind: texts.holder(),
+      title: value === 'me' ? texts.by_me() : texts.by_session(value),
+      component: ref,
+      state: '',
+      facts: times,
+    };
+  if (kind === 'link') return { at: from, kind: texts.link(), title: phase_text(value), component: '', state: '', facts: times };
+  return { at: from, kind: texts.status(), title: value, component: ref, state: value, facts: times };
 }
 
 function of_command(entry: CommandEntry, at: number): Description {
   const began = began_at(entry);
   const facts: Description['facts'] = [
-    [t.sent(), clock_time(entry.sent_at)],
-    [t.began(), entry.started_at !== undefined ? clock_time(entry.started_at) : entry.ended_at === undefined ? t.not_yet() : t.not_seen()],
-    [t.ended(), entry.ended_at === undefined ? t.not_yet() : clock_time(entry.ended_at)],
+    [texts.sent(), clock_time(entry.sent_at)],
+    [
+      texts.began(),
+      entry.started_at !== undefined ? clock_time(entry.started_at) : entry.ended_at === undefined ? texts.not_yet() : texts.not_seen(),
+    ],
+    [texts.ended(), entry.ended_at === undefined ? texts.not_yet() : clock_time(entry.ended_at)],
   ];
-  if (entry.started_at !== undefined) facts.push([t.waited(), duration(entry.started_at - entry.sent_at)]);
-  if (began !== undefined) facts.push([t.ran(), duration((entry.ended_at ?? at) - began)]);
+  if (entry.started_at !== undefined) facts.push([texts.waited(), duration(entry.started_at - entry.sent_at)]);
+  if (began !== undefined) facts.push([texts.ran(), duration((entry.ended_at ?? at) - began)]);
   const why = entry.state === 'OK' ? undefined : entry.results?.text('reason');
-  if (why) facts.push([t.reason(), why]);
-  return { at: entry.sent_at, kind: t.command(), title: entry.command_type, component: entry.component, state: entry.state, facts };
+  if (why) facts.push([texts.reason(), why]);
+  return { at: entry.sent_at, kind: texts.command(), title: entry.command_type, component: entry.component, state: entry.state, facts };
 }
 
 const most_located = 5;
@@ -81,20 +108,37 @@ const most_located = 5;
 export function of_mark(mark: Mark): Description {
   if (mark.kind === 'failed') return of_command(mark.entry.command, mark.entry.at);
   const { at } = mark.entry;
-  const facts: Description['facts'] = [[t.when(), clock_time(at)]];
+  const facts: Description['facts'] = [[texts.when(), clock_time(at)]];
   if (mark.kind === 'gap') {
     const { gap } = mark.entry;
-    return { at, kind: t.gap(), title: gap.reason === 'session' ? t.gap_session() : t.gap_lost(gap.count), component: '', state: '', facts };
+    return {
+      at,
+      kind: texts.gap(),
+      title: gap.reason === 'session' ? texts.gap_session() : texts.gap_lost(gap.count),
+      component: '',
+      state: '',
+      facts,
+    };
   }
   const component = mark_ref(mark);
-  if (mark.kind === 'refused') return { at, kind: t.refused(), title: mark.entry.request?.name ?? mark.entry.name, component, state: mark.entry.return_code ?? '', facts: [...facts, [t.reason(), reason_in(mark.entry.text)]] };
-  if (mark.kind === 'error') return { at, kind: t.error(), title: mark.entry.error.error_type, component, state: '', facts };
-  return { at, kind: t.event(), title: mark.entry.event.event_type, component, state: '', facts: [...facts, ...located(mark.entry)] };
+  if (mark.kind === 'refused')
+    return {
+      at,
+      kind: texts.refused(),
+      title: mark.entry.request?.name ?? mark.entry.name,
+      component,
+      state: mark.entry.return_code ?? '',
+      facts: [...facts, [texts.reason(), reason_in(mark.entry.text)]],
+    };
+  if (mark.kind === 'error') return { at, kind: texts.error(), title: mark.entry.error.error_type, component, state: '', facts };
+  return { at, kind: texts.event(), title: mark.entry.event.event_type, component, state: '', facts: [...facts, ...located(mark.entry)] };
 }
 
 /** Positions reported by an event. */
 export function located({ event: { results } }: EventEntry): Description['facts'] {
-  return results.located.slice(0, most_located).map(({ ref, position: [x, y] }) => [ref, `${(x / 1000).toFixed(2)}, ${(y / 1000).toFixed(2)} m`]);
+  return results.located
+    .slice(0, most_located)
+    .map(({ ref, position: [x, y] }) => [ref, `${(x / 1000).toFixed(2)}, ${(y / 1000).toFixed(2)} m`]);
 }
 
 function of_many(marks: readonly Mark[]): Description {
@@ -105,9 +149,9 @@ function of_many(marks: readonly Mark[]): Description {
     counts.set(title, (counts.get(title) ?? 0) + 1);
   }
   const refs = new Set(marks.map(mark_ref));
-  const facts: Description['facts'] = [[t.when(), `${clock_time(first)} – ${clock_time(last)}`]];
+  const facts: Description['facts'] = [[texts.when(), `${clock_time(first)} – ${clock_time(last)}`]];
   for (const [title, n] of [...counts].sort((a, b) => b[1] - a[1]).slice(0, 5)) facts.push([title, `× ${n}`]);
-  return { at: first, kind: '', title: t.many(marks.length), component: refs.size === 1 ? [...refs][0]! : '', state: '', facts };
+  return { at: first, kind: '', title: texts.many(marks.length), component: refs.size === 1 ? [...refs][0]! : '', state: '', facts };
 }
 
 function reason_in(text: string): string {

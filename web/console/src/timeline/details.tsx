@@ -9,7 +9,7 @@ import { show_component } from '../shell/navigation';
 import type { CommandEntry } from '../state/session/commands_state';
 import { Button, Fact, IconButton, StatusBadge } from '../ui';
 import { describe, of_mark } from './describe';
-import * as t from './texts';
+import * as texts from './texts';
 import { key_of, type Mark, mark_key, type Thing } from './things';
 import type { TimeView } from './view';
 
@@ -37,25 +37,25 @@ export function DetailsPane({ view, thing, open, close }: DetailsProps) {
     close();
   };
   return (
-    <section class="timeline-details" aria-label={t.details()} onKeyDown={closed}>
+    <section class="timeline-details" aria-label={texts.details()} onKeyDown={closed}>
       <header class="timeline-details-head">
         <h3 ref={heading} tabIndex={-1}>
           {kind !== '' && <span class="timeline-kind">{kind}</span>} {title}
         </h3>
-        <IconButton icon="close" small label={t.close()} onClick={close} />
+        <IconButton icon="close" small label={texts.close()} onClick={close} />
       </header>
       <div class="timeline-details-body" tabIndex={0} role="region" aria-label={title}>
         <dl class="timeline-facts">
           {component !== '' && (
-            <Fact name={t.component()}>
+            <Fact name={texts.component()}>
               <button type="button" class="timeline-link" onClick={() => show_component(console, component)}>{component}</button>
             </Fact>
           )}
           {state !== '' && thing.kind !== 'command' && (
-            <Fact name={t.state()}><StatusBadge status={state} /></Fact>
+            <Fact name={texts.state()}><StatusBadge status={state} /></Fact>
           )}
           {facts.map(([name, value]) => <Fact key={name} name={name}>{value}</Fact>)}
-          {thing.kind === 'command' && thing.entry.sequence.commands.length > 1 && <Fact name={t.place()}>{thing.entry.path}</Fact>}
+          {thing.kind === 'command' && thing.entry.sequence.commands.length > 1 && <Fact name={texts.place()}>{thing.entry.path}</Fact>}
           {single(thing)?.kind === 'event' && <Expiry mark={single(thing)!} />}
         </dl>
         {thing.kind === 'command' && <CommandDetails entry={thing.entry} />}
@@ -71,7 +71,7 @@ function single(thing: Thing): Mark | undefined {
 }
 
 function Expiry({ mark }: { mark: Mark }) {
-  return mark.kind === 'event' ? <Fact name={t.expires()}>{clock_time(mark.entry.event.expire.getTime(), false)}</Fact> : null;
+  return mark.kind === 'event' ? <Fact name={texts.expires()}>{clock_time(mark.entry.event.expire.getTime(), false)}</Fact> : null;
 }
 
 function CommandDetails({ entry }: { entry: CommandEntry }) {
@@ -84,17 +84,21 @@ function CommandDetails({ entry }: { entry: CommandEntry }) {
       <CommandProgress entry={entry} />
       {entry.arguments.length > 0 && (
         <>
-          <h4>{t.arguments_of()}</h4>
-          <ResultsTable label={t.arguments_of()} results={new Results(entry.arguments)} />
+          <h4>{texts.arguments_of()}</h4>
+          <ResultsTable label={texts.arguments_of()} results={new Results(entry.arguments)} />
         </>
       )}
       {entry.results && (
         <>
-          <h4>{t.results()}</h4>
-          {entry.results.parameters.length === 0 ? <p>{t.no_results()}</p> : <ResultsTable label={t.results()} results={entry.results} />}
+          <h4>{texts.results()}</h4>
+          {entry.results.parameters.length === 0 ? (
+            <p>{texts.no_results()}</p>
+          ) : (
+            <ResultsTable label={texts.results()} results={entry.results} />
+          )}
         </>
       )}
-      <LoggedText title={t.request()} number={entry.sequence.document} />
+      <LoggedText title={texts.request()} number={entry.sequence.document} />
     </>
   );
 }
@@ -109,16 +113,16 @@ function MarkDetails({ mark }: { mark: Mark }) {
   if (mark.kind === 'refused')
     return (
       <>
-        {mark.entry.request && <LoggedText title={t.request()} number={mark.entry.request.number} />}
-        <LoggedText title={t.document()} number={mark.entry.number} />
+        {mark.entry.request && <LoggedText title={texts.request()} number={mark.entry.request.number} />}
+        <LoggedText title={texts.document()} number={mark.entry.number} />
       </>
     );
   const is_expired = mark.kind === 'event' && mark.entry.details.state === 'none' && events.is_expired(mark.entry);
   return (
     <>
-      <h4>{t.results()}</h4>
-      {is_expired ? <p>{t.expired()}</p> : <DetailsOf details={mark.entry.details} label={t.results()} none={t.no_results()} />}
-      <LoggedText title={t.document()} number={mark.entry.document} />
+      <h4>{texts.results()}</h4>
+      {is_expired ? <p>{texts.expired()}</p> : <DetailsOf details={mark.entry.details} label={texts.results()} none={texts.no_results()} />}
+      <LoggedText title={texts.document()} number={mark.entry.document} />
     </>
   );
 }
@@ -139,10 +143,10 @@ function Many({ marks, view, open }: { marks: readonly Mark[]; view: TimeView; o
     <>
       <p>
         <Button small icon="search" onClick={() => view.show(from - around, to + around)}>
-          {t.zoom_here()}
+          {texts.zoom_here()}
         </Button>
       </p>
-      {marks.length > most_listed && <p>{t.shown_of(most_listed, marks.length)}</p>}
+      {marks.length > most_listed && <p>{texts.shown_of(most_listed, marks.length)}</p>}
       <ul class="plain-list timeline-many">
         {marks.slice(-most_listed).map((mark) => {
           const { kind, title, component } = of_mark(mark);

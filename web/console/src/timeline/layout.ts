@@ -95,17 +95,26 @@ export function lay_out(sources: Sources, range: Range, { width, hides_quiet, wi
     put(thing, by_ref.get(' commands'), entry.sent_at, to, 3 + heights.row * (rows.of.get(entry) ?? 0), heights.row - 4, 3);
   }
   const events_lane = by_ref.get(' events');
-  const put_marks = (those: Mark[], lane: number | undefined, most: number, top: number, height: number, side: number) => {
+  const put_marks = (lane_marks: Mark[], lane: number | undefined, most: number, top: number, height: number, side: number) => {
     const length = ((range.to - range.from) / width) * most;
-    for (const { marks: one, from, to } of clusters(those, length)) {
+    for (const { marks: one, from, to } of clusters(lane_marks, length)) {
       // A number stands in the middle of its time bin, so that it does not overlap its neighbour.
-      const middle = x_of(lane === events_lane && one.length > 1 ? (Math.floor(from / length) + 0.5) * length : (from + to) / 2, range, width);
+      const middle = x_of(
+        lane === events_lane && one.length > 1 ? (Math.floor(from / length) + 0.5) * length : (from + to) / 2,
+        range,
+        width,
+      );
       const wide = one.length === 1 ? side : Math.max(side, x_of(to, range, width) - x_of(from, range, width));
-      if (lane !== undefined) place({ kind: 'marks', marks: one }, lane, { x: middle - wide / 2, y: lanes[lane]!.y + top, width: wide, height });
+      if (lane !== undefined)
+        place({ kind: 'marks', marks: one }, lane, { x: middle - wide / 2, y: lanes[lane]!.y + top, width: wide, height });
     }
   };
   // A failed command already has its bar in the component's lane.
-  for (const [ref, those] of grouped(marks.filter((one) => one.kind !== 'failed'), mark_ref)) if (ref !== '') put_marks(those, by_ref.get(ref), together.component, 19, 9, 3);
+  for (const [ref, component_marks] of grouped(
+    marks.filter((one) => one.kind !== 'failed'),
+    mark_ref,
+  ))
+    if (ref !== '') put_marks(component_marks, by_ref.get(ref), together.component, 19, 9, 3);
   const [events, troubles] = [marks.filter((one) => one.kind === 'event'), marks.filter((one) => one.kind !== 'event')];
   put_marks(events, events_lane, together.events, 1, 14, 12);
   put_marks(troubles, events_lane, together.events, 17, 14, 14);
@@ -141,7 +150,11 @@ function spans_in(sources: Sources, { from, to }: Range): Lasting[] {
   return found;
 }
 
-function marks_in({ commands, events, own_events, errors, gaps, refused, at: until }: Sources, { from, to }: Range, with_own: boolean): Mark[] {
+function marks_in(
+  { commands, events, own_events, errors, gaps, refused, at: until }: Sources,
+  { from, to }: Range,
+  with_own: boolean,
+): Mark[] {
   const marks: Mark[] = [];
   const since = <T extends { at: number }>(rows: Rows<T>, mark_of: (entry: T) => Mark) => {
     for (let i = first_since(rows, (one) => one.at, from); i < rows.size; ++i) {
@@ -174,13 +187,13 @@ export function clusters(marks: readonly Mark[], length: number): Cluster[] {
   let bin = NaN;
   for (const mark of marks) {
     const { at } = mark.entry;
-    const its = Math.floor(at / length);
+    const mark_bin = Math.floor(at / length);
     const last = found.at(-1);
-    if (last && its === bin) {
+    if (last && mark_bin === bin) {
       last.marks.push(mark);
       last.to = at;
     } else found.push({ marks: [mark], from: at, to: at });
-    bin = its;
+    bin = mark_bin;
   }
   return found;
 }
@@ -200,7 +213,9 @@ export function rows_of(commands: Rows<CommandEntry>): { of: Map<CommandEntry, n
 
 /** Components with more than the status READY. */
 function loud(spans: Lasting[], commands: CommandEntry[], marks: Mark[]): ReadonlySet<string> {
-  const spoken = spans.filter(({ span }) => span.kind === 'holder' || !/^(READY|UNINITIALIZED)$/.test(span.value)).map(({ span }) => span.ref);
+  const spoken = spans
+    .filter(({ span }) => span.kind === 'holder' || !/^(READY|UNINITIALIZED)$/.test(span.value))
+    .map(({ span }) => span.ref);
   return new Set([...spoken, ...commands.map((one) => one.component), ...marks.map(mark_ref)]);
 }
 
@@ -223,7 +238,8 @@ export function thing_at({ placed }: Layout, x: number, y: number): Placed | und
       const one = placed[i]!;
       const { box } = one;
       const [wide, high] = [Math.max(0, least - box.width) / 2, Math.max(0, least - box.height) / 2];
-      if (counts(one) && x >= box.x - wide && x <= box.x + box.width + wide && y >= box.y - high && y <= box.y + box.height + high) return one;
+      if (counts(one) && x >= box.x - wide && x <= box.x + box.width + wide && y >= box.y - high && y <= box.y + box.height + high)
+        return one;
     }
     return undefined;
   };
@@ -232,7 +248,11 @@ export function thing_at({ placed }: Layout, x: number, y: number): Placed | und
 }
 
 /** The target of an arrow key: along the lane, or the nearest in time in the next lane with things. */
-export function next_thing({ lanes, placed }: Layout, from: Placed | undefined, key: 'ArrowLeft' | 'ArrowRight' | 'ArrowUp' | 'ArrowDown'): Placed | undefined {
+export function next_thing(
+  { lanes, placed }: Layout,
+  from: Placed | undefined,
+  key: 'ArrowLeft' | 'ArrowRight' | 'ArrowUp' | 'ArrowDown',
+): Placed | undefined {
   const in_lane = (lane: number) => placed.filter((one) => one.lane === lane).sort((a, b) => a.box.x - b.box.x || a.box.y - b.box.y);
   if (!from) return placed.length === 0 ? undefined : in_lane(Math.min(...placed.map((one) => one.lane))).at(-1);
   if (key === 'ArrowLeft' || key === 'ArrowRight') {
@@ -244,7 +264,8 @@ export function next_thing({ lanes, placed }: Layout, from: Placed | undefined, 
   const middle = ({ box }: Placed) => box.x + box.width / 2;
   for (let lane = from.lane + step; lane >= 0 && lane < lanes.length; lane += step) {
     const row = in_lane(lane);
-    if (row.length > 0) return row.reduce((best, one) => (Math.abs(middle(one) - middle(from)) < Math.abs(middle(best) - middle(from)) ? one : best));
+    if (row.length > 0)
+      return row.reduce((best, one) => (Math.abs(middle(one) - middle(from)) < Math.abs(middle(best) - middle(from)) ? one : best));
   }
   return from;
 }

@@ -5,7 +5,7 @@ import { EmptyState, StatusBadge, Table } from '../ui';
 import { describe, type Description, located, sentence } from './describe';
 import { lay_out } from './layout';
 import { key_of, type Thing } from './things';
-import * as t from './texts';
+import * as texts from './texts';
 import type { TimeView } from './view';
 
 const most_rows = 200;
@@ -22,28 +22,37 @@ export function Listing({ view, open }: { view: TimeView; open: (thing: Thing) =
   if (view.is_live) void console.now.value; // once a second
   const { at } = view.sources;
   const { rows, count } = rows_of(view, at);
-  if (count === 0) return <EmptyState icon="timeline" title={t.nothing()} />;
+  if (count === 0) return <EmptyState icon="timeline" title={texts.nothing()} />;
   return (
     <div class="timeline-listing">
-      {count > rows.length && <p class="timeline-listing-note">{t.shown_of(rows.length, count)}</p>}
+      {count > rows.length && <p class="timeline-listing-note">{texts.shown_of(rows.length, count)}</p>}
       <Table
-        label={t.label()}
+        label={texts.label()}
         rows={rows}
         key_of={(row) => row.key}
         columns={[
-          { id: 'when', title: t.when(), cell: ({ at }) => <>{clock_time(at, false)}<span class="timeline-ms">{clock_time(at).slice(-4)}</span></> },
+          {
+            id: 'when',
+            title: texts.when(),
+            cell: ({ at }) => (
+              <>
+                {clock_time(at, false)}
+                <span class="timeline-ms">{clock_time(at).slice(-4)}</span>
+              </>
+            ),
+          },
           {
             id: 'what',
-            title: t.what(),
+            title: texts.what(),
             cell: (row) => (
-              <button type="button" class="timeline-row" aria-label={t.open(sentence(row))} onClick={() => open(row.thing)}>
+              <button type="button" class="timeline-row" aria-label={texts.open(sentence(row))} onClick={() => open(row.thing)}>
                 <span class="timeline-kind">{row.kind}</span> {row.title}{row.where && ` ${row.where}`}
               </button>
             ),
           },
-          { id: 'component', title: t.component(), cell: (row) => row.component },
-          { id: 'state', title: t.state(), cell: (row) => row.state !== '' && <StatusBadge status={row.state} /> },
-          { id: 'lasted', title: t.lasted(), cell: (row) => row.lasted, numeric: true },
+          { id: 'component', title: texts.component(), cell: (row) => row.component },
+          { id: 'state', title: texts.state(), cell: (row) => row.state !== '' && <StatusBadge status={row.state} /> },
+          { id: 'lasted', title: texts.lasted(), cell: (row) => row.lasted, numeric: true },
         ]}
       />
     </div>
@@ -52,12 +61,25 @@ export function Listing({ view, open }: { view: TimeView; open: (thing: Thing) =
 
 // Each thing once, marks separately, newest first.
 function rows_of(view: TimeView, at: number): { rows: Row[]; count: number } {
-  const { placed } = lay_out(view.sources, view.range(at), { width: 1000, hides_quiet: view.hides_quiet.value, with_own: view.with_own.value });
+  const { placed } = lay_out(view.sources, view.range(at), {
+    width: 1000,
+    hides_quiet: view.hides_quiet.value,
+    with_own: view.with_own.value,
+  });
   const things = new Map<string, Thing>();
   for (const { thing } of placed)
-    for (const one of thing.kind === 'marks' ? thing.marks.filter((mark) => mark.kind !== 'failed').map((mark): Thing => ({ kind: 'marks', marks: [mark] })) : [thing]) things.set(key_of(one), one);
+    for (const one of thing.kind === 'marks'
+      ? thing.marks.filter((mark) => mark.kind !== 'failed').map((mark): Thing => ({ kind: 'marks', marks: [mark] }))
+      : [thing])
+      things.set(key_of(one), one);
   const newest = [...things.values()].sort((a, b) => time_of_thing(b) - time_of_thing(a)).slice(0, most_rows);
-  const rows = newest.map((thing): Row => ({ ...describe(thing, at), thing, key: key_of(thing), lasted: lasted(thing, at), where: where(thing) }));
+  const rows = newest.map((thing): Row => ({
+    ...describe(thing, at),
+    thing,
+    key: key_of(thing),
+    lasted: lasted(thing, at),
+    where: where(thing),
+  }));
   return { rows, count: things.size };
 }
 

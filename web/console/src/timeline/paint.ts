@@ -1,8 +1,5 @@
 // Draws the layout.
-import type { Sheet } from '../ui/drawing/drawing';
-import { time_marks } from '../ui/drawing/scales';
-import type { Tone } from '../ui/states';
-import { tone_of } from '../ui/states';
+import { type Sheet, time_marks, type Tone, tone_of } from '../ui';
 import { type Box, type Layout, type Placed, x_of } from './layout';
 import { began_at, has_failed, marks_tone, span_tone } from './things';
 import type { Range } from './view';
@@ -25,12 +22,30 @@ export interface Look {
 type Ink = ReturnType<typeof inks>;
 
 function inks({ color }: Sheet) {
-  const both = (tone: Tone) => (tone === 'calm' ? { soft: color('--calm-soft'), full: color('--ink-soft') } : { soft: color(`--${tone}-soft`), full: color(`--${tone}`) });
+  const colors_of = (tone: Tone) =>
+    tone === 'calm'
+      ? { soft: color('--calm-soft'), full: color('--ink-soft') }
+      : { soft: color(`--${tone}-soft`), full: color(`--${tone}`) };
   return {
-    ink: color('--ink'), soft: color('--ink-soft'), line: color('--line'), grid: color('--draw-grid'), panel: color('--panel'), ground: color('--ground'), accent: color('--accent'),
-    other: color('--draw-face'), event: color('--draw-sound'), chosen: color('--accent-soft'), on_accent: color('--ink-on-accent'),
+    ink: color('--ink'),
+    soft: color('--ink-soft'),
+    line: color('--line'),
+    grid: color('--draw-grid'),
+    panel: color('--panel'),
+    ground: color('--ground'),
+    accent: color('--accent'),
+    other: color('--draw-face'),
+    event: color('--draw-sound'),
+    chosen: color('--accent-soft'),
+    on_accent: color('--ink-on-accent'),
     sans: color('--sans'),
-    tones: { calm: both('calm'), good: both('good'), busy: both('busy'), warning: both('warning'), bad: both('bad') } satisfies Record<Tone, unknown>,
+    tones: {
+      calm: colors_of('calm'),
+      good: colors_of('good'),
+      busy: colors_of('busy'),
+      warning: colors_of('warning'),
+      bad: colors_of('bad'),
+    } satisfies Record<Tone, unknown>,
   };
 }
 
@@ -60,12 +75,14 @@ function order({ thing }: Placed): number {
 
 function paint_ground(pen: CanvasRenderingContext2D, { layout, at, scroll }: Look, ink: Ink, height: number): void {
   const { lanes, range, width } = layout;
-  for (const { at: mark } of time_marks(range.from, range.to, marks_apart(layout))) line(pen, x_of(mark, range, width), scroll, height, ink.grid);
+  for (const { at: mark } of time_marks(range.from, range.to, marks_apart(layout)))
+    line(pen, x_of(mark, range, width), scroll, height, ink.grid);
   pen.fillStyle = ink.line;
   for (const lane of lanes) pen.fillRect(0, lane.y + lane.height - 1, width, 1);
   // Hatches the times without a link, in which nothing was received.
   for (const { thing, box } of layout.placed)
-    if (thing.kind === 'span' && thing.span.kind === 'link' && !/^(open|resumed)$/.test(thing.span.value)) hatch(pen, { x: box.x, y: scroll, width: box.width, height }, ink.line);
+    if (thing.kind === 'span' && thing.span.kind === 'link' && !/^(open|resumed)$/.test(thing.span.value))
+      hatch(pen, { x: box.x, y: scroll, width: box.width, height }, ink.line);
   const [begin, end] = [x_of(layout.oldest, range, width), x_of(at, range, width)];
   pen.fillStyle = ink.ground;
   if (begin > 0) pen.fillRect(0, scroll, begin, height);
@@ -103,7 +120,10 @@ function paint_command(pen: CanvasRenderingContext2D, { thing, box, lane }: Plac
   const { entry } = thing;
   const has_ended = entry.ended_at !== undefined && entry.ended_at <= at;
   const began = began_at(entry);
-  const start = began === undefined || began > at ? box.x + box.width : Math.max(box.x, Math.min(box.x + box.width - 2, x_of(began, layout.range, layout.width)));
+  const start =
+    began === undefined || began > at
+      ? box.x + box.width
+      : Math.max(box.x, Math.min(box.x + box.width - 2, x_of(began, layout.range, layout.width)));
   const { soft, full } = ink.tones[has_ended ? tone_of(entry.state) : began === undefined ? 'calm' : 'busy'];
   pen.fillStyle = full;
   const has_text = layout.lanes[lane]!.kind !== 'component'; // drawn above the line
@@ -116,9 +136,16 @@ function paint_command(pen: CanvasRenderingContext2D, { thing, box, lane }: Plac
   if (bar.width > 2) pen.strokeRect(bar.x + 0.5, bar.y + 0.5, bar.width - 1, bar.height - 1);
   const sign = has_ended ? entry.state : '';
   // A command that failed at once has its sign beside it.
-  if (sign !== '' && (bar.width > 14 || has_failed(entry))) sign_of_end(pen, sign, bar.x + bar.width + (bar.width > 14 ? -8 : 6), bar.y + bar.height / 2, full);
+  if (sign !== '' && (bar.width > 14 || has_failed(entry)))
+    sign_of_end(pen, sign, bar.x + bar.width + (bar.width > 14 ? -8 : 6), bar.y + bar.height / 2, full);
   const room = { ...box, width: box.width - (sign === '' ? 0 : 12) };
-  text_in(pen, `${entry.component} ${entry.command_type}`, start - box.x > box.width / 2 ? { ...room, y: box.y - 1 } : { ...bar, width: room.x + room.width - bar.x }, full, ink.sans);
+  text_in(
+    pen,
+    `${entry.component} ${entry.command_type}`,
+    start - box.x > box.width / 2 ? { ...room, y: box.y - 1 } : { ...bar, width: room.x + room.width - bar.x },
+    full,
+    ink.sans,
+  );
 }
 
 function sign_of_end(pen: CanvasRenderingContext2D, state: string, x: number, y: number, color: string): void {

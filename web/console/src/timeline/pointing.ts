@@ -27,7 +27,12 @@ export class Pointing {
     this.fingers.set(event.pointerId, x);
     const is_second = this.fingers.size > 1;
     if (is_second) this.host.choose(undefined);
-    this.begun = { x, at: this.host.time_at(x), moves: is_second || event.pointerType === 'touch' || event.shiftKey || event.offsetY < axis_height, is_drag: is_second };
+    this.begun = {
+      x,
+      at: this.host.time_at(x),
+      moves: is_second || event.pointerType === 'touch' || event.shiftKey || event.offsetY < axis_height,
+      is_drag: is_second,
+    };
   }
 
   /** Returns whether it is a drag. */

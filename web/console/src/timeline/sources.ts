@@ -27,14 +27,32 @@ export interface Sources {
 
 export function live_sources(console: Console): Sources {
   const { commands, events, history, traffic } = console;
-  const rings = { commands: commands.all, events: events.events, own_events: events.own_events, errors: events.errors, gaps: events.gaps, refused: traffic.refused, past: history.past };
+  const rings = {
+    commands: commands.all,
+    events: events.events,
+    own_events: events.own_events,
+    errors: events.errors,
+    gaps: events.gaps,
+    refused: traffic.refused,
+    past: history.past,
+  };
   return { at: console.environment.now(), refs: refs_of(console), ...rings, present: [...history.present.values()] };
 }
 
 /** A copy for a pause, as bounded as its source. */
 export function stopped_sources(console: Console): Sources {
   const { commands, events, own_events, errors, gaps, refused, past, present, ...rest } = live_sources(console);
-  return { ...rest, commands: copy(commands), events: copy(events), own_events: copy(own_events), errors: copy(errors), gaps: copy(gaps), refused: copy(refused), past: copy(past), present: present.map((one) => ({ ...one })) };
+  return {
+    ...rest,
+    commands: copy(commands),
+    events: copy(events),
+    own_events: copy(own_events),
+    errors: copy(errors),
+    gaps: copy(gaps),
+    refused: copy(refused),
+    past: copy(past),
+    present: present.map((one) => ({ ...one })),
+  };
 }
 
 function copy<T>(rows: Rows<T>): Rows<T> {
@@ -50,7 +68,13 @@ export function end_of(span: Span, is_present: boolean, at: number): number {
 /** The oldest known time. */
 export function oldest_of(sources: Sources): number {
   let oldest = sources.at;
-  for (const from of [sources.commands.at(0)?.sent_at, sources.events.at(0)?.at, sources.errors.at(0)?.at, sources.past.at(0)?.from, ...sources.present.map((one) => one.from)])
+  for (const from of [
+    sources.commands.at(0)?.sent_at,
+    sources.events.at(0)?.at,
+    sources.errors.at(0)?.at,
+    sources.past.at(0)?.from,
+    ...sources.present.map((one) => one.from),
+  ])
     if (from !== undefined && from < oldest) oldest = from;
   return oldest;
 }

@@ -2,7 +2,9 @@ import { count_text, text, text_of } from '../i18n/i18n';
 
 export const label = text('Time line of the link, commands, events and components', '接続・コマンド・イベント・コンポーネントのタイムライン');
 export const help = text(
-  'Arrow keys select things and stop time, Enter opens one. Plus, minus and the wheel zoom. Page Up and Page Down move in time, Home to the beginning, End to now. Space stops and continues. Dragging selects a time range, Backspace goes back.',
+  'Arrow keys select things and stop time, Enter opens one. Plus, minus and the wheel zoom. ' +
+    'Page Up and Page Down move in time, Home to the beginning, End to now. Space stops and continues. ' +
+    'Dragging selects a time range, Backspace goes back.',
   '矢印キーで項目へ移動して時間を止め、Enter で開きます。+・-・ホイールで拡大・縮小、Page Up・Page Down で時間を移動、Home で最初、End で現在、Space で停止・再開。ドラッグで範囲を選び、Backspace で戻ります。',
 );
 export const live = text('Live', 'ライブ');

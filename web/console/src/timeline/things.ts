@@ -3,8 +3,7 @@ import type { Span } from '../state/history';
 import type { CommandEntry } from '../state/session/commands_state';
 import type { LoggedDocument } from '../state/session/document_log';
 import type { ErrorEntry, EventEntry, GapEntry } from '../state/session/events_state';
-import type { Tone } from '../ui/states';
-import { tone_of } from '../ui/states';
+import { type Tone, tone_of } from '../ui';
 
 /** The time at which a command failed. */
 export interface Failure {
@@ -59,7 +58,9 @@ export function has_failed({ state, ended_at }: CommandEntry): boolean {
 /** The thing to open: for the mark of a failed command, the command. */
 export function opened_by(thing: Thing): Thing {
   const [mark] = thing.kind === 'marks' ? thing.marks : [];
-  return thing.kind === 'marks' && thing.marks.length === 1 && mark?.kind === 'failed' ? { kind: 'command', entry: mark.entry.command } : thing;
+  return thing.kind === 'marks' && thing.marks.length === 1 && mark?.kind === 'failed'
+    ? { kind: 'command', entry: mark.entry.command }
+    : thing;
 }
 
 export function span_tone({ kind, value }: Span): Tone {

@@ -18,7 +18,7 @@ export interface Stretch {
   is_all?: true;
 }
 
-export const usual_span = 60_000; // ms
+const usual_span = 60_000; // ms
 const least_span = 50;
 const always_allowed = 15 * 60_000; // even if less is known
 const most_undone = 30;
@@ -78,7 +78,8 @@ export class TimeView {
   /** `at`: the time that keeps its place. */
   zoom(factor: number, at?: number): void {
     const { from, to } = this.range(this.sources.at);
-    this.put(zoomed({ ...this.stretch.value, span: to - from }, factor, at ?? this.middle), 0.5); // so that the time under the pointer keeps its place
+    // The time under the pointer keeps its place.
+    this.put(zoomed({ ...this.stretch.value, span: to - from }, factor, at ?? this.middle), 0.5);
   }
   move(ms: number): void {
     this.pause();

@@ -33,7 +33,13 @@ export function Dialog({ title, open, close, closable = true, actions, wide = fa
     if (closable) close();
   };
   return (
-    <dialog ref={element} class={wide ? 'dialog dialog-wide' : 'dialog'} aria-labelledby={id} onCancel={cancelled} onClose={() => open && closable && close()}>
+    <dialog
+      ref={element}
+      class={wide ? 'dialog dialog-wide' : 'dialog'}
+      aria-labelledby={id}
+      onCancel={cancelled}
+      onClose={() => open && closable && close()}
+    >
       {open && (
         <>
           <div class="dialog-head">

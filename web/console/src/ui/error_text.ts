@@ -2,7 +2,7 @@ import { RoisError } from 'rois-client';
 
 import { reason_of } from '../state/base/reason_of';
 import type { Notices } from '../state/notices';
-import * as t from './texts';
+import * as texts from './texts';
 
 /** Shows a notice if it fails. Success removes an earlier notice `about` the same. */
 export function tried({ notices }: { notices: Notices }, about: string, done: Promise<unknown>): void {
@@ -17,19 +17,19 @@ export function error_text(error: unknown): string {
   if (!(error instanceof RoisError)) return reason_of(error);
   switch (error.failure) {
     case 'refused':
-      if (error.return_code === 'OUT_OF_RESOURCES') return `${t.out_of_resources()} (${error.message})`;
-      if (error.return_code === 'UNSUPPORTED') return `${t.unsupported()} (${error.message})`;
-      return t.refused(error.message);
+      if (error.return_code === 'OUT_OF_RESOURCES') return `${texts.out_of_resources()} (${error.message})`;
+      if (error.return_code === 'UNSUPPORTED') return `${texts.unsupported()} (${error.message})`;
+      return texts.refused(error.message);
     case 'fault':
-      return t.fault(error.message);
+      return texts.fault(error.message);
     case 'deadline':
-      return t.deadline();
+      return texts.deadline();
     case 'link_lost':
-      return t.link_lost();
+      return texts.link_lost();
     case 'session_lost':
-      return t.session_lost();
+      return texts.session_lost();
     case 'closed':
-      return t.closed();
+      return texts.closed();
     default:
       return error.message;
   }

@@ -24,7 +24,15 @@ export interface ControlProps {
   'aria-required': boolean;
 }
 
-export function Field({ label, hint, error, unit, required = false, hide_label = false, control }: FieldProps & { control: (props: ControlProps) => ComponentChildren }) {
+export function Field({
+  label,
+  hint,
+  error,
+  unit,
+  required = false,
+  hide_label = false,
+  control,
+}: FieldProps & { control: (props: ControlProps) => ComponentChildren }) {
   const id = useId();
   const described = joined(hint && `${id}-hint`, error && `${id}-error`);
   const props: ControlProps = { id, 'aria-describedby': described || undefined, 'aria-invalid': Boolean(error), 'aria-required': required };
@@ -61,7 +69,16 @@ export function TextField({ value, change, input, options, ...field }: TextField
       {...field}
       control={(props) => (
         <>
-          <input type="text" autocomplete="off" spellcheck={false} {...input} {...props} list={options ? list : undefined} value={value} onInput={(event) => change(event.currentTarget.value)} />
+          <input
+            type="text"
+            autocomplete="off"
+            spellcheck={false}
+            {...input}
+            {...props}
+            list={options ? list : undefined}
+            value={value}
+            onInput={(event) => change(event.currentTarget.value)}
+          />
           {options && (
             <datalist id={list}>
               {options.map((one) => <option key={one} value={one} />)}
@@ -73,8 +90,20 @@ export function TextField({ value, change, input, options, ...field }: TextField
   );
 }
 
-export function TextArea({ value, change, rows = 3, ...field }: FieldProps & { value: string; change: (value: string) => void; rows?: number }) {
-  return <Field {...field} control={(props) => <textarea {...props} rows={rows} spellcheck={false} value={value} onInput={(event) => change(event.currentTarget.value)} />} />;
+export function TextArea({
+  value,
+  change,
+  rows = 3,
+  ...field
+}: FieldProps & { value: string; change: (value: string) => void; rows?: number }) {
+  return (
+    <Field
+      {...field}
+      control={(props) => (
+        <textarea {...props} rows={rows} spellcheck={false} value={value} onInput={(event) => change(event.currentTarget.value)} />
+      )}
+    />
+  );
 }
 
 export interface Choice<T extends string> {
@@ -83,7 +112,12 @@ export interface Choice<T extends string> {
   disabled?: boolean;
 }
 
-export function SelectField<T extends string>({ value, change, choices, ...field }: FieldProps & { value: T; change: (value: T) => void; choices: readonly Choice<T>[] }) {
+export function SelectField<T extends string>({
+  value,
+  change,
+  choices,
+  ...field
+}: FieldProps & { value: T; change: (value: T) => void; choices: readonly Choice<T>[] }) {
   return (
     <Field
       {...field}
@@ -100,7 +134,17 @@ export function SelectField<T extends string>({ value, change, choices, ...field
   );
 }
 
-export function Checkbox({ label, checked, change, disabled = false }: { label: string; checked: boolean; change: (checked: boolean) => void; disabled?: boolean }) {
+export function Checkbox({
+  label,
+  checked,
+  change,
+  disabled = false,
+}: {
+  label: string;
+  checked: boolean;
+  change: (checked: boolean) => void;
+  disabled?: boolean;
+}) {
   return (
     <label class="checkbox">
       <input type="checkbox" checked={checked} disabled={disabled} onChange={(event) => change(event.currentTarget.checked)} />

@@ -63,6 +63,23 @@ export function SplitPane({ id, direction, share: usual = 0.5, label, first, sec
   );
 }
 
+type Place = Pick<SplitPaneProps, 'id' | 'share'>;
+
+export interface WidthSplitProps extends Pick<SplitPaneProps, 'label' | 'first' | 'second'> {
+  /** Whether the panes are side by side. */
+  is_wide: boolean;
+  /** Position of the divider between panes side by side. */
+  row: Place;
+  /** Position of the divider between panes one above the other. */
+  column: Place;
+}
+
+/** Two panes side by side if there is room, else one above the other. Each arrangement has its own stored position. */
+export function WidthSplit({ is_wide, row, column, ...panes }: WidthSplitProps) {
+  const direction = is_wide ? 'row' : 'column';
+  return <SplitPane key={direction} direction={direction} {...(is_wide ? row : column)} {...panes} />;
+}
+
 function within(share: number): number {
   return Math.min(1 - least, Math.max(least, share));
 }

@@ -53,7 +53,14 @@ export function VirtualList<Row>({ label, rows, row_height, key_of, render, chos
   const pressed = (event: KeyboardEvent) => {
     const at = rows.findIndex((row) => key_of(row) === chosen);
     const page = Math.max(1, Math.floor(height / row_height) - 1);
-    const to = { ArrowDown: at + 1, ArrowUp: at < 0 ? rows.length - 1 : at - 1, PageDown: at + page, PageUp: at - page, Home: 0, End: rows.length - 1 }[event.key];
+    const to = {
+      ArrowDown: at + 1,
+      ArrowUp: at < 0 ? rows.length - 1 : at - 1,
+      PageDown: at + page,
+      PageUp: at - page,
+      Home: 0,
+      End: rows.length - 1,
+    }[event.key];
     if (to === undefined) return;
     event.preventDefault();
     go(to);

@@ -7,10 +7,9 @@ import { bounds_around, distance, type FloorPose, nearest_of, on_map, type Point
 import type { FloorMap } from '../state/floor/floor_map';
 import type { Visitor } from '../state/floor/hall_state';
 import { ellipse_of, type Robot } from '../state/floor/things';
-import { joined } from '../ui';
-import { floor_point, SmallFloor } from '../ui/drawing/small_floor';
+import { floor_point, joined, SmallFloor } from '../ui';
 import { steering_of } from './steering';
-import * as t from './texts';
+import * as texts from './texts';
 
 interface Aim extends Point {
   ref: string;
@@ -61,7 +60,8 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
   // A click on the floor sends the selected visitor there.
   const clicked = (event: MouseEvent) => {
     const chosen = hall.visitors.get(steering.chosen.value);
-    if (chosen?.steered && !(event.target as Element).closest('[data-visitor]')) send({ ref: chosen.ref, has_moved: true, ...nearest_of(bounds, floor_point(svg.current!, event)) });
+    if (chosen?.steered && !(event.target as Element).closest('[data-visitor]'))
+      send({ ref: chosen.ref, has_moved: true, ...nearest_of(bounds, floor_point(svg.current!, event)) });
   };
   const typed = (event: KeyboardEvent, { ref, x, y, steered }: Visitor) => {
     const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
@@ -82,11 +82,11 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
   const aimed = aim.value;
   return (
     <div class="visitors-floor">
-      <SmallFloor svg={svg} bounds={bounds} map={map} onClick={clicked} role="group" aria-label={`${t.map()} ${t.map_hint()}`}>
+      <SmallFloor svg={svg} bounds={bounds} map={map} onClick={clicked} role="group" aria-label={`${texts.map()} ${texts.map_hint()}`}>
         {[...robots.all.values()].map((robot) => {
           const at = on_map(map, robot.crs, steady(drawn.current, robot));
           const radius = map?.robots.find((one) => one.name === robot.ref)?.radius ?? person_radius;
-          return at && <Body key={robot.ref} at={at} radius={radius} kind="robot" name={t.robot(robot.ref)} />;
+          return at && <Body key={robot.ref} at={at} radius={radius} kind="robot" name={texts.robot(robot.ref)} />;
         })}
         {[...hall.visitors.values()].map((one) => <Way key={one.ref} visitor={one} map={map} />)}
         {aimed?.has_moved && <Goal from={hall.visitors.get(aimed.ref)} to={aimed} />}
@@ -97,7 +97,7 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
             role="button"
             tabindex={0}
             data-visitor={one.ref}
-            aria-label={t.visitor(one.ref, metres(one))}
+            aria-label={texts.visitor(one.ref, metres(one))}
             aria-pressed={one.ref === steering.chosen.value}
             onPointerDown={(event) => pressed(event, one)}
             onPointerMove={moved}
@@ -112,12 +112,18 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
           </g>
         ))}
       </SmallFloor>
-      <p class="visitors-aim" aria-live="polite">{aimed?.has_moved ? t.sends(aimed.ref, metres(aimed)) : hall.visitors.get(steering.chosen.value)?.steered ? t.click_hint(steering.chosen.value) : ''}</p>
+      <p class="visitors-aim" aria-live="polite">
+        {aimed?.has_moved
+          ? texts.sends(aimed.ref, metres(aimed))
+          : hall.visitors.get(steering.chosen.value)?.steered
+            ? texts.click_hint(steering.chosen.value)
+            : ''}
+      </p>
     </div>
   );
 
   function metres({ x, y }: Point): string {
-    return t.metres((x / 1000).toFixed(2), (y / 1000).toFixed(2));
+    return texts.metres((x / 1000).toFixed(2), (y / 1000).toFixed(2));
   }
 }
 

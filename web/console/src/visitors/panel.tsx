@@ -7,7 +7,7 @@ import { gestures, type Visitor } from '../state/floor/hall_state';
 import { Badge, Button, Checkbox, EmptyState, Form, Loading, SelectField, TextField } from '../ui';
 import { Floor } from './floor';
 import { languages, type Steering, steering_of } from './steering';
-import * as t from './texts';
+import * as texts from './texts';
 
 export default function VisitorsPanel() {
   const console = useConsole();
@@ -19,8 +19,8 @@ export default function VisitorsPanel() {
   if (!profile.profile.value) return <Loading />;
   if (!component)
     return (
-      <EmptyState icon="person" title={t.none_here()}>
-        {t.none_here_hint()} <code>--steering on</code>
+      <EmptyState icon="person" title={texts.none_here()}>
+        {texts.none_here_hint()} <code>--steering on</code>
       </EmptyState>
     );
   const steering = steering_of(console);
@@ -32,7 +32,11 @@ export default function VisitorsPanel() {
       <fieldset class="visitors-people" disabled={!console.link.is_open}>
         <Entering steering={steering} />
         <Who steering={steering} />
-        {chosen?.steered ? <Orders key={chosen.ref} steering={steering} visitor={chosen} /> : <p class="soft">{chosen ? t.of_scenario_hint() : t.choose_somebody()}</p>}
+        {chosen?.steered ? (
+          <Orders key={chosen.ref} steering={steering} visitor={chosen} />
+        ) : (
+          <p class="soft">{chosen ? texts.of_scenario_hint() : texts.choose_somebody()}</p>
+        )}
       </fieldset>
     </div>
   );
@@ -43,13 +47,24 @@ function Entering({ steering }: { steering: Steering }) {
   void hall.pulse.beat.value;
   void commands.pulse.beat.value;
   const name = steering.name.value.trim();
-  const wrong = hall.is_taken(name) ? t.name_taken() : /[\s.:]/.test(name) ? t.name_wrong() : undefined;
+  const wrong = hall.is_taken(name) ? texts.name_taken() : /[\s.:]/.test(name) ? texts.name_wrong() : undefined;
   return (
     <Form class="visitors-entering" submit={() => wrong === undefined && steering.enter()}>
-      <TextField label={t.name()} value={steering.name.value} change={(to) => (steering.name.value = to)} error={wrong} input={{ placeholder: steering.next_name(), maxLength: 64 }} />
-      <SelectField label={t.language()} value={steering.language.value} change={(to) => (steering.language.value = to)} choices={languages.map((one) => ({ value: one, label: one }))} />
-      <Checkbox label={t.known()} checked={steering.is_known.value} change={(to) => (steering.is_known.value = to)} />
-      <Button look="primary" icon="plus" type="submit" disabled={wrong !== undefined}>{t.let_in()}</Button>
+      <TextField
+        label={texts.name()}
+        value={steering.name.value}
+        change={(to) => (steering.name.value = to)}
+        error={wrong}
+        input={{ placeholder: steering.next_name(), maxLength: 64 }}
+      />
+      <SelectField
+        label={texts.language()}
+        value={steering.language.value}
+        change={(to) => (steering.language.value = to)}
+        choices={languages.map((one) => ({ value: one, label: one }))}
+      />
+      <Checkbox label={texts.known()} checked={steering.is_known.value} change={(to) => (steering.is_known.value = to)} />
+      <Button look="primary" icon="plus" type="submit" disabled={wrong !== undefined}>{texts.let_in()}</Button>
     </Form>
   );
 }
@@ -62,27 +77,36 @@ function Who({ steering }: { steering: Steering }) {
   const is_known = hall.reported_at > 0;
   const all = [...hall.visitors.values()];
   return (
-    <section class="visitors-who" aria-label={t.who()}>
-      <h2>{is_known ? t.in_hall(all.length) : t.not_known()}</h2>
-      {is_known && !link.is_open ? <p class="soft">{t.as_it_was(duration(console.time() - hall.reported_at))}</p> : is_known && all.length === 0 && <p class="soft">{t.nobody()}</p>}
+    <section class="visitors-who" aria-label={texts.who()}>
+      <h2>{is_known ? texts.in_hall(all.length) : texts.not_known()}</h2>
+      {is_known && !link.is_open ? (
+        <p class="soft">{texts.as_it_was(duration(console.time() - hall.reported_at))}</p>
+      ) : (
+        is_known && all.length === 0 && <p class="soft">{texts.nobody()}</p>
+      )}
       <ul>
         {all.map((one) => {
-          const doing = hall.orders_of(one.ref).map(({ command_type }) => t.doing(command_type));
+          const doing = hall.orders_of(one.ref).map(({ command_type }) => texts.doing(command_type));
           return (
             <li key={one.ref}>
-              <button type="button" class="visitors-one" aria-pressed={one.ref === steering.chosen.value} onClick={() => (steering.chosen.value = one.ref)}>
+              <button
+                type="button"
+                class="visitors-one"
+                aria-pressed={one.ref === steering.chosen.value}
+                onClick={() => (steering.chosen.value = one.ref)}
+              >
                 <span class="visitors-ref">{one.ref}</span>
-                {one.known && <Badge>{t.is_known()}</Badge>}
-                {!one.steered && <span class="soft">{t.of_scenario()}</span>}
+                {one.known && <Badge>{texts.is_known()}</Badge>}
+                {!one.steered && <span class="soft">{texts.of_scenario()}</span>}
                 {doing.length > 0 && <Badge tone="busy">{[...new Set(doing)].join(', ')}</Badge>}
-                <span class="visitors-at">{t.metres((one.x / 1000).toFixed(1), (one.y / 1000).toFixed(1))}</span>
+                <span class="visitors-at">{texts.metres((one.x / 1000).toFixed(1), (one.y / 1000).toFixed(1))}</span>
               </button>
             </li>
           );
         })}
         {hall.awaited().map((ref) => (
           <li key={ref} class="row-spread">
-            {ref} <Badge tone="busy">{t.waits()}</Badge>
+            {ref} <Badge tone="busy">{texts.waits()}</Badge>
           </li>
         ))}
       </ul>
@@ -106,27 +130,39 @@ function Orders({ steering, visitor: { ref } }: { steering: Steering; visitor: V
       <h2>{ref}</h2>
       {places.length > 0 && (
         <Form class="visitors-row" submit={() => void steering.order(ref, 'walk', hall.walk(ref, place))}>
-          <SelectField label={t.walk_to()} value={place} change={(to) => (steering.place.value = to)} choices={places.map((one) => ({ value: one, label: one.replaceAll('_', ' ') }))} />
-          <Button type="submit" icon="right">{t.go()}</Button>
+          <SelectField
+            label={texts.walk_to()}
+            value={place}
+            change={(to) => (steering.place.value = to)}
+            choices={places.map((one) => ({ value: one, label: one.replaceAll('_', ' ') }))}
+          />
+          <Button type="submit" icon="right">
+            {texts.go()}
+          </Button>
         </Form>
       )}
       <Form class="visitors-row visitors-saying" submit={say}>
-        <TextField label={t.say()} value={steering.words.value} change={(to) => (steering.words.value = to)} input={{ placeholder: t.say_hint(), enterkeyhint: 'send' }} />
+        <TextField
+          label={texts.say()}
+          value={steering.words.value}
+          change={(to) => (steering.words.value = to)}
+          input={{ placeholder: texts.say_hint(), enterkeyhint: 'send' }}
+        />
         <SelectField
-          label={t.language()}
+          label={texts.language()}
           value={steering.spoken.value}
           change={(to) => (steering.spoken.value = to)}
-          choices={[{ value: '', label: t.own_language() }, ...languages.map((one) => ({ value: one as string, label: one }))]}
+          choices={[{ value: '', label: texts.own_language() }, ...languages.map((one) => ({ value: one as string, label: one }))]}
         />
-        <Button type="submit" icon="messages" disabled={steering.words.value.trim() === ''}>{t.speak()}</Button>
+        <Button type="submit" icon="messages" disabled={steering.words.value.trim() === ''}>{texts.speak()}</Button>
       </Form>
-      <div class="visitors-gestures" role="group" aria-label={t.gestures()}>
+      <div class="visitors-gestures" role="group" aria-label={texts.gestures()}>
         {gestures.map((one) => (
-          <Button key={one} small onClick={() => void steering.order(ref, 'gesture', hall.gesture(ref, one))}>{t.gesture(one)}</Button>
+          <Button key={one} small onClick={() => void steering.order(ref, 'gesture', hall.gesture(ref, one))}>{texts.gesture(one)}</Button>
         ))}
       </div>
       <div>
-        <Button small look="danger" onClick={() => void steering.order(ref, 'leave', hall.leave(ref))}>{t.leave()}</Button>
+        <Button small look="danger" onClick={() => void steering.order(ref, 'leave', hall.leave(ref))}>{texts.leave()}</Button>
       </div>
     </section>
   );
@@ -138,12 +174,26 @@ function Time({ steering }: { steering: Steering }) {
   const flows = steering.flows.value;
   const { is_open } = useConsole().link;
   return (
-    <section class="visitors-time" aria-label={t.time()}>
-      <p title={t.stands_still_hint()}>{t.stands_still()}</p>
+    <section class="visitors-time" aria-label={texts.time()}>
+      <p title={texts.stands_still_hint()}>{texts.stands_still()}</p>
       {spans.map((ms) => (
-        <Button key={ms} small disabled={flows || !is_open} aria-label={t.pass_label(ms / 1000)} onClick={() => void steering.pass(ms)}>{`+ ${t.pass(String(ms / 1000))}`}</Button>
+        <Button
+          key={ms}
+          small
+          disabled={flows || !is_open}
+          aria-label={texts.pass_label(ms / 1000)}
+          onClick={() => void steering.pass(ms)}
+        >{`+ ${texts.pass(String(ms / 1000))}`}</Button>
       ))}
-      <Button small icon={flows ? 'pause' : 'play'} aria-pressed={flows} disabled={!flows && !is_open} onClick={() => (flows ? steering.halt() : void steering.flow())}>{flows ? t.halt() : t.flow()}</Button>
+      <Button
+        small
+        icon={flows ? 'pause' : 'play'}
+        aria-pressed={flows}
+        disabled={!flows && !is_open}
+        onClick={() => (flows ? steering.halt() : void steering.flow())}
+      >
+        {flows ? texts.halt() : texts.flow()}
+      </Button>
     </section>
   );
 }

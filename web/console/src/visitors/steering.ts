@@ -3,8 +3,8 @@ import { signal } from '@preact/signals';
 
 import type { Console } from '../state/console';
 import type { Outcome } from '../state/floor/hall_state';
-import { error_text } from '../ui/error_text';
-import * as words from './texts';
+import { error_text } from '../ui';
+import * as texts from './texts';
 
 export const languages = ['de', 'en', 'es', 'fr', 'it', 'ja', 'ko', 'zh'] as const;
 const names = ['anna', 'ben', 'chika', 'daniel', 'emi', 'farid', 'grace', 'hiro'];
@@ -38,11 +38,12 @@ export class Steering {
     const about = `${ref} ${what}`;
     try {
       const { status, reason } = await ordered;
-      if (status === 'ERROR' || status === 'TIMEOUT' || status === 'OUT_OF_RESOURCES') notices.show('warning', words.not_done(ref, what), { about, detail: reason });
+      if (status === 'ERROR' || status === 'TIMEOUT' || status === 'OUT_OF_RESOURCES')
+        notices.show('warning', texts.not_done(ref, what), { about, detail: reason });
       else notices.dismiss(about);
       return status === 'OK';
     } catch (error) {
-      notices.show('error', words.not_done(ref, what), { about, detail: error_text(error) });
+      notices.show('error', texts.not_done(ref, what), { about, detail: error_text(error) });
       return false;
     }
   }

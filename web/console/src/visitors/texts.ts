@@ -12,7 +12,10 @@ const gestures_ja: Record<string, string> = {
 };
 
 export const none_here = text('This engine has no visitors to control', 'このエンジンには動かせる来訪者がいません');
-export const none_here_hint = text('Visitors can be controlled in the simulated hall. Start the gateway with', 'シミュレーションのホールでは人を動かせます。次を付けてゲートウェイを起動してください:');
+export const none_here_hint = text(
+  'Visitors can be controlled in the simulated hall. Start the gateway with',
+  'シミュレーションのホールでは人を動かせます。次を付けてゲートウェイを起動してください:',
+);
 export const nobody = text('The hall is empty. Let a visitor in.', 'ホールには誰もいません。誰かを入れてください。');
 export const in_hall = text_of((n: number) => [n === 1 ? '1 person in the hall' : `${n} people in the hall`, `ホールに ${n} 人`]);
 export const not_known = text('The people in the hall are not known yet', 'ホールに誰がいるかはまだ分かりません');
@@ -57,14 +60,20 @@ export const own_language = text('their own', '本人の言語');
 export const gestures = text('Gestures', '身振り');
 export const gesture = text_of((name: string) => [name.replaceAll('_', ' '), gestures_ja[name] ?? name]);
 export const leave = text('Leave the hall', 'ホールを出る');
-export const not_done = text_of((ref: string, what: string) => [`${ref} could not: ${doings[what]?.[0] ?? what}`, `${ref} はできませんでした: ${doings[what]?.[1] ?? what}`]);
+export const not_done = text_of((ref: string, what: string) => [
+  `${ref} could not: ${doings[what]?.[0] ?? what}`,
+  `${ref} はできませんでした: ${doings[what]?.[1] ?? what}`,
+]);
 
 // Time
 export const time = text('Time', '時間');
 export const stands_still = text('Time is stopped.', '世界は止まっています。');
 export const stands_still_hint = text('People and robots move only while time passes.', '時間を進めている間だけ、人もロボットも動きます。');
 export const pass = text_of((seconds: string) => [`${seconds} s`, `${seconds} 秒`]);
-export const pass_label = text_of((seconds: number) => [seconds === 1 ? 'Let 1 second pass' : `Let ${seconds} seconds pass`, `${seconds} 秒進める`]);
+export const pass_label = text_of((seconds: number) => [
+  seconds === 1 ? 'Let 1 second pass' : `Let ${seconds} seconds pass`,
+  `${seconds} 秒進める`,
+]);
 export const flow = text('Let time run', '流す');
 export const halt = text('Halt', '止める');
 

@@ -62,6 +62,15 @@ describe('modules', () => {
     expect(wrong).toEqual([]);
   });
 
+  test('of panels and forms import widgets from ui/index.ts', () => {
+    const rooms = ['forms', ...modules.filter((one) => one.endsWith('/panel.tsx')).map(room_of)];
+    const wrong = modules.filter((one) => rooms.includes(room_of(one))).flatMap((module) => {
+      const parts = imports.get(module)!.filter((used) => room_of(used) === 'ui' && used !== 'ui/index.ts');
+      return parts.map((used) => `${module} imports ${used}`);
+    });
+    expect(wrong).toEqual([]);
+  });
+
   test('have no import cycle, not even of types; nor have rooms', () => {
     const rooms = new Map<string, string[]>();
     for (const [module, used] of imports) {

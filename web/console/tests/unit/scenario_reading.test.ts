@@ -7,9 +7,13 @@ import { language } from '../../src/i18n/i18n';
 import { graph_of, label_of_edge } from '../../src/scenario/graph';
 import { layout_of } from '../../src/scenario/layout';
 import { read_scenario } from '../../src/scenario/read';
-import { moved, node_of, nodes_in, plain_lines, read_source, with_attribute, with_child, with_state_renamed, with_text, without } from '../../src/scenario/source';
+import { moved, type Node, nodes_in, plain_lines, read_source, with_attribute, with_child, with_state_renamed, with_text, without } from '../../src/scenario/source';
 
 const reception = readFileSync(new URL('../../../../client-cpp/scenarios/reception.xml', import.meta.url), 'utf8');
+
+function node_of(root: Node, path: string): Node | undefined {
+  return [...nodes_in(root)].find((one) => one.path === path);
+}
 
 function scenario_with(states: string, start = 'a'): string {
   return `<robot_scenario xmlns='urn:x-rois:scenario:1' start='${start}'>\n<component name='move'/>\n<variable name='x'/>\n${states}\n</robot_scenario>\n`;

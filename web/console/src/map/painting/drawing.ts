@@ -108,7 +108,8 @@ export class Drawing {
   // Keeps the target visible when its card shrinks the canvas.
   private keep_target(): void {
     const { view, target } = this.session.interaction.peek();
-    if (view && target) this.session.interaction.value = { ...this.session.interaction.peek(), view: with_point(view, this.size, target, target_edge) };
+    if (view && target)
+      this.session.interaction.value = { ...this.session.interaction.peek(), view: with_point(view, this.size, target, target_edge) };
   }
 
   /** If true (reduced motion), draws new positions at once, without animation. */
@@ -198,8 +199,12 @@ export class Drawing {
     const now = this.console.environment.now();
     const { shown } = this.session.scene();
     const { age_text } = this.tools;
-    const is_same = (one: Shown, before: Shown | undefined) => one.key === before?.key && one.freshness === before.freshness && label_of(one, age_text) === label_of(before, age_text);
-    return shown.length !== this.shown.length || shown.some((one, i) => !is_same(one, this.shown[i]) || this.glide.is_news(one.key, received_pose(one), now, this.slack_of(one)));
+    const is_same = (one: Shown, before: Shown | undefined) =>
+      one.key === before?.key && one.freshness === before.freshness && label_of(one, age_text) === label_of(before, age_text);
+    return (
+      shown.length !== this.shown.length ||
+      shown.some((one, i) => !is_same(one, this.shown[i]) || this.glide.is_news(one.key, received_pose(one), now, this.slack_of(one)))
+    );
   }
 
   // Robot positions are polled and so have noise. Persons are reported only when they move.

@@ -52,11 +52,7 @@ function draw_person(pen: Pen, { th, freshness, identity }: Shown, at: Point, ra
   const alpha = /gone|old|unknown/.test(freshness) ? 0 : identity ? 1 : 0.45;
   pen.turned(at, th ?? 0, () => {
     if (th !== undefined) {
-      context.beginPath();
-      context.moveTo(radius * 1.55, 0);
-      context.lineTo(radius * 0.75, -radius * 0.42);
-      context.lineTo(radius * 0.75, radius * 0.42);
-      context.closePath();
+      pen.arrow(radius * 1.55, radius * 0.8, radius * 0.42);
       pen.fill(style, freshness === 'gone' ? 0.5 : 1);
     }
     context.beginPath();

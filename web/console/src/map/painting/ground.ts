@@ -15,7 +15,16 @@ export interface Layers {
   names: boolean;
 }
 
-export const all_layers: Layers = { grid: true, places: true, frames: true, trails: true, certainty: true, faces: true, sounds: true, names: true };
+export const all_layers: Layers = {
+  grid: true,
+  places: true,
+  frames: true,
+  trails: true,
+  certainty: true,
+  faces: true,
+  sounds: true,
+  names: true,
+};
 
 const least_cell = 22; // px
 const wall_width = 90; // mm
@@ -67,7 +76,7 @@ export function short_name(crs: string): string {
 }
 
 /** Width of a grid cell in mm. */
-export function grid_step(scale: number): number {
+function grid_step(scale: number): number {
   return round_step(least_cell / scale);
 }
 
@@ -139,11 +148,7 @@ function draw_place(pen: Pen, place: Place, names: Name[] | undefined): void {
   const { context, palette } = pen;
   const at = pen.at(place);
   pen.turned(at, place.heading, () => {
-    context.beginPath();
-    context.moveTo(11, 0);
-    context.lineTo(4, -3.5);
-    context.lineTo(4, 3.5);
-    context.closePath();
+    pen.arrow(11, 7, 3.5);
     pen.fill(palette.soft);
   });
   pen.circle(at, 3.5);
@@ -173,7 +178,12 @@ export function name_box(pen: Pen, place: Place, width: number): { x: number; y:
 export function frame_box(pen: Pen, frame: Axes, width: number): { x: number; y: number; width: number; height: number } {
   const at = pen.at(frame);
   const room = pen.size.width - 8 - width;
-  return { x: at.x > pen.size.width ? at.x + 8 : Math.min(at.x + 8, room), y: at.y + 12 < pen.size.height - 6 ? at.y + 4 : at.y - 20, width, height: 16 };
+  return {
+    x: at.x > pen.size.width ? at.x + 8 : Math.min(at.x + 8, room),
+    y: at.y + 12 < pen.size.height - 6 ? at.y + 4 : at.y - 20,
+    width,
+    height: 16,
+  };
 }
 
 function draw_axes(pen: Pen, frame: Axes): void {
@@ -183,11 +193,7 @@ function draw_axes(pen: Pen, frame: Axes): void {
     pen.turned(at, frame.heading + turn, () => {
       pen.line({ x: 0, y: 0 }, { x: 30, y: 0 });
       pen.stroke(palette.ink, 1.5, 0.75);
-      context.beginPath();
-      context.moveTo(36, 0);
-      context.lineTo(29, -3.5);
-      context.lineTo(29, 3.5);
-      context.closePath();
+      pen.arrow(36, 7, 3.5);
       pen.fill(palette.ink, 0.75);
     });
     const angle = ((frame.heading + turn) * Math.PI) / 180;
@@ -195,7 +201,12 @@ function draw_axes(pen: Pen, frame: Axes): void {
     context.textBaseline = 'middle';
     // Beside its arrow, on the inner side: a wall may lie along the outer side.
     const [along, beside] = [36, 10 * side];
-    pen.text(letter, { x: at.x + along * Math.cos(angle) - beside * Math.sin(angle), y: at.y - along * Math.sin(angle) - beside * Math.cos(angle) }, palette.soft, 'center');
+    pen.text(
+      letter,
+      { x: at.x + along * Math.cos(angle) - beside * Math.sin(angle), y: at.y - along * Math.sin(angle) - beside * Math.cos(angle) },
+      palette.soft,
+      'center',
+    );
   }
   pen.circle(at, 2.5);
   pen.fill(palette.ink, 0.75);

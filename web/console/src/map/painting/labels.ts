@@ -60,5 +60,8 @@ function place_at({ at, width, radius }: Label, side: Side): Place {
 
 function is_free(one: Place, taken: readonly Place[], size: Size): boolean {
   if (one.x < 0 || one.y < 0 || one.x + one.width > size.width || one.y + one.height > size.height) return false;
-  return !taken.some((other) => one.x < other.x + other.width && other.x < one.x + one.width && one.y < other.y + other.height && other.y < one.y + one.height);
+  return !taken.some(
+    (other) =>
+      one.x < other.x + other.width && other.x < one.x + one.width && one.y < other.y + other.height && other.y < one.y + one.height,
+  );
 }

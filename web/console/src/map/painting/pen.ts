@@ -31,6 +31,15 @@ export class Pen {
     this.context.lineTo(to.x, to.y);
   }
 
+  /** A triangle on the x axis that points along it. Its base is `length` before the tip. */
+  arrow(tip: number, length: number, half_width: number): void {
+    this.context.beginPath();
+    this.context.moveTo(tip, 0);
+    this.context.lineTo(tip - length, -half_width);
+    this.context.lineTo(tip - length, half_width);
+    this.context.closePath();
+  }
+
   /** Draws with the origin at a screen point and x in a direction of the floor in degrees. */
   turned({ x, y }: Point, degrees: number, draw: () => void): void {
     this.context.save();

@@ -91,11 +91,7 @@ function arrow(pen: Pen, at: Point, th: number, from: number, to: number, style:
   pen.turned(at, th, () => {
     pen.line({ x: from, y: 0 }, { x: to - 6, y: 0 });
     pen.stroke(style, 2, alpha);
-    pen.context.beginPath();
-    pen.context.moveTo(to, 0);
-    pen.context.lineTo(to - 8, -4.5);
-    pen.context.lineTo(to - 8, 4.5);
-    pen.context.closePath();
+    pen.arrow(to, 8, 4.5);
     pen.fill(style, alpha);
   });
 }
@@ -148,7 +144,12 @@ export function label_of({ name, freshness, age }: Shown, age_text: (ms: number)
   return freshness === 'live' ? name : `${name} · ${age_text(age)}`;
 }
 
-function draw_names(pen: Pen, { chosen, hovered, age_text, places: named, frames, layers }: Picture, seen: readonly [Shown, FloorPose, Point][], labels: Labels): void {
+function draw_names(
+  pen: Pen,
+  { chosen, hovered, age_text, places: named, frames, layers }: Picture,
+  seen: readonly [Shown, FloorPose, Point][],
+  labels: Labels,
+): void {
   const { context, palette, size } = pen;
   context.font = palette.font;
   context.textBaseline = 'middle';
@@ -159,7 +160,13 @@ function draw_names(pen: Pen, { chosen, hovered, age_text, places: named, frames
     if (one.kind !== 'robot' && one.kind !== 'person' && !is_marked) continue;
     const text = label_of(one, age_text);
     texts.set(one.key, text);
-    wanted.push({ key: one.key, width: Math.ceil(width_of(pen, text)) + 10, at, radius: radius_of(pen, one) * 1.3, must: is_marked || one.kind === 'robot' });
+    wanted.push({
+      key: one.key,
+      width: Math.ceil(width_of(pen, text)) + 10,
+      at,
+      radius: radius_of(pen, one) * 1.3,
+      must: is_marked || one.kind === 'robot',
+    });
   }
   wanted.sort((a, b) => Number(b.must) - Number(a.must));
   const taken = layers.places ? named.map((place) => name_box(pen, place, width_of(pen, place_name(place)))) : [];
@@ -173,7 +180,11 @@ function draw_names(pen: Pen, { chosen, hovered, age_text, places: named, frames
     context.roundRect(place.x, place.y, place.width, place.height, 4);
     pen.fill(palette.panel, 0.82);
     if (one.key === chosen) pen.stroke(palette.accent, 1);
-    pen.text(texts.get(one.key)!, { x: place.x + 5, y: place.y + place.height / 2 + 1 }, one.freshness === 'live' ? palette.ink : palette.soft);
+    pen.text(
+      texts.get(one.key)!,
+      { x: place.x + 5, y: place.y + place.height / 2 + 1 },
+      one.freshness === 'live' ? palette.ink : palette.soft,
+    );
   }
 }
 

@@ -28,9 +28,9 @@ export class Trails {
   /** Whether a drawn part must be removed. */
   is_stale(shown: readonly Shown[]): boolean {
     if (this.drawn.size === 0) return false;
-    const those = new Map(shown.map((one) => [one.key, one]));
+    const by_key = new Map(shown.map((one) => [one.key, one]));
     for (const [key, { ring, from }] of this.drawn) {
-      const one = those.get(key);
+      const one = by_key.get(key);
       if (!one || one.thing.trail !== ring || oldest(one) - from > overhang) return true;
     }
     return false;

@@ -1,4 +1,5 @@
-// Stop for everything: whether all robots are stopped, by any session, and the operations to stop and clear. Works without a session and a link.
+// Stop for everything: whether all robots are stopped, by any session, and the operations to stop and clear. Works without a session
+// and a link.
 import { computed, effect, signal } from '@preact/signals';
 import { read_stop_state } from 'rois-client';
 

@@ -22,8 +22,8 @@ export class Scrape {
     samples: Sample[] = [],
   ) {
     for (const sample of samples) {
-      const those = this.by_name.get(sample.name);
-      if (those) those.push(sample);
+      const earlier = this.by_name.get(sample.name);
+      if (earlier) earlier.push(sample);
       else this.by_name.set(sample.name, [sample]);
     }
   }
@@ -34,8 +34,8 @@ export class Scrape {
 
   /** The sum of the samples with these labels; undefined if there are none. */
   value(name: string, labels: Record<string, string> = {}): number | undefined {
-    const those = this.all(name).filter((one) => Object.entries(labels).every(([key, text]) => one.labels[key] === text));
-    return those.length === 0 ? undefined : those.reduce((sum, one) => sum + one.value, 0);
+    const samples = this.all(name).filter((one) => Object.entries(labels).every(([key, text]) => one.labels[key] === text));
+    return samples.length === 0 ? undefined : samples.reduce((sum, one) => sum + one.value, 0);
   }
 }
 
@@ -48,7 +48,12 @@ export class MetricsState {
   readonly history = new Ring<Scrape>(120);
   /** Bound components by ref, with the session's number. */
   readonly bound = computed<ReadonlyMap<string, string>>(
-    () => new Map((this.latest.value?.all('rois_component_bound') ?? []).filter((one) => one.value > 0).map((one) => [one.labels['component_ref'] ?? '', one.labels['session'] ?? ''])),
+    () =>
+      new Map(
+        (this.latest.value?.all('rois_component_bound') ?? [])
+          .filter((one) => one.value > 0)
+          .map((one) => [one.labels['component_ref'] ?? '', one.labels['session'] ?? '']),
+      ),
   );
   readonly poll: Poll;
 
@@ -94,7 +99,8 @@ export function read_metrics(text: string): Sample[] {
     const found = one.startsWith('#') ? null : line.exec(one.trim());
     if (!found) continue;
     const labels: Record<string, string> = {};
-    for (const [, name, value] of (found[2] ?? '').matchAll(label)) labels[name!] = value!.replace(/\\(.)/g, (_, c: string) => (c === 'n' ? '\n' : c));
+    for (const [, name, value] of (found[2] ?? '').matchAll(label))
+      labels[name!] = value!.replace(/\\(.)/g, (_, c: string) => (c === 'n' ? '\n' : c));
     samples.push({ name: found[1]!, labels, value: number_of(found[3]!) });
   }
   return samples;

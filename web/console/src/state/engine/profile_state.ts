@@ -44,7 +44,12 @@ const own_profiles: ComponentProfile[] = [
     parameters: [],
     messages: [
       ...['start', 'stop', 'suspend', 'resume'].map((name): MessageProfile => ({ kind: 'command', name, results: [], arguments: [] })),
-      { kind: 'query', name: 'component_status', arguments: [], results: [{ name: 'status', data_type_ref: { code: 'Component_Status' } }] },
+      {
+        kind: 'query',
+        name: 'component_status',
+        arguments: [],
+        results: [{ name: 'status', data_type_ref: { code: 'Component_Status' } }],
+      },
     ],
   },
 ];
@@ -69,7 +74,10 @@ export class ProfileState {
   /** Whether a component works on after `start` has completed: it detects, localizes, identifies, recognizes or streams. */
   lasts(ref: string): boolean {
     const view = this.component(ref);
-    return view !== undefined && [view.type, ...view.includes].some((urn) => /(Detection|Localization|Identification|Recognition|Streaming)$/i.test(urn));
+    return (
+      view !== undefined &&
+      [view.type, ...view.includes].some((urn) => /(Detection|Localization|Identification|Recognition|Streaming)$/i.test(urn))
+    );
   }
 
   /** Components of a type, by URN or its last part, case-insensitive. Included profiles count. */
@@ -95,7 +103,7 @@ export class ProfileState {
 }
 
 /** `Navigation` for `urn:x-rois:def:component:OMG::Navigation`. */
-export function type_name(urn: string): string {
+function type_name(urn: string): string {
   return urn.slice(urn.lastIndexOf(':') + 1);
 }
 

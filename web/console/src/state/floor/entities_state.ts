@@ -12,7 +12,7 @@ const same_event = 500; // ms between two notifications of one event
 const same_place = 1000; // mm: an identified person at the place of a tracked one is the same person
 
 /** The event types used; the last one reports when there are no persons. */
-export const entity_events = ['person_localized', 'face_localized', 'sound_localized', 'person_identified', 'person_detected'];
+const entity_events = ['person_localized', 'face_localized', 'sound_localized', 'person_identified', 'person_detected'];
 
 export class EntitiesState {
   /** By kind and ref: `person person-1`. Entries change in place: read `pulse.beat.value` first. */
@@ -90,7 +90,8 @@ export class EntitiesState {
   // An event without results: something moved, came or left, but which is unknown. The same event may arrive again with results.
   private without_results(kind: Entity['kind'], component: string): void {
     const now = this.environment.now();
-    for (const entity of this.all.values()) if (entity.component === component && entity.kind === kind && now - entity.at > same_event) entity.unknown_since ??= now;
+    for (const entity of this.all.values())
+      if (entity.component === component && entity.kind === kind && now - entity.at > same_event) entity.unknown_since ??= now;
     this.pulse.touch();
   }
 
@@ -102,13 +103,18 @@ export class EntitiesState {
     const seen = new Set<string>();
     for (const located of located_in(event.results, `${kind}_ref`)) {
       const key = `${kind} ${located.ref}`;
-      const entity = placed(this.all.get(key), located, { codebook, component, at }, (thing): Entity => ({ ...thing, kind, is_seen: true }));
+      const entity = placed(this.all.get(key), located, { codebook, component, at }, (thing): Entity => ({
+        ...thing,
+        kind,
+        is_seen: true,
+      }));
       entity.is_seen = true;
       delete entity.unknown_since;
       seen.add(key);
       this.all.set(key, entity);
     }
-    for (const [key, entity] of this.all) if (entity.component === component && entity.kind === kind && !seen.has(key)) entity.is_seen = false;
+    for (const [key, entity] of this.all)
+      if (entity.component === component && entity.kind === kind && !seen.has(key)) entity.is_seen = false;
     for (const key of this.all.keys()) {
       if (this.all.size <= most_entities) break;
       this.all.delete(key);

@@ -37,7 +37,10 @@ export function out_of(frame: RobotFrame, pose: FloorPose): FloorPose {
   return placed;
 }
 
-/** The frame with this name: `undefined` for the map's own frame, `unknown` for one without a known position. Names are case-insensitive. */
+/**
+ * The frame with this name: `undefined` for the map's own frame, `unknown` for one without a known position. Names are
+ * case-insensitive.
+ */
 export function frame_named(map: FloorMap | undefined, crs: string): RobotFrame | undefined | 'unknown' {
   const is = (name: string) => name.toLowerCase() === crs.toLowerCase();
   if (!map || crs === '' || is(map.crs)) return undefined;
@@ -53,7 +56,8 @@ export function on_map(map: FloorMap | undefined, crs: string, pose: FloorPose):
 export function obstacle_at(map: FloorMap | undefined, { x, y }: Point, radius: number): 'outside' | 'furniture' | 'wall' | undefined {
   if (!map) return undefined;
   const { bounds } = map;
-  if (x - radius < bounds.x || y - radius < bounds.y || x + radius > bounds.x + bounds.width || y + radius > bounds.y + bounds.depth) return 'outside';
+  if (x - radius < bounds.x || y - radius < bounds.y || x + radius > bounds.x + bounds.width || y + radius > bounds.y + bounds.depth)
+    return 'outside';
   if (map.furniture.some((one) => distance({ x, y }, nearest_of(one, { x, y })) < radius)) return 'furniture';
   const near_wall = map.walls.some(({ x1, y1, x2, y2 }) => {
     const length = (x2 - x1) ** 2 + (y2 - y1) ** 2;

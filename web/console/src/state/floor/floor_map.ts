@@ -96,6 +96,7 @@ function bounds_of(from: XmlElement): Bounds {
 function robot_of(from: XmlElement): MapRobot {
   const frame = from.child('frame');
   const robot: MapRobot = { name: from.attribute('name') ?? '', radius: number(from, 'radius') };
-  if (frame) robot.frame = { crs: frame.attribute('crs') ?? '', x: number(frame, 'x'), y: number(frame, 'y'), heading: number(frame, 'heading') };
+  if (frame)
+    robot.frame = { crs: frame.attribute('crs') ?? '', x: number(frame, 'x'), y: number(frame, 'y'), heading: number(frame, 'heading') };
   return robot;
 }

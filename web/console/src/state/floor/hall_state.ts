@@ -97,14 +97,18 @@ export class HallState {
   /** The visitor's open commands, oldest first. */
   orders_of(ref: string): CommandEntry[] {
     const hall = this.component.value?.ref;
-    return this.parts.commands.open().filter((one) => one.component === hall && one.arguments.some(({ name, values }) => name === 'visitor_ref' && values[0] === ref));
+    return this.parts.commands
+      .open()
+      .filter((one) => one.component === hall && one.arguments.some(({ name, values }) => name === 'visitor_ref' && values[0] === ref));
   }
 
   /** The visitors who wait for the entrance to be free. */
   awaited(): string[] {
     const hall = this.component.value?.ref;
     const enters = this.parts.commands.open().filter((one) => one.component === hall && one.command_type === 'enter');
-    return enters.flatMap((one) => one.arguments.find(({ name }) => name === 'visitor_ref')?.values ?? []).filter((ref) => !this.visitors.has(ref));
+    return enters
+      .flatMap((one) => one.arguments.find(({ name }) => name === 'visitor_ref')?.values ?? [])
+      .filter((ref) => !this.visitors.has(ref));
   }
 
   is_taken(ref: string): boolean {
@@ -144,8 +148,14 @@ export class HallState {
     this.visitors.clear();
     refs.forEach((ref, i) => {
       const now = { ref, ...(places[i] ?? { x: 0, y: 0, th: 0 }), known: is(known[i]), steered: is(steered[i]) };
-      const then = before.get(ref);
-      changed ||= !then || then.x !== now.x || then.y !== now.y || then.th !== now.th || then.known !== now.known || then.steered !== now.steered;
+      const previous = before.get(ref);
+      changed ||=
+        !previous ||
+        previous.x !== now.x ||
+        previous.y !== now.y ||
+        previous.th !== now.th ||
+        previous.known !== now.known ||
+        previous.steered !== now.steered;
       this.visitors.set(ref, now);
     });
     this.reported_at = this.environment.now();

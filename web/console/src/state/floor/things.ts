@@ -22,7 +22,6 @@ export interface Thing {
   z: number;
   th?: number; // degrees counter-clockwise, if known
   covariance?: number[]; // as in `Located`
-  reliability?: number; // 0 to 1
   at: number; // ms since 1970
   trail: Ring<TrailPoint>;
 }
@@ -46,7 +45,12 @@ const trail_step = 50; // mm between two points
 const gap = { ms: 2000, mm: 700 }; // no report for this time and then a jump of this distance begins a new trail
 
 /** Updates the position of a thing, or creates it. */
-export function placed<T extends Thing>(known: T | undefined, located: Located, report: { codebook: string; component: string; at: number }, make: (thing: Thing) => T): T {
+export function placed<T extends Thing>(
+  known: T | undefined,
+  located: Located,
+  report: { codebook: string; component: string; at: number },
+  make: (thing: Thing) => T,
+): T {
   const [x, y, z] = located.position;
   const is_gap = known !== undefined && report.at - known.at > gap.ms && Math.hypot(known.x - x, known.y - y) > gap.mm;
   const thing = known ?? make({ ref: located.ref, crs: located.crs, x, y, z, trail: new Ring(most_points), ...report });
@@ -58,7 +62,6 @@ export function placed<T extends Thing>(known: T | undefined, located: Located, 
   thing.z = z;
   set_or_delete(thing, 'th', located.orientation?.[2]);
   set_or_delete(thing, 'covariance', located.covariance);
-  set_or_delete(thing, 'reliability', located.reliability);
   const last = thing.trail.at(-1);
   if (!last || Math.hypot(last.x - x, last.y - y) >= trail_step) thing.trail.push({ x, y, at: report.at, ...(is_gap && { begins: true }) });
   return thing;

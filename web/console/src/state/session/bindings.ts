@@ -14,7 +14,8 @@ export class Bindings {
   readonly mine = signal<ReadonlySet<string>>(new Set());
   private readonly borrowed = new Map<string, number>(); // bound only for borrowers, with their number
   private readonly kept = new Set<string>();
-  private readonly left = new Map<string, unknown>(); // released components, and the owners known at that time: the metrics may still name this console as the owner
+  // Released components, and the owners known at that time: the metrics may still name this console as the owner.
+  private readonly left = new Map<string, unknown>();
 
   constructor(
     private readonly client: () => Client,

@@ -47,7 +47,8 @@ export function read_recording(text: string): Recording {
   let now = 0;
   const documents = lines.slice(1).map((line, i) => {
     const { at, direction, session = '', document } = object_of(line, i + 2);
-    if (typeof at !== 'number' || typeof document !== 'string') throw new Error(`line ${i + 2}: 'at' (a number) or 'document' (a text) is missing`);
+    if (typeof at !== 'number' || typeof document !== 'string')
+      throw new Error(`line ${i + 2}: 'at' (a number) or 'document' (a text) is missing`);
     if (direction !== 'in' && direction !== 'out') throw new Error(`line ${i + 2}: 'direction' must be "in" or "out"`);
     now = (Number.isNaN(zero) ? 0 : zero) + at * 1000;
     const logged = sessions_log(sessions, String(session), () => now).note(direction as Direction, document);
@@ -65,9 +66,9 @@ function sessions_log(sessions: Map<string, Documents>, session: string, now: ()
   if (known) return known;
   // A log needs only the time.
   const world = { now, precise: now } as Partial<Environment> as Environment;
-  const made = new Documents(world, { most: 1, most_bytes: Infinity });
-  sessions.set(session, made);
-  return made;
+  const documents = new Documents(world, { most: 1, most_bytes: Infinity });
+  sessions.set(session, documents);
+  return documents;
 }
 
 /** Undefined if it is not JSON. */

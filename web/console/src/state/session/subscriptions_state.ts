@@ -1,6 +1,17 @@
 // The subscriptions of this session.
 import { signal } from '@preact/signals';
-import { type Client, condition_xml, not, parse_xml, property, type ReceiveEvent, type SubscribeOptions, type Subscription, text_element, request } from 'rois-client';
+import {
+  type Client,
+  condition_xml,
+  not,
+  parse_xml,
+  property,
+  type ReceiveEvent,
+  type SubscribeOptions,
+  type Subscription,
+  text_element,
+  request,
+} from 'rois-client';
 
 import type { Environment } from '../base/environment';
 import type { LoggedDocument } from './document_log';
@@ -43,21 +54,23 @@ export class SubscriptionsState {
 
   /** Whether only the console itself uses it. Equal subscriptions share an id. */
   is_own(id: string): boolean {
-    const those = this.held_as(id);
-    return those.length > 0 && those.every(([, { is_own }]) => is_own);
+    const subscriptions = this.held_as(id);
+    return subscriptions.length > 0 && subscriptions.every(([, { is_own }]) => is_own);
   }
 
   /** Whether the console's own subscription to this type delivers results. */
   has_own_results(event_type: string): boolean {
-    return [...this.held].some(([one, { is_own }]) => is_own && one.wanted.event_type === event_type && this.all.value.get(one.subscribe_id)?.inline_results);
+    return [...this.held].some(
+      ([one, { is_own }]) => is_own && one.wanted.event_type === event_type && this.all.value.get(one.subscribe_id)?.inline_results,
+    );
   }
 
   /** Ends the user's subscription. The console keeps its own. */
   async unsubscribe(id: string): Promise<void> {
-    const those = this.held_as(id).filter(([, { is_own }]) => !is_own);
-    if (those.length === 0) return void (await this.client().send(request('unsubscribe', {}, text_element('subscribe_id', id))));
-    for (const [one] of those) this.held.delete(one);
-    await Promise.all(those.map(([one]) => one.close()));
+    const subscriptions = this.held_as(id).filter(([, { is_own }]) => !is_own);
+    if (subscriptions.length === 0) return void (await this.client().send(request('unsubscribe', {}, text_element('subscribe_id', id))));
+    for (const [one] of subscriptions) this.held.delete(one);
+    await Promise.all(subscriptions.map(([one]) => one.close()));
     this.all.value = new Map(this.all.value);
   }
 
@@ -70,7 +83,15 @@ export class SubscriptionsState {
       const condition = /<(?:[\w.-]+:)?condition>([^]*)<\/(?:[\w.-]+:)?condition>/.exec(asked.text)?.[1] ?? '';
       const before = this.all.value.get(id);
       const inline_results = /^(true|1)$/.test(wanted.attribute('inline_results') ?? '');
-      const entry = { id, event_type: wanted.text_of('event_type'), condition, inline_results, since: at, count: 0, ...(before && { count: before.count, since: before.since }) };
+      const entry = {
+        id,
+        event_type: wanted.text_of('event_type'),
+        condition,
+        inline_results,
+        since: at,
+        count: 0,
+        ...(before && { count: before.count, since: before.since }),
+      };
       this.all.value = new Map([...this.all.value, [id, entry]]);
       if (!inline_results) this.want_results(id);
     }
@@ -103,7 +124,11 @@ export class SubscriptionsState {
   private want_results(id: string): void {
     const own = this.own_as(id);
     if (!own) return;
-    const text = request('subscribe', { inline_results: true }, text_element('event_type', own.wanted.event_type) + condition_xml(own_condition));
+    const text = request(
+      'subscribe',
+      { inline_results: true },
+      text_element('event_type', own.wanted.event_type) + condition_xml(own_condition),
+    );
     this.documents.as_own(() => this.client().send(text)).catch(() => undefined); // shown by the map's badge
   }
 

@@ -56,7 +56,8 @@ export class Traffic {
       if (second.tooks.length < most_tooks) second.tooks.push(took);
       if (took > (second.slowest?.took ?? -1)) second.slowest = document;
     }
-    if (!is_own && (kind === 'fault' || (kind === 'answer' && return_code !== undefined && return_code !== 'OK'))) this.refused.push(document);
+    if (!is_own && (kind === 'fault' || (kind === 'answer' && return_code !== undefined && return_code !== 'OK')))
+      this.refused.push(document);
   }
 
   private second_of(at: number): Second {

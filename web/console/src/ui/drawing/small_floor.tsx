@@ -26,7 +26,11 @@ export function SmallFloor({ svg, bounds, map, children, ...more }: SmallFloorPr
           {!map && metres(x, width).map((at) => <line key={at} class="floor-grid" x1={at} x2={at} y1={y} y2={y + depth} />)}
           {!map && metres(y, depth).map((at) => <line key={at} class="floor-grid" x1={x} x2={x + width} y1={at} y2={at} />)}
         </g>
-        {map?.places.map((one) => <text key={one.name} class="floor-place-name" x={one.x} y={-one.y + 110}>{one.name.replaceAll('_', ' ')}</text>)}
+        {map?.places.map((one) => (
+          <text key={one.name} class="floor-place-name" x={one.x} y={-one.y + 110}>
+            {one.name.replaceAll('_', ' ')}
+          </text>
+        ))}
       </g>
       {children}
     </svg>

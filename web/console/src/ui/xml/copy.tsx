@@ -32,7 +32,8 @@ export function CopyButton({ text, label, ...rest }: CopyProps) {
 /** Copies a request as a curl line. It contains the session id: anyone with it can act as this console. */
 export function CurlButton({ request, ...rest }: Omit<CopyProps, 'text' | 'label'> & { request: string }) {
   const console = useConsole();
-  const line = () => curl_of(request, { origin: console.environment.origin, session: console.link.session.value, token: console.current_token });
+  const line = () =>
+    curl_of(request, { origin: console.environment.origin, session: console.link.session.value, token: console.current_token });
   return <CopyButton {...rest} text={line} label={texts.copy_as_curl()} />;
 }
 
