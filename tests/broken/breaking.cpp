@@ -35,16 +35,17 @@ std::string response(std::string const& request, std::string const& return_code,
            return_code + "\"" + (id.empty() ? "" : " request_id=\"" + id + "\"") + ">" + children + "</" + name + ">";
 }
 
-Breaking says(std::string const& operation, std::string const& due, std::string const& return_code, std::string const& children) {
+Breaking answers_with(std::string const& operation, std::string const& expected, std::string const& return_code,
+                      std::string const& children) {
     return {.answer = [=](std::string const& request, std::string const& answer, ProxiedConnection&) -> Documents {
-        bool const is_due = answer.find("return_code=\"" + due + "\"") != std::string::npos ||
-                            answer.find("code=\"" + due + "\"") != std::string::npos;
-        if (!is(request, operation) || !is_due) return {answer};
+        bool const is_expected = answer.find("return_code=\"" + expected + "\"") != std::string::npos ||
+                                 answer.find("code=\"" + expected + "\"") != std::string::npos;
+        if (!is(request, operation) || !is_expected) return {answer};
         return {response(request, return_code, children)};
     }};
 }
 
-Breaking does_nothing_at(std::string const& operation) {
+Breaking ignores_operation(std::string const& operation) {
     return {.instead = [=](std::string const& request) -> Documents {
         if (!is(request, operation)) return {};
         return {response(request, "OK")};

@@ -31,7 +31,7 @@ Edit retyped(std::string const& component, std::string const& type, std::string 
     });
 }
 
-// The ids of the commands of this type in an answer of execute.
+// Returns the ids of the commands of this type in an answer of execute.
 std::set<std::string> ids_in(std::string const& document, std::string const& component, std::string const& type) {
     std::set<std::string> ids;
     edited(document, in_commands(component, [&](pugi::xml_node command) {
@@ -101,7 +101,7 @@ Breaking pretends_to_suspend(std::string const& component) {
 
 Breaking pretends_to_stop(std::string const& component) {
     struct State {
-        bool stops = false;  // the request to answer
+        bool stops = false;  // the current request contains a stop
         std::string start;
         std::set<std::string> pretended, over;
     };
@@ -135,11 +135,11 @@ Breaking pretends_to_stop(std::string const& component) {
 Breaking completes_at_once(std::string const& component) {
     auto const over = std::make_shared<std::set<std::string>>();
     return {.answer = [=](std::string const& request, std::string const& answer, ProxiedConnection&) -> Documents {
-                Documents said{answer};
-                if (!is(request, "execute")) return said;
+                Documents sent{answer};
+                if (!is(request, "execute")) return sent;
                 for (auto const& id : ids_in(answer, component, "start"))
-                    if (over->insert(id).second) said.push_back(completed(id, "OK"));
-                return said;
+                    if (over->insert(id).second) sent.push_back(completed(id, "OK"));
+                return sent;
             },
             .notification = [=](std::string const& notification) -> Documents {
                 if (over->contains(completed_id(notification))) return {};
@@ -147,24 +147,24 @@ Breaking completes_at_once(std::string const& component) {
             }};
 }
 
-// Delays until the next answer after that time.
+// Holds `completed` back until the next answer after five seconds.
 Breaking completes_late(std::string const& component) {
     constexpr std::chrono::seconds late{5};
     struct State {
         std::set<std::string> starts;
         std::string held;
-        Clock::time_point due;
+        Clock::time_point deadline;
     };
     auto const state = std::make_shared<State>();
     return {.answer = [=](std::string const& request, std::string const& answer, ProxiedConnection&) -> Documents {
                 if (is(request, "execute")) state->starts.merge(ids_in(answer, component, "start"));
-                if (state->held.empty() || Clock::now() < state->due) return {answer};
+                if (state->held.empty() || Clock::now() < state->deadline) return {answer};
                 return {answer, std::exchange(state->held, "")};
             },
             .notification = [=](std::string const& notification) -> Documents {
                 if (!state->starts.contains(completed_id(notification))) return {notification};
                 state->held = notification;
-                state->due = Clock::now() + late;
+                state->deadline = Clock::now() + late;
                 return {};
             }};
 }

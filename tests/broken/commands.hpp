@@ -1,5 +1,5 @@
-// Ways to break the commands of one component. The end of a ref names the component: "navigation" is that of every
-// robot.
+// Functions that break the commands of one component. `component` is the end of a ref: "navigation" selects the navigation of
+// every robot.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ namespace rois::broken {
 
 using Values = std::vector<std::string>;
 
-// Each command of the component in a request of execute.
+// Edits each command of the component in requests of execute.
 Breaking edits_commands(std::string const& component, Edit const&);
 // Returns the argument with this name, if the command has it.
 pugi::xml_node argument_of(pugi::xml_node command, std::string const& name);
@@ -20,13 +20,13 @@ Breaking edits_arguments(std::string const& component, std::string const& name, 
 Breaking drops_argument(std::string const& component, std::string const& name);
 // Performs another operation instead of `type`.
 Breaking replaces_command(std::string const& component, std::string const& type, std::string const& instead);
-// suspend and resume complete with OK and do nothing.
+// suspend and resume complete with OK and have no effect.
 Breaking pretends_to_suspend(std::string const& component);
 // stop completes with OK, and the start before it with ABORT; the action continues.
 Breaking pretends_to_stop(std::string const& component);
 // start completes with OK once the gateway has accepted it.
 Breaking completes_at_once(std::string const& component);
-// start completes some seconds after its end.
+// start completes five seconds after its end.
 Breaking completes_late(std::string const& component);
 
 }  // namespace rois::broken

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view attribute = " sequence=\"";
 
-// Where the number begins in the start tag of the root; npos if it has none.
+// Returns the offset of the sequence number in the root's start tag, or npos if it has none.
 std::size_t place_of_sequence(std::string const& document) {
     auto const found = document.find(attribute);
     return found == std::string::npos || found > document.find('>') ? std::string::npos : found + attribute.size();

@@ -12,7 +12,7 @@ namespace rois::broken {
 struct Frame {
     kit::FrameHead head;
     std::string bytes;    // the whole frame, as received
-    std::string payload;  // not masked
+    std::string payload;  // unmasked
 
     bool is_text() const { return head.is_whole() && head.kind() == kit::Kind::text; }
     bool is_masked() const { return head.masked == kit::Masked::yes; }

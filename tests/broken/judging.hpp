@@ -16,17 +16,17 @@ struct Judged {
     std::string text{};
 };
 
-// Prints the text without the checks that held.
+// Prints the report without the checks that held.
 std::ostream& operator<<(std::ostream&, Judged const&);
 
 // Runs rois-conformance with these arguments.
 Judged judge(std::string const& arguments);
 
-// Return the names of the checks that found a broken rule, and of those that passed.
+// Return the names of the checks that found a broken rule, and of the checks that passed.
 std::set<std::string> broken_in(std::string const& report);
 std::set<std::string> held_in(std::string const& report);
 
-// Our gateway with an empty hall, where time passes 20 times as fast unless the settings say otherwise.
+// Our gateway with an empty hall. The simulation runs 20 times as fast as real time, unless the settings change that.
 struct EmptyHall : kit::GatewayProcess {
     explicit EmptyHall(std::vector<std::string> const& settings = {});
 };

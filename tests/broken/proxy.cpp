@@ -60,18 +60,18 @@ public:
         : application_{application}, gateway_{gateway}, breaking_{breaking} {}
 
     void run() {
-        std::thread requests{[this] { take_requests(); }};
-        take_what_is_said();
+        std::thread requests{[this] { forward_requests(); }};
+        forward_answers();
         application_.end();
         requests.join();
     }
 
-    void ask_aside(std::string const& request) override { ask({request, true}); }
+    void send_hidden(std::string const& request) override { ask({request, true}); }
 
 private:
     struct Request {
         std::string document;
-        bool is_aside;
+        bool is_hidden;
     };
 
     void ask(Request request) {
@@ -81,36 +81,38 @@ private:
         gateway_.send(text);
     }
 
-    void say(std::string const& document) { application_.send(whole_frame(kit::Kind::text, document, kit::Masked::no)); }
+    void send_to_application(std::string const& document) {
+        application_.send(whole_frame(kit::Kind::text, document, kit::Masked::no));
+    }
 
-    // Sends documents of the proxy; its notifications are numbered in between those of the gateway.
-    void say_more(Documents const& documents) {
+    // Sends documents that the proxy has added or changed. Notifications among them get the next sequence number.
+    void send_more(Documents const& documents) {
         for (auto const& document : documents) {
             if (sequence_of(document) == 0) {
-                say(document);
+                send_to_application(document);
             } else {
                 ++shift_;
-                say(with_sequence(document, ++last_sequence_));
+                send_to_application(with_sequence(document, ++last_sequence_));
             }
         }
     }
 
-    void take_requests() {
+    void forward_requests() {
         while (auto const frame = read_frame(application_)) {
-            if (!frame->is_text() || !frame->is_masked()) {  // frames that no client may send: the gateway refuses them
+            if (!frame->is_text() || !frame->is_masked()) {  // forwards invalid frames: the gateway must refuse them
                 gateway_.send(frame->bytes);
                 continue;
             }
             std::lock_guard const lock{breaking_mutex_};
             auto const instead = breaking_.instead ? breaking_.instead(frame->payload) : Documents{};
-            say_more(instead);
+            send_more(instead);
             if (!instead.empty()) continue;
             ask({breaking_.request ? breaking_.request(frame->payload) : frame->payload, false});
         }
         gateway_.end();
     }
 
-    void take_what_is_said() {
+    void forward_answers() {
         while (auto const frame = read_frame(gateway_)) {
             std::lock_guard const lock{breaking_mutex_};
             if (!frame->is_text()) {
@@ -132,7 +134,7 @@ private:
             shift_ = sequence - sequence_of(notification) - 1;
         }
         last_sequence_ = sequence_of(notification) + shift_;
-        for (auto const& document : documents) say(document);
+        for (auto const& document : documents) send_to_application(document);
     }
 
     void answer(std::string const& document) {
@@ -144,9 +146,9 @@ private:
                 asked_.pop_front();
             }
         }
-        if (request.is_aside) return;
+        if (request.is_hidden) return;
         if (document.starts_with("<connect_response")) shift_ = last_sequence_ = 0;
-        say_more(breaking_.answer ? breaking_.answer(request.document, document, *this) : Documents{document});
+        send_more(breaking_.answer ? breaking_.answer(request.document, document, *this) : Documents{document});
     }
 
     kit::Socket& application_;
@@ -185,7 +187,7 @@ public:
         }
     }
 
-    void ask_aside(std::string const& request) override {
+    void send_hidden(std::string const& request) override {
         kit::Socket aside{kit::connect_to(port_)};
         write_message(aside, {"POST /rois HTTP/1.1\r\n",
                               {"Host: localhost\r\n", "Content-Type: text/xml\r\n", session_, std::string{length_field} + "\r\n"},
@@ -236,7 +238,7 @@ private:
     std::uint16_t port_;
     kit::Socket gateway_;
     Breaking breaking_;
-    std::string session_;  // its header line
+    std::string session_;  // the header line RoIS-Session
 };
 
 }  // namespace
@@ -257,7 +259,7 @@ void Proxy::accept() {
             try {
                 Connection{application, gateway_, breaking_()}.run();
             } catch (std::runtime_error const&) {
-                // The gateway has gone.
+                // The gateway has closed the connection.
             }
         });
 }

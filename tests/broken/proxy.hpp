@@ -1,4 +1,4 @@
-// A proxy before a gateway that breaks one of its rules. Its clients see a gateway that is wrong in one way.
+// A proxy in front of a gateway. It breaks one rule: its clients see a gateway with one error.
 #pragma once
 
 #include <atomic>
@@ -13,15 +13,15 @@
 
 namespace rois::broken {
 
-// Documents, in order.
+// XML documents, in the order in which they are sent.
 using Documents = std::vector<std::string>;
 
 // The messages between an application and the gateway over one connection.
 class ProxiedConnection {
 public:
     virtual ~ProxiedConnection() = default;
-    // Sends the gateway a request; the application does not receive the answer.
-    virtual void ask_aside(std::string const& request) = 0;
+    // Sends a request to the gateway. The application does not receive the answer.
+    virtual void send_hidden(std::string const& request) = 0;
 };
 
 // An HTTP message: its first line and header lines, each with CR LF, and its body.
@@ -34,9 +34,9 @@ struct Message {
 
 // The changes that the proxy makes on one connection. An empty function changes nothing.
 struct Breaking {
-    // Returns an answer that does not come from the gateway, or nothing to forward the request.
+    // Returns the proxy's own answer, or nothing to forward the request.
     std::function<Documents(std::string const& request)> instead{};
-    // Returns the request for the gateway.
+    // Returns the request to forward.
     std::function<std::string(std::string request)> request{};
     // Returns the documents to send instead of this answer. Over a WebSocket, notifications among them get the next sequence
     // numbers.

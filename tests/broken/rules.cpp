@@ -24,9 +24,9 @@ Settings settings_of(World world) {
         case World::two_robots:
             return {{"--sim-speed", "4", "--floor-plan", ROIS_SOURCE_DIR "/components/simulation/data/two-robots.xml"},
                     " --room 600"};
-        case World::unwell:
+        case World::failed_functions:
             return {{"--start-timeout", "1", "--scenario", data("unwell_functions.xml")}, ""};
-        case World::short_memory:
+        case World::short_expiry:
             return {{"--event-details", "1"}, ""};
     }
     return {};

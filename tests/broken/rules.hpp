@@ -14,25 +14,25 @@ enum class Over { websocket, http };
 
 // Worlds in which a broken rule is observable.
 enum class World {
-    empty_hall,    // 20 times as fast as real time
-    calm_hall,     // three times as fast: a motion takes a while
-    slow_hall,     // in real time
-    visitor,       // who stands
-    strollers,     // visitors who walk
-    two_robots,    // in one hall
-    unwell,        // functions that have failed
-    short_memory,  // details expire after a second
+    empty_hall,        // 20 times as fast as real time
+    calm_hall,         // three times as fast: a motion takes a while
+    slow_hall,         // in real time
+    visitor,           // one standing visitor
+    strollers,         // walking visitors
+    two_robots,        // two robots in one hall
+    failed_functions,  // failed functions
+    short_expiry,      // details of events expire after a second
 };
 
 struct BrokenRule {
     std::string name;      // the wrong behaviour
-    std::string found_by;  // the name of a check of rois-conformance
+    std::string found_by;  // the check of rois-conformance that must detect it
     std::function<Breaking()> breaking;
     Over over = Over::websocket;
     World world = World::empty_hall;
 };
 
-// The settings of the gateway and of rois-conformance for it.
+// The options of the gateway and of rois-conformance in a world.
 struct Settings {
     std::vector<std::string> gateway;
     std::string judge;
@@ -45,12 +45,12 @@ std::vector<BrokenRule> rules_of_information();  // queries, events, profiles
 std::vector<BrokenRule> rules_of_conditions();
 std::vector<BrokenRule> rules_of_http();
 std::vector<BrokenRule> rules_of_gaps();    // missing or empty parts
-std::vector<BrokenRule> rules_of_motion();  // from here on: effects of components in the world
+std::vector<BrokenRule> rules_of_motion();  // from here on: effects of components on robots and people
 std::vector<BrokenRule> rules_of_actions();
 std::vector<BrokenRule> rules_of_people();
 std::vector<BrokenRule> rules_of_systems();
 
-// The rules in parts.
+// A named group of rules.
 struct Part {
     char const* name;
     std::vector<BrokenRule> (*rules)();

@@ -1,4 +1,4 @@
-// Every rule that is broken on purpose is found by rois-conformance.
+// rois-conformance detects every rule that is broken on purpose.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ Judged judge_broken(BrokenRule const& rule) {
     return judged.exit_code == no_such_check ? judge(order) : judged;
 }
 
-// Four at a time: they mostly wait.
+// Runs four checks at a time: they mostly wait.
 std::vector<Judged> judge_all(std::vector<BrokenRule> const& rules) {
     std::vector<Judged> judged(rules.size());
     std::atomic<std::size_t> next = 0;
@@ -50,8 +50,7 @@ std::vector<Judged> judge_all(std::vector<BrokenRule> const& rules) {
     return judged;
 }
 
-// Findings in the worlds of effects come from the broken rule: without one, no check fails, and all effects
-// are observable.
+// Without a broken rule, each check passes in its world: so a failure comes from the broken rule.
 TEST(BrokenRules, AreObservableInTheirWorlds) {
     std::map<std::pair<World, std::string>, BrokenRule> unbroken;
     for (auto const part : all_parts)

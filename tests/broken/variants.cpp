@@ -145,7 +145,7 @@ Edit listing_patterns(Names const& names) {
             };
             for (auto const& [before, after] : names)
                 if (std::regex_match(after, pattern)) add(after);
-            add("no name");  // Or has two operands at least
+            add("no name");  // Or needs at least two operands
             add("no name");
             node.parent().remove_child(node);
         });
@@ -172,8 +172,8 @@ void nest_engines(pugi::xml_node root) {
     add_engine(building, "ground_floor", {building.child("rois:SubProfile")});
 }
 
-// Edits the gateway's documents about itself and the world.
-Breaking says_otherwise(Edit const& edit) {
+// Edits all answers, notifications, profiles and lists of notifications.
+Breaking edits_all_documents(Edit const& edit) {
     return {.answer = [=](std::string const&, std::string const& answer, ProxiedConnection&) -> Documents {
                 return {edited(answer, edit)};
             },
@@ -184,7 +184,7 @@ Breaking says_otherwise(Edit const& edit) {
                 }};
 }
 
-// By their new names.
+// Sorts the refs in an answer of search by their new names.
 void sort(pugi::xml_node search_response, bool falling) {
     auto refs = search_response.child("component_ref_list");
     std::map<std::string, pugi::xml_node> by_name;
@@ -193,7 +193,7 @@ void sort(pugi::xml_node search_response, bool falling) {
 }
 
 Breaking has_names(Names const& names, Edit const& edit) {
-    auto breaking = says_otherwise(edit);
+    auto breaking = edits_all_documents(edit);
     auto const reverse = reversed(names);
     breaking.answer = [=](std::string const& request, std::string const& answer, ProxiedConnection&) -> Documents {
         return {edited(answer, [&](pugi::xml_node root) {
@@ -223,7 +223,7 @@ Breaking has_names(Names const& names, Edit const& edit) {
 }  // namespace
 
 Breaking has_mandatory_parts_only() {
-    auto breaking = says_otherwise(remove_optional);
+    auto breaking = edits_all_documents(remove_optional);
     breaking.instead = [](std::string const& request) -> Documents {
         if (is(request, "subscribe") && request.find(">reached_target<") != std::string::npos)
             return {response(request, "UNSUPPORTED", "<reason>no component has the event reached_target</reason>")};

@@ -8,28 +8,28 @@
 
 namespace rois::broken {
 
-// A gateway that has only what RoIS marks as mandatory: it lacks the optional parameters, results and events, refuses to set
-// them, and knows the Minimum Standard Filter of ISO 19143 alone.
+// A gateway with only the mandatory parts of RoIS. It lacks the optional parameters, results and events, refuses to set them, and
+// supports only the Minimum Standard Filter of ISO 19143.
 Breaking has_mandatory_parts_only();
 
-// New names by the names of our gateway. The new names of one robot's components have the order of the old ones, by which the
-// gateway chooses "the lowest code".
+// Names of our gateway -> new names. The new names of one robot's components must have the same order as the old ones, because
+// the gateway selects "the lowest code".
 using Names = std::map<std::string, std::string>;
 
-// The names of the components of one robot, each with `prefix` before it.
+// Returns the names of the components of one robot: `prefix` and name -> `new_prefix` and name.
 Names component_names(std::string const& prefix, std::string const& new_prefix);
-// Other words for the components of one robot: `drive_unit` for `navigation`.
+// Returns other names for the components of one robot: `drive_unit` for `navigation`.
 Names other_component_names();
 
-// Components and engines have these names. Robots keep their codes unless these are in `names`, too.
+// Renames components and engines. Robots keep their codes, unless `names` contains the codes.
 Breaking has_names(Names const& names);
 
-// Sessions, commands, events and errors have other ids, with characters that must be escaped in XML. Over a WebSocket only: over
-// HTTP, the session stands in a header field, too.
+// Changes the ids of sessions, commands, events and errors: the new ids have characters that must be escaped in XML. Only for
+// WebSockets: over HTTP, the id of the session is also in a header field.
 Breaking has_other_ids();
 
-// Puts the engines of robot1 and robot2 into engines of their own: main > building > ground_floor > robot1 and
-// main > building > robot2. The names are the new ones.
+// Nests the engines of two robots: main > building > ground_floor > robot1, and main > building > robot2. `names` also renames
+// them.
 Breaking has_nested_engines(Names const& names);
 
 }  // namespace rois::broken

@@ -1,4 +1,4 @@
-// The rules for component programs (docs/component-programs.md), as checks that are played in this order.
+// The checks for component programs (docs/component-programs.md), in the order in which they run.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@
 namespace rois::component_test {
 
 struct Check {
-    std::string name;  // the rule in words, with underscores
-    std::function<void(Program&)> play;
+    std::string name;  // what the program must do, with underscores
+    std::function<void(Program&)> run;
 };
 
 struct Group {
@@ -20,7 +20,7 @@ struct Group {
 };
 
 Group joining_checks();
-Group checks_of(ComponentEntry const&);  // of one component
+Group checks_of(ComponentEntry const&);  // for one component
 Group link_checks();
 Group ending_checks();
 

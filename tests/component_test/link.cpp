@@ -15,7 +15,7 @@ namespace {
 
 using conformance::Broken;
 
-// The value of a header field, or an empty text.
+// Returns the value of a header field, or an empty text.
 std::string field(std::string_view head, std::string_view name) {
     for (auto at = head.find("\r\n"); at + 2 < head.size(); at = head.find("\r\n", at + 2)) {
         auto const line = head.substr(at + 2, head.find("\r\n", at + 2) - at - 2);
@@ -26,7 +26,7 @@ std::string field(std::string_view head, std::string_view name) {
     return {};
 }
 
-// RFC 6455, 4.2.2.
+// Returns the value of Sec-WebSocket-Accept (RFC 6455, 4.2.2).
 std::string accept_of(std::string const& key) {
     auto const text = key + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11";
     std::array<unsigned char, SHA_DIGEST_LENGTH> digest{};
@@ -43,9 +43,9 @@ Link::Link(int descriptor) : socket_{descriptor} {
     auto const target = head.substr(0, head.find("\r\n"));
     auto const key = field(head, "Sec-WebSocket-Key");
     if (!target.starts_with("GET /rois/engines HTTP/1.1") || key.empty())
-        throw Broken{"expected a WebSocket handshake for /rois/engines, not " + quoted(target, 100)};
+        throw Broken{"expected a WebSocket handshake for /rois/engines, got " + quoted(target, 100)};
     if (field(head, "Sec-WebSocket-Protocol") != "rois.xml.v1")
-        throw Broken{"expected the subprotocol rois.xml.v1, not " + quoted(field(head, "Sec-WebSocket-Protocol"))};
+        throw Broken{"expected the subprotocol rois.xml.v1, got " + quoted(field(head, "Sec-WebSocket-Protocol"))};
     socket_.send("HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Accept: " +
                  accept_of(key) + "\r\nSec-WebSocket-Protocol: rois.xml.v1\r\n\r\n");
     reader_ = std::thread{[this] { read(); }};

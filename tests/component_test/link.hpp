@@ -18,14 +18,14 @@ using Clock = std::chrono::steady_clock;
 
 class Link {
 public:
-    // Answers the handshake. Throws Broken if it is none for /rois/engines.
+    // Answers the handshake. Throws Broken if it is not a WebSocket handshake for /rois/engines.
     explicit Link(int descriptor);
     ~Link();
     Link(Link const&) = delete;
     Link& operator=(Link const&) = delete;
 
     void send(std::string_view document);
-    // Returns the next text message; nothing if none came until then, or the link has ended.
+    // Returns the next text message, or nothing if none arrives before the deadline or the link has ended.
     std::optional<std::string> next(Clock::time_point until);
     bool has_ended() const;
     // Ends the connection without a close frame.

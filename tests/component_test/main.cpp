@@ -1,4 +1,4 @@
-// rois-component-test: whether a component program does what docs/component-programs.md asks, judged by its own profile.
+// rois-component-test: checks whether a component program follows docs/component-programs.md and its own profile.
 #include <charconv>
 #include <chrono>
 #include <exception>
@@ -20,17 +20,16 @@ namespace {
 
 using conformance::Outcome;
 
-constexpr int all_hold = 0, a_rule_is_broken = 1, bad_usage = 2;
+constexpr int no_rule_broken = 0, rule_broken = 1, bad_usage = 2;
 
 constexpr auto usage =
     "Usage: rois-component-test [OPTION...] PROGRAM [ARGUMENT...]\n"
-    "Starts the component program, and plays its engine. The program finds the engine by the variable ROIS_URL, and joins by "
-    "the\n"
-    "name in ROIS_NAME. Its components are started and stopped.\n\n"
-    "  --only TEXT          joining, and checks whose name has TEXT within\n"
-    "  --report FILE        write the report as JUnit XML, too\n"
+    "Starts the component program, acts as its engine, and prints a report. The program must connect to the URL in ROIS_URL and\n"
+    "join with the name in ROIS_NAME. The checks start and stop each component.\n\n"
+    "  --only TEXT          run only joining, and checks whose name contains TEXT\n"
+    "  --report FILE        also write the report to FILE as JUnit XML\n"
     "  --patience SECONDS   longest wait for an answer or the end of a command [10]\n\n"
-    "Exit codes: 0 all rules hold, 1 a rule is broken, 2 bad usage\n";
+    "Exit codes: 0 no rule is broken, 1 a rule is broken, 2 invalid option or missing program\n";
 
 struct CommandLine {
     std::string report;
@@ -52,7 +51,7 @@ CommandLine read_command_line(std::vector<std::string> const& arguments) {
             line.program.assign(arguments.begin() + static_cast<std::ptrdiff_t>(i), arguments.end());
             return line;
         }
-        if (i + 1 == arguments.size()) throw BadUsage{name + " needs a value"};
+        if (i + 1 == arguments.size()) throw BadUsage{"option " + name + " needs a value"};
         auto const& value = arguments[++i];
         if (name == "--report") {
             line.report = value;
@@ -62,13 +61,13 @@ CommandLine read_command_line(std::vector<std::string> const& arguments) {
             int seconds = 0;
             auto const [end, error] = std::from_chars(value.data(), value.data() + value.size(), seconds);
             if (error != std::errc{} || end != value.data() + value.size() || seconds < 1 || seconds > 3'600)
-                throw BadUsage{"--patience must be a whole number from 1 to 3600, not " + value};
+                throw BadUsage{"--patience: '" + value + "' is not valid: expected a whole number from 1 to 3600"};
             line.patience = std::chrono::seconds{seconds};
         } else {
-            throw BadUsage{"there is no option " + name};
+            throw BadUsage{"unknown option '" + name + "'"};
         }
     }
-    throw BadUsage{"the program is missing"};
+    throw BadUsage{"missing component program: expected PROGRAM [ARGUMENT...]"};
 }
 
 class Judge {
@@ -81,11 +80,11 @@ public:
     conformance::Report judge() {
         auto const joining = joining_checks();
         auto& of_joining = chapter(joining.title);
-        for (auto const& check : joining.checks) play(of_joining, check);
-        // Without a profile nothing else can be judged.
-        for (auto const& component : std::vector{program_.components()}) play(checks_of(component));
-        if (!program_.components().empty()) play(link_checks());
-        play(ending_checks());
+        for (auto const& check : joining.checks) run(of_joining, check);
+        // The other checks need the components from the profile.
+        for (auto const& component : std::vector{program_.components()}) run(checks_of(component));
+        if (!program_.components().empty()) run(link_checks());
+        run(ending_checks());
         return report_;
     }
 
@@ -94,19 +93,19 @@ private:
         return report_.chapters.emplace_back(conformance::Chapter{title, {}});
     }
 
-    void play(Group const& group) {
+    void run(Group const& group) {
         auto& of_group = chapter(group.title);
         for (auto const& check : group.checks)
-            if (check.name.find(only_) != check.name.npos) play(of_group, check);
+            if (check.name.find(only_) != check.name.npos) run(of_group, check);
     }
 
-    void play(conformance::Chapter& of_group, Check const& check) {
+    void run(conformance::Chapter& of_group, Check const& check) {
         conformance::Finding finding{.name = check.name, .proves = "docs/component-programs.md", .over = ""};
         auto const begun = Clock::now();
         try {
-            check.play(program_);
-        } catch (conformance::NotPlayed const& why) {
-            finding.outcome = Outcome::not_played;
+            check.run(program_);
+        } catch (conformance::Skipped const& why) {
+            finding.outcome = Outcome::skipped;
             finding.text = why.what();
         } catch (std::exception const& why) {
             finding.outcome = Outcome::broken;
@@ -128,9 +127,9 @@ int judge(CommandLine const& line) {
     if (!line.report.empty()) {
         std::ofstream file{line.report};
         conformance::write_junit(file, report);
-        if (!file.flush()) throw BadUsage{"the report cannot be written to " + line.report};
+        if (!file.flush()) throw std::runtime_error{"cannot write the report to '" + line.report + "' (--report)"};
     }
-    return report.count(Outcome::broken) == 0 ? all_hold : a_rule_is_broken;
+    return report.count(Outcome::broken) == 0 ? no_rule_broken : rule_broken;
 }
 
 }  // namespace
@@ -143,11 +142,11 @@ int main(int count, char** arguments) {
         std::vector<std::string> const words{arguments + 1, arguments + count};
         if (!words.empty() && (words.front() == "--help" || words.front() == "-h")) {
             std::cout << usage;
-            return all_hold;
+            return no_rule_broken;
         }
         return judge(read_command_line(words));
     } catch (BadUsage const& bad) {
-        std::cerr << "rois-component-test: " << bad.what() << "\n\n" << usage;
+        std::cerr << "rois-component-test: " << bad.what() << "; --help lists the options\n";
     } catch (std::exception const& reason) {
         std::cerr << "rois-component-test: " << reason.what() << "\n";
     }

@@ -31,7 +31,7 @@ CommandUnitSequence sequence_of(std::string const& ref, std::string const& comma
 std::string why_not(Results const& results, std::vector<ParameterProfile> const& known) {
     for (auto const& each : results.parameters) {
         auto const* profile = find_parameter(known, each.name);
-        if (profile == nullptr) return "the result " + quoted(each.name) + " is not in the profile";
+        if (profile == nullptr) return "the profile lacks the result " + quoted(each.name);
         if (auto const problem = rois::why_not(DataType::of(profile->data_type_ref), each.values))
             return "the result " + quoted(each.name) + ": " + *problem;
     }
@@ -53,34 +53,35 @@ Program::~Program() {
     kit::exit_code(process_);
 }
 
-void Program::complain(std::string const& what) { throw conformance::Broken{what}; }
+void Program::fail(std::string const& what) { throw conformance::Broken{what}; }
 
-void Program::be_ready() {
+void Program::ensure_ready() {
     if (link_has_ended()) {
         await_join();
         connect();
     }
     auto const reply = ask(GetProfile{});
-    if (reply.return_code != ReturnCode::ok || !reply.profile) complain("get_profile: " + reply.reason);
+    if (reply.return_code != ReturnCode::ok || !reply.profile) fail("get_profile: " + reply.reason);
     profile_ = reply.profile;
     components_ = reply.components;
-    if (components_.empty()) complain("get_profile: expected at least one component");
+    if (components_.empty()) fail("get_profile: expected at least one component");
     for (auto const& each : components_)
-        if (!each.profile) complain("get_profile: the component " + quoted(each.ref) + " has no profile");
+        if (!each.profile) fail("get_profile: the component " + quoted(each.ref) + " has no profile");
 }
 
 xml::Join Program::await_join() {
     link_.reset();
     pollfd waiting{listener_.descriptor(), POLLIN, 0};
-    // It may pause before it tries again.
-    if (::poll(&waiting, 1, static_cast<int>(3 * patience_.count())) <= 0) complain("it did not connect to /rois/engines");
+    // The program may pause before it connects again.
+    if (::poll(&waiting, 1, static_cast<int>(3 * patience_.count())) <= 0)
+        fail("the program did not connect to /rois/engines within " + std::to_string(3 * patience_.count()) + " ms");
     link_ = std::make_unique<Link>(listener_.accept().value());
     auto const document = link_->next(Clock::now() + patience_);
-    if (!document) complain("it did not send join");
+    if (!document) fail("the program did not send join within " + std::to_string(patience_.count()) + " ms");
     auto const read = joins_.read(*document);
-    if (auto const* fault = std::get_if<Fault>(&read)) complain("join: " + fault->reason);
+    if (auto const* fault = std::get_if<Fault>(&read)) fail("join: " + fault->reason);
     auto join = std::get<xml::Join>(read);
-    if (join.instance.empty()) complain("join: expected an instance");
+    if (join.instance.empty()) fail("join: expected an instance, got none");
     instance_ = join.instance;
     xml::JoinResponse response;
     response.window = window;
@@ -99,7 +100,7 @@ Connect::Reply Program::connect() {
                              .motion_proof = MotionProof::request,
                              .is_engine = true,
                              .window = window});
-    if (reply.return_code != ReturnCode::ok) complain("connect: " + reply.reason);
+    if (reply.return_code != ReturnCode::ok) fail("connect: " + reply.reason);
     session_ = reply.session;
     return reply;
 }
@@ -114,7 +115,7 @@ void Program::abandon_link() {
 }
 
 void Program::send(std::string const& document) {
-    if (!link_) complain("there is no link");
+    if (!link_) fail("the program has no open link");
     link_->send(document);
 }
 
@@ -126,15 +127,15 @@ xml::EngineMessage Program::answer_to(Operation operation) {
     auto const until = Clock::now() + patience_;
     while (Clock::now() < until) {
         auto const answer = take(until);
-        if (!answer && link_has_ended()) complain("the link has ended before the answer");
+        if (!answer && link_has_ended()) fail("the program closed the link before it answered");
         if (!answer) continue;
         auto const* fault = std::get_if<Fault>(&*answer);
-        if (fault != nullptr && fault->request_id.empty()) continue;  // about an earlier document that could not be read
+        if (fault != nullptr && fault->request_id.empty()) continue;  // answers an earlier, malformed document
         auto const& given = fault != nullptr ? fault->request_id : std::get<xml::Answered>(*answer).request_id;
-        if (given != id) complain("expected the answer with request_id " + quoted(id) + ", not " + quoted(given));
+        if (given != id) fail("expected the answer with request_id " + quoted(id) + ", got " + quoted(given));
         return *answer;
     }
-    complain("no answer within " + std::to_string(patience_.count()) + " ms");
+    fail("the program did not answer within " + std::to_string(patience_.count()) + " ms");
 }
 
 Program::Started Program::execute(std::string const& ref, std::string const& command, ParameterList const& arguments,
@@ -143,7 +144,8 @@ Program::Started Program::execute(std::string const& ref, std::string const& com
     commands_[id] = {ref, command};
     auto reply =
         ask(Execute{.command_unit_list = sequence_of(ref, command, check_only ? "" : id, arguments), .check_only = check_only});
-    if (reply.return_code != ReturnCode::ok && reply.reason.empty()) complain("a refused command needs a reason");
+    if (reply.return_code != ReturnCode::ok && reply.reason.empty())
+        fail("execute: expected a reason for the refusal of " + quoted(command));
     if (check_only || reply.return_code != ReturnCode::ok) commands_.erase(id);
     return {std::move(reply), id};
 }
@@ -151,71 +153,70 @@ Program::Started Program::execute(std::string const& ref, std::string const& com
 Completed Program::completed(std::string const& id, std::chrono::milliseconds within) {
     auto const until = Clock::now() + within;
     while (!completed_.contains(id) && Clock::now() < until && !link_has_ended())
-        if (take(until)) complain("an answer without a request");
+        if (take(until)) fail("unexpected answer without a request");
     auto const found = completed_.find(id);
     if (found == completed_.end())
-        complain(quoted(commands_.at(id).second) + " has not completed within " + std::to_string(within.count()) + " ms");
+        fail("command " + quoted(commands_.at(id).second) + " did not complete within " + std::to_string(within.count()) + " ms");
     return found->second;
 }
 
 void Program::settle(std::chrono::milliseconds time) {
     auto const until = Clock::now() + time;
     while (Clock::now() < until && !link_has_ended())
-        if (take(until)) complain("an answer without a request, or a second one");
+        if (take(until)) fail("unexpected answer without a request, or a second answer");
 }
 
 std::optional<xml::EngineMessage> Program::take(Clock::time_point until) {
     auto const document = link_->next(until);
     if (!document) return {};
     if (auto const objection = validator_->objection_to(*document))
-        complain("invalid document: " + objection->text + ": " + quoted(*document, 300));
+        fail("invalid document: " + objection->text + ": " + quoted(*document, 300));
     auto message = reader_.read(*document);
-    if (!message) complain("neither an answer nor a notification: " + quoted(*document, 300));
+    if (!message) fail("expected an answer or a notification, got " + quoted(*document, 300));
     auto const* notification = std::get_if<xml::NumberedNotification>(&*message);
     if (notification == nullptr) return message;
-    judge(*notification);
+    check_notification(*notification);
     return {};
 }
 
-void Program::judge(xml::NumberedNotification const& numbered) {
+void Program::check_notification(xml::NumberedNotification const& numbered) {
     if (numbered.sequence != last_sequence_ + 1)
-        complain("expected the notification " + std::to_string(last_sequence_ + 1) + ", not " +
-                 std::to_string(numbered.sequence));
+        fail("expected a notification with sequence " + std::to_string(last_sequence_ + 1) + ", got " +
+             std::to_string(numbered.sequence));
     last_sequence_ = numbered.sequence;
-    std::visit([this](auto const& each) { judge(each); }, numbered.notification);
+    std::visit([this](auto const& each) { check_notification(each); }, numbered.notification);
 }
 
-void Program::judge(Completed const& completed) {
+void Program::check_notification(Completed const& completed) {
     auto const& id = completed.command_id.text;
     auto const command = commands_.find(id);
-    if (command == commands_.end()) complain("completed of the unknown or refused command " + quoted(id));
+    if (command == commands_.end()) fail("unexpected `completed` of the unknown or refused command " + quoted(id));
     auto const& [ref, name] = command->second;
-    if (!completed_.emplace(id, completed).second) complain("a second completed of " + quoted(name));
+    if (!completed_.emplace(id, completed).second) fail("unexpected second `completed` of " + quoted(name));
     auto const* message = find_message(profile_of(ref), MessageKind::command, name);
-    if (!completed.results) complain("completed of " + quoted(name) + " without results");
+    if (!completed.results) fail("`completed` of " + quoted(name) + ": expected an element results");
     if (auto const why = why_not(*completed.results, message == nullptr ? std::vector<ParameterProfile>{} : message->results);
         !why.empty())
-        complain("completed of " + quoted(name) + ": " + why);
+        fail("`completed` of " + quoted(name) + ": " + why);
 }
 
-void Program::judge(ReceiveEvent const& event) {
+void Program::check_notification(ReceiveEvent const& event) {
     auto const& type = event.event_type;
     auto const* message = find_message(profile_of(event.component_ref.code), MessageKind::event, type);
-    if (message == nullptr) complain("the event " + quoted(type) + " is not in the profile");
-    if (!subscribed_.contains(type)) complain("the event " + quoted(type) + " without a subscription");
-    if (!event.results) complain("the event " + quoted(type) + " without its results");
-    if (auto const why = why_not(*event.results, message->results); !why.empty())
-        complain("the event " + quoted(type) + ": " + why);
+    if (message == nullptr) fail("the profile lacks the event " + quoted(type));
+    if (!subscribed_.contains(type)) fail("unexpected event " + quoted(type) + " without a subscription");
+    if (!event.results) fail("event " + quoted(type) + ": expected inline results");
+    if (auto const why = why_not(*event.results, message->results); !why.empty()) fail("event " + quoted(type) + ": " + why);
 }
 
-void Program::judge(ComponentChanged const& changed) {
+void Program::check_notification(ComponentChanged const& changed) {
     if (!components_.empty()) profile_of(changed.component_ref.code);
     states_.insert(changed.component_ref.code);
 }
 
 ComponentProfile const& Program::profile_of(std::string const& ref) const {
     auto const found = std::ranges::find(components_, ref, &ComponentEntry::ref);
-    if (found == components_.end()) complain("the component " + quoted(ref) + " is not in the profile");
+    if (found == components_.end()) fail("the profile lacks the component " + quoted(ref));
     return *found->profile;
 }
 

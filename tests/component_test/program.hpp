@@ -21,51 +21,52 @@ namespace rois::component_test {
 constexpr std::chrono::milliseconds window{1'000};
 constexpr std::chrono::milliseconds longest_halt{500};
 
-// All functions throw Broken if the program does not do what docs/component-programs.md asks.
+// All functions throw Broken if the program violates docs/component-programs.md.
 class Program {
 public:
     Program(std::vector<std::string> command, std::chrono::milliseconds patience, std::shared_ptr<xml::Schemas const> const&);
-    ~Program();  // kills it
+    ~Program();  // kills the program
     Program(Program const&) = delete;
     Program& operator=(Program const&) = delete;
 
-    // Joined, with a session, a profile and an open link, whatever has happened before.
-    void be_ready();
+    // Waits until the program has joined, and has a session and an open link. Reads its profile.
+    void ensure_ready();
 
-    // Waits for a link and its `join`, and accepts that.
+    // Waits for a link and its `join`, and accepts the `join`.
     xml::Join await_join();
-    // Opens a new session on the link.
+    // Sends `connect`, which opens a session on a new link.
     Connect::Reply connect();
     void cut();
-    // Ends session and link after a broken rule: the next check begins with new ones.
+    // Ends the session and the link after a broken rule, so that the next check begins with new ones.
     void abandon_link();
     bool link_has_ended() const { return !link_ || link_->has_ended(); }
 
-    // Sends the request, and waits for its answer.
+    // Sends the request, waits for its answer, and returns it.
     template <class Op>
     typename Op::Reply ask(Op operation) {
         auto const answer = answer_to(std::move(operation));
         auto const* reply = std::get_if<xml::Answered>(&answer);
         auto const* of_operation = reply == nullptr ? nullptr : std::get_if<typename Op::Reply>(&reply->reply);
-        if (of_operation == nullptr) complain("the answer is not that of the request");
+        if (of_operation == nullptr)
+            fail("expected the answer of the requested operation, got a fault or the answer of another one");
         return *of_operation;
     }
-    // The answer, or the fault.
+    // Sends the request, and returns its answer or fault.
     xml::EngineMessage answer_to(Operation);
     void send(std::string const& document);
 
-    // Executes one command. Returns its id if it was accepted; else the reply has the reason.
+    // Executes one command. If the program refuses it, the reply has the reason.
     struct Started {
         Execute::Reply reply;
         std::string id;
     };
     Started execute(std::string const& ref, std::string const& command, ParameterList const& arguments = {},
                     bool check_only = false);
-    // Waits for the end of a command.
+    // Waits until a command completes.
     Completed completed(std::string const& id, std::chrono::milliseconds within);
     bool has_subscribed(std::string const& event_type) const { return subscribed_.contains(event_type); }
 
-    // Takes the notifications that come within this time. An answer breaks a rule.
+    // Reads notifications for this time. Throws Broken if an answer arrives: no request is open.
     void settle(std::chrono::milliseconds time = std::chrono::milliseconds{200});
 
     std::vector<ComponentEntry> const& components() const { return components_; }
@@ -76,21 +77,22 @@ public:
     std::chrono::milliseconds patience() const { return patience_; }
     EngineProfile const& profile() const { return *profile_; }
 
-    // Sends SIGTERM. Returns the exit code; nothing if it does not end in time.
+    // Sends SIGTERM. Returns the exit code, or nothing if the program does not end within the patience.
     std::optional<int> end();
 
-    [[noreturn]] static void complain(std::string const& what);
+    [[noreturn]] static void fail(std::string const& what);
 
 private:
-    // Takes one message until then. Returns an answer or a fault; nothing after a notification, or if none came.
+    // Reads one message. Returns an answer or a fault. Returns nothing after a notification, or if no message arrives before the
+    // deadline.
     std::optional<xml::EngineMessage> take(Clock::time_point until);
-    void judge(xml::NumberedNotification const&);
-    void judge(ReceiveEvent const&);
-    void judge(ReceiveError const&) {}
-    void judge(Completed const&);
-    void judge(Lost const&) {}
-    void judge(ProfileChanged const&) {}
-    void judge(ComponentChanged const&);
+    void check_notification(xml::NumberedNotification const&);
+    void check_notification(ReceiveEvent const&);
+    void check_notification(ReceiveError const&) {}
+    void check_notification(Completed const&);
+    void check_notification(Lost const&) {}
+    void check_notification(ProfileChanged const&) {}
+    void check_notification(ComponentChanged const&);
     ComponentProfile const& profile_of(std::string const& ref) const;
 
     std::chrono::milliseconds patience_;
@@ -107,13 +109,13 @@ private:
     std::uint64_t last_command_ = 0;
     std::shared_ptr<EngineProfile const> profile_;
     std::vector<ComponentEntry> components_;
-    std::map<std::string, std::pair<std::string, std::string>> commands_;  // component and command, by id
+    std::map<std::string, std::pair<std::string, std::string>> commands_;  // id -> component and command
     std::map<std::string, Completed> completed_;
     std::set<std::string> subscribed_;
     std::set<std::string> states_;
 };
 
-// Returns why the results do not fit the profile, or an empty text.
+// Returns why the results do not match the profile, or an empty text if they do.
 std::string why_not(Results const&, std::vector<ParameterProfile> const& known);
 
 }  // namespace rois::component_test

@@ -1,4 +1,4 @@
-// What the tables of the basic components (34 to 47) say of their queries and events.
+// The queries and events of the basic components, from tables 34 to 47.
 #pragma once
 
 #include <string>
@@ -12,12 +12,12 @@ struct BasicMessage {
     std::string kind;  // Component::basic()
     std::string name;
     bool is_event;
-    std::vector<TypedName> results;   // which each answer has
-    std::vector<TypedName> settable;  // which each answer has once they are set
+    std::vector<TypedName> results;   // present in each answer
+    std::vector<TypedName> settable;  // present in each answer after an application has set them
 };
 
 std::vector<BasicMessage> const& basic_messages();
-// Of a query or an event of a component of this kind; null when no table has it.
+// Returns the query or event `name` of a component of this kind, or null if no table has it.
 BasicMessage const* basic_message(std::string const& kind, std::string const& name);
 
 }  // namespace rois::conformance

@@ -31,13 +31,13 @@ std::vector<TypedName> typed_names(pugi::xml_node parent, char const* child) {
 
 std::vector<std::string> const common_commands{"start", "stop", "suspend", "resume"};
 
-// A common command that the profile redefines, so that a check cannot use it.
+// Returns whether this is a common command that the profile redefines with mandatory arguments: no check can execute it.
 bool needs_arguments(Message const& command) {
     return std::ranges::find(common_commands, command.name) != common_commands.end() &&
            std::ranges::any_of(command.arguments, [](TypedName const& argument) { return !argument.default_value; });
 }
 
-// The byte that "_x3A_" at the beginning of a text stands for; nothing when it stands for itself.
+// Decodes "_x3A_" at the beginning of a text. Returns nothing if the text begins with another character.
 std::optional<char> escaped_byte(std::string_view text) {
     static constexpr std::string_view digits = "0123456789ABCDEF";
     if (text.size() < 5 || !text.starts_with("_x") || text[4] != '_') return {};
@@ -52,7 +52,7 @@ Named const* find_named(std::vector<Named> const& all, std::string const& name) 
     return found == all.end() ? nullptr : &*found;
 }
 
-// Adds those that are not there yet.
+// Adds the entries with new names.
 template <typename Named>
 void add(std::vector<Named>& all, std::vector<Named> const& more) {
     for (auto const& one : more)
@@ -93,13 +93,13 @@ void read_profile(Component& component, pugi::xml_node answer) {
                                 return find_named(component.commands, name) != nullptr;
                             }));
     component.is_common = component.has_common && std::ranges::none_of(component.commands, needs_arguments);
-    // From parameter profiles alone, get_parameter follows.
+    // A component with a ParameterProfile has the query get_parameter, even if the profile does not list it.
     if (!component.parameters.empty() && !component.query("get_parameter"))
         component.queries.push_back({"get_parameter", component.parameters, {}});
     if (auto const* const set = find_named(component.commands, "set_parameter")) add(component.parameters, set->arguments);
 }
 
-// Without gml:name, which is optional, its id: "engine." and the name.
+// gml:name is optional: without it, the gml:id is "engine." and the name.
 std::string name_of_engine(pugi::xml_node engine) {
     static constexpr std::string_view begin = "engine.";
     if (auto const name = engine.child("gml:name")) return name.text().get();
@@ -107,21 +107,21 @@ std::string name_of_engine(pugi::xml_node engine) {
     return id.starts_with(begin) ? id.substr(begin.size()) : id;
 }
 
-// The refs of the components of this engine and of its sub engines.
-std::set<std::string> read_engine(std::map<std::string, std::set<std::string>>& whole, pugi::xml_node engine) {
+// Returns the refs of the components of this engine and of its sub engines.
+std::set<std::string> read_engine(std::map<std::string, std::set<std::string>>& refs_by_engine, pugi::xml_node engine) {
     std::set<std::string> refs;
     for (auto const component : engine.children("rois:HRIComponent")) refs.insert(component.text().get());
-    for (auto const sub : engine.children("rois:SubProfile")) refs.merge(read_engine(whole, sub));
-    whole[name_of_engine(engine)].insert(refs.begin(), refs.end());
+    for (auto const sub : engine.children("rois:SubProfile")) refs.merge(read_engine(refs_by_engine, sub));
+    refs_by_engine[name_of_engine(engine)].insert(refs.begin(), refs.end());
     return refs;
 }
 
 struct ReadType {
-    std::string item;  // the last part of its URN, in lower case; of a number or a bool the shortest of its names
+    std::string item;  // the last part of the URN in lower case; for numbers and bools the shortest synonym
     bool is_list;
 };
 
-// "int", "urn:x-rois:def:DataType:ATR::Integer[]", "Set<Integer>".
+// Reads a type such as "int", "urn:x-rois:def:DataType:ATR::Integer[]" or "Set<Integer>".
 ReadType read_type(std::string const& type) {
     static std::regex const list{"\\s*(?:(?:set|list|sequence|seq)\\s*<\\s*(.+?)\\s*>|(.*?)\\s*\\[\\])\\s*"};
     static std::map<std::string, std::string> const shorter{
@@ -136,14 +136,14 @@ ReadType read_type(std::string const& type) {
     return {found == shorter.end() ? item : found->second, is_list};
 }
 
-// Without the white space around it, which counts for texts only (XML Schema, part 2: whiteSpace).
+// Removes white space around a value. It is significant in texts only (XML Schema, part 2: whiteSpace).
 std::string_view collapsed(std::string_view text) {
     constexpr std::string_view space = " \t\r\n";
     auto const begin = text.find_first_not_of(space);
     return begin == text.npos ? std::string_view{} : text.substr(begin, text.find_last_not_of(space) + 1 - begin);
 }
 
-// A sign and any number of digits, in the range of the type.
+// Accepts an optional sign and any number of digits, in the range of 32 bits.
 bool is_whole_number(std::string_view text) {
     constexpr std::size_t most = 10;  // digits of 32 bits
     bool const negative = text.starts_with('-');
@@ -157,7 +157,7 @@ bool is_whole_number(std::string_view text) {
 
 bool is_item(std::string const& type, std::string const& written) {
     if (type == "roisidentifier") return !collapsed(written).empty();
-    constexpr std::size_t longest = 100;  // of a number or a time; regular expressions recurse
+    constexpr std::size_t longest = 100;  // of a number or a time: a long text would exhaust the stack of std::regex
     std::string const text{collapsed(written)};
     if (type == "int") return is_whole_number(text);
     static std::map<std::string, std::regex> const forms{
@@ -209,7 +209,7 @@ bool Component::can_set(TypedName const& parameter) const {
     return std::ranges::none_of(abilities, [&](auto const& begin) { return lower(parameter.name).starts_with(begin); });
 }
 
-std::string Component::detection() const {
+std::string Component::detection_event() const {
     auto const kind = basic();
     return kind.substr(0, kind.find("detection")) + "_detected";
 }
@@ -234,7 +234,7 @@ Catalogue Catalogue::read(kit::Document const& answer) {
     Catalogue catalogue;
     auto const root = answer.root();
     catalogue.engine = name_of_engine(root.child("rois:HRIEngineProfile"));
-    read_engine(catalogue.whole, root.child("rois:HRIEngineProfile"));
+    read_engine(catalogue.refs_by_engine, root.child("rois:HRIEngineProfile"));
     for (auto const node : root.child("components").children("component")) {
         Component component;
         component.ref = node.attribute("ref").value();

@@ -29,50 +29,54 @@ struct Component {
     std::string type;  // URN, as written
     std::string engine;
     std::vector<Message> commands, queries, events;
-    std::vector<TypedName> parameters;  // those of ParameterProfile and of set_parameter
+    std::vector<TypedName> parameters;  // from ParameterProfile, and the arguments of set_parameter
     bool has_common = false;            // start, stop, suspend, resume and component_status (table 32)
-    bool is_common = false;             // has them, and its commands need no arguments
+    bool is_common = false;             // has_common, and start, stop, suspend and resume need no arguments
 
-    // The basic component: the end of its URN in lower case, "persondetection"; empty for others.
+    // Returns the kind of a basic component, the end of its URN in lower case: "persondetection". Empty for other components.
     std::string basic() const;
-    // A basic component that is active from `start` to `stop`: detection, localization, identification or recognition.
+    // Returns whether this is a basic component that is active from `start` to `stop`: detection, localization, identification or
+    // recognition.
     bool is_function() const;
     Message const* query(std::string const& name) const;
     Message const* event(std::string const& name) const;
-    // By its name, in any case; null when neither set_parameter nor a ParameterProfile has it.
+    // Returns the parameter with this name (case-insensitive), or null if neither set_parameter nor a ParameterProfile has it.
     TypedName const* parameter_named(std::string const& name) const;
-    // Whether it can be read or set.
+    // Returns whether the component has a parameter with this name that can be read or set.
     bool parameter(std::string const& name) const;
-    // Whether set_parameter should take it. Parameters that tell what a component can do need not be settable.
+    // Returns whether set_parameter must accept the parameter. Parameters that list abilities, such as `available_reactions`, may
+    // be read-only.
     bool can_set(TypedName const& parameter) const;
-    // Of "persondetection": "person_detected", the event of its first measurement.
-    std::string detection() const;
+    // Returns the event of a detection component: "person_detected" for "persondetection".
+    std::string detection_event() const;
 };
 
 struct Catalogue {
     std::string engine;
-    std::vector<Component> components;                   // by ref
-    std::map<std::string, std::set<std::string>> whole;  // by engine: the refs of its components and of its sub engines'
+    std::vector<Component> components;                            // by ref
+    std::map<std::string, std::set<std::string>> refs_by_engine;  // the component refs of each engine, including its sub engines
 
-    // `answer` is that of get_profile without a condition.
+    // Reads the answer of get_profile without a condition.
     static Catalogue read(kit::Document const& answer);
 
     Component const* find(std::string const& ref) const;
 };
 
-// What a gml:id names: "_x3A_" in it stands for a byte (UTF-8) of a character that no name of XML has.
+// Returns the name that a gml:id encodes. "_x3A_" stands for a UTF-8 byte of a character that is not allowed in an XML name.
 std::string named_by(std::string_view gml_id);
 
-// The profile of the component `ref` in an answer of get_profile; null when there is none.
+// Returns the profile of the component `ref` in an answer of get_profile, or null if the answer lacks it.
 pugi::xml_node profile_of(pugi::xml_node answer, std::string const& ref);
 
-// Types are the same when they differ in case, in the name of a number, or in that one is a URN (decision 26).
+// Returns whether two types are the same (decision 26). Ignores case, the prefix of a URN, and synonyms such as "int" and
+// "Integer".
 bool is_same_type(std::string const& one, std::string const& other);
 
-// These are values of this type, in any form that XML Schema has for it (decision 26); a time is in UTC (decision 28).
+// Returns whether the values have this type, in any form that XML Schema allows (decision 26). Times must be in UTC (decision
+// 28).
 bool is_of_type(std::string const& type, std::vector<std::string> const& values);
 
-// Whether each of its items is a value of its own; numbers and bools stand in one.
+// Returns whether the type is a list with one value for each item. Lists of numbers and bools are one value, separated by spaces.
 bool is_list_of_texts(std::string const& type);
 
 }  // namespace rois::conformance

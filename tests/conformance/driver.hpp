@@ -1,4 +1,4 @@
-// An application that drives a robot a little, watches it, and brings it back.
+// An application that moves a robot a short way, observes it, and returns it to its starting point.
 #pragma once
 
 #include <string>
@@ -10,39 +10,39 @@ namespace rois::conformance {
 
 class Driver {
 public:
-    // Binds `wheels`, a component that moves its robot. NotObservable when its robot cannot be seen, or too coarsely for a motion
-    // of Stage::room().
-    Driver(Stage&, Component const& wheels);
+    // Binds `mover`, a component that moves its robot. Throws NotObservable if the position of the robot is not reported, or if
+    // its error is too large for a motion of Context::room().
+    Driver(Context&, Component const& mover);
     ~Driver();
     Driver(Driver const&) = delete;
     Driver& operator=(Driver const&) = delete;
 
-    // Orders the command, and watches the robot until it ends, or until `enough` holds. NotPlayed when another application has
-    // what the component needs.
-    Trip go(std::vector<Argument> arguments, std::function<bool(Sighting const&)> const& enough = nobody_has_enough);
-    // The same, until the robot has left the place where it stands. `ordered` is the command then.
-    Trip set_off(std::vector<Argument> arguments);
+    // Executes `start`, and observes the robot until the command completes or `is_enough` holds. Throws Skipped if another
+    // application uses a component or resource that the command needs.
+    Trip run(std::vector<Argument> arguments, std::function<bool(RobotPosition const&)> const& is_enough = never);
+    // Executes `start`, and returns as soon as the robot has moved. `last_command` is the id of the running command.
+    Trip start_moving(std::vector<Argument> arguments);
 
-    // Four points, Stage::room() away, the one that needs the least turning first. Both of their coordinates differ from those of
-    // `home`, so that a robot that confuses axes or signs ends somewhere else.
+    // Returns four points at the distance Context::room(), the one with the smallest turn first. Both coordinates of each differ
+    // from those of `home`: a robot that confuses axes or signs does not reach them.
     std::vector<Point> destinations() const;
 
-    // The robot is there, allowing for measurement errors and late reports, and stays there.
+    // Requires that the robot is at this place and stays there. Allows for measurement errors and late reports.
     void require_at(Point const& place) const;
-    // The robot stands still for a moment.
+    // Requires that the robot stands still for a second. `when` completes the message: "after stop".
     void require_rest(std::string const& when) const;
 
-    Stage& stage;
-    Component const& wheels;
-    Guest guest;
-    Eye eye;
-    Sighting home;
-    std::string ordered;  // the last command
+    Context& context;
+    Component const& mover;
+    Client client;
+    PositionObserver observer;
+    RobotPosition home;
+    std::string last_command;  // the command id of the last `start`
 
 private:
-    static bool nobody_has_enough(Sighting const&) { return false; }
+    static bool never(RobotPosition const&) { return false; }
 };
 
-std::string shown(Sighting const&);
+std::string text_of(RobotPosition const&);
 
 }  // namespace rois::conformance

@@ -17,30 +17,30 @@ constexpr milliseconds longest_lag{500};
 
 milliseconds since(Clock::time_point begin) { return std::chrono::duration_cast<milliseconds>(Clock::now() - begin); }
 
-// Four standard deviations of the difference between two measurements.
+// Multiplied by the standard deviation of one measurement: four standard deviations of the difference of two measurements.
 constexpr double four_sigma = 4 * std::numbers::sqrt2;
 
-void read_certainty(Sighting& sighting, pugi::xml_node results) {
+void read_certainty(RobotPosition& observed, pugi::xml_node results) {
     for (auto const located : results.children("located")) {
         if (located.attribute("of").value() != std::string{"position_data"}) continue;
         auto const deviations = deviations_in(located.child("covariance").text().get());
         if (!deviations) continue;
-        std::tie(sighting.sigma, sighting.heading_sigma) = *deviations;
+        std::tie(observed.sigma, observed.heading_sigma) = *deviations;
     }
 }
 
 }  // namespace
 
 double noise(double sigma) { return four_sigma * sigma + 10; }
-double noise(Sighting const& sighting) { return noise(sighting.sigma); }
-double heading_noise(Sighting const& sighting) { return four_sigma * sighting.heading_sigma + 2; }
+double noise(RobotPosition const& observed) { return noise(observed.sigma); }
+double heading_noise(RobotPosition const& observed) { return four_sigma * observed.heading_sigma + 2; }
 
-double tolerance(Sighting const& sighting, double distance) {
+double tolerance(RobotPosition const& observed, double distance) {
     constexpr double of_the_way = 0.1;
-    return noise(sighting) + 10 + of_the_way * distance;
+    return noise(observed) + 10 + of_the_way * distance;
 }
 
-double heading_tolerance(Sighting const& sighting) { return heading_noise(sighting) + 8; }
+double heading_tolerance(RobotPosition const& observed) { return heading_noise(observed) + 8; }
 
 std::optional<std::pair<double, double>> deviations_in(std::string const& covariance) {
     std::vector<double> cells;
@@ -52,56 +52,59 @@ std::optional<std::pair<double, double>> deviations_in(std::string const& covari
     return std::pair{std::sqrt(std::max(std::abs(cells[0]), std::abs(cells[rows + 1]))), heading};
 }
 
-// Another engine's robot_position would be of another robot (decision 18).
-Eye::Eye(Guest& guest, Component const& of) : guest_{guest}, of_{of.ref}, teller_{guest.teller_of(of)} {
-    if (!teller_) throw NotObservable{"no single component of the engine of " + of_ + " reports robot_position"};
+// robot_position of another engine reports another robot (decision 18).
+PositionObserver::PositionObserver(Client& client, Component const& of)
+    : client_{client}, of_{of.ref}, reporter_{client.position_reporter_of(of)} {
+    if (!reporter_) throw NotObservable{"expected exactly one component with robot_position in the engine of " + of_};
 }
 
-Sighting Eye::look() const {
-    auto const answer = guest_.query("robot_position", only(*teller_));
-    if (answer.return_code() != "OK") throw NotObservable{"robot_position of " + teller_->ref + ": " + answer.reason()};
+RobotPosition PositionObserver::observe() const {
+    auto const answer = client_.query("robot_position", only(*reporter_));
+    if (answer.return_code() != "OK") throw NotObservable{"robot_position of " + reporter_->ref + ": " + answer.reason()};
     auto const results = answer.values();
     auto const positions = results.find("position_data"), robots = results.find("robot_ref"), times = results.find("timestamp");
     if (positions == results.end() || positions->second.size() != 1)
-        throw NotObservable{"robot_position of " + teller_->ref + " does not report one position"};
+        throw NotObservable{"robot_position of " + reporter_->ref + ": expected one position_data"};
     auto const at = point_in(positions->second.front());
-    if (!at) throw NotObservable{"a position of " + teller_->ref + " is not in coordinates: " + positions->second.front()};
-    Sighting sighting;
-    sighting.at = *at;
-    if (robots != results.end() && robots->second.size() == 1) sighting.robot = robots->second.front();
-    if (times != results.end() && times->second.size() == 1) sighting.timestamp = times->second.front();
-    read_certainty(sighting, answer.root().child("results"));
-    return sighting;
+    if (!at)
+        throw NotObservable{"robot_position of " + reporter_->ref + ": '" + positions->second.front() +
+                            "' is not a position: expected \"x, y, th\""};
+    RobotPosition observed;
+    observed.at = *at;
+    if (robots != results.end() && robots->second.size() == 1) observed.robot = robots->second.front();
+    if (times != results.end() && times->second.size() == 1) observed.timestamp = times->second.front();
+    read_certainty(observed, answer.root().child("results"));
+    return observed;
 }
 
-Sighting Eye::look_until(std::function<bool(Sighting const&)> const& holds) const {
+RobotPosition PositionObserver::observe_until(std::function<bool(RobotPosition const&)> const& holds) const {
     auto const begin = Clock::now();
-    auto seen = look();
-    while (!holds(seen) && since(begin) < longest_lag) {
+    auto observed = observe();
+    while (!holds(observed) && since(begin) < longest_lag) {
         wait(between_looks);
-        seen = look();
+        observed = observe();
     }
-    return seen;
+    return observed;
 }
 
-Trip watch(Stage& stage, Guest& guest, Eye const& eye, std::string const& command_id,
-           std::function<bool(Sighting const&)> const& enough) {
+Trip observe_command(Context& context, Client& client, PositionObserver const& observer, std::string const& command_id,
+                     std::function<bool(RobotPosition const&)> const& is_enough) {
     Trip trip;
     auto const begin = Clock::now();
     auto last_motion = begin;
-    auto resting = eye.look().at;
+    auto resting = observer.observe().at;
     while (true) {
-        while (guest.hear_now()) {
+        while (client.receive_now()) {
         }
-        auto const endings = guest.endings(command_id);
-        trip.end = eye.look();
-        trip.way.push_back(trip.end);
-        trip.took = since(begin);
-        if (!endings.empty()) {
-            trip.status = endings.front();
+        auto const completion_statuses = client.completion_statuses(command_id);
+        trip.end = observer.observe();
+        trip.path.push_back(trip.end);
+        trip.duration = since(begin);
+        if (!completion_statuses.empty()) {
+            trip.status = completion_statuses.front();
             return trip;
         }
-        if (enough(trip.end)) return trip;
+        if (is_enough(trip.end)) return trip;
         auto const& now = trip.end.at;
         bool const has_turned =
             now.heading && resting.heading && std::abs(turn(*resting.heading, *now.heading)) > heading_noise(trip.end);
@@ -109,34 +112,34 @@ Trip watch(Stage& stage, Guest& guest, Eye const& eye, std::string const& comman
             resting = now;
             last_motion = Clock::now();
         }
-        require(since(last_motion) < stage.patience(), "nothing came of the command " + command_id + " within " +
-                                                           std::to_string(stage.patience().count()) +
-                                                           " ms, while the robot stood at " + text_of(now));
+        require(since(last_motion) < context.patience(), "command " + command_id + " did not complete within " +
+                                                             std::to_string(context.patience().count()) +
+                                                             " ms after the robot stopped at " + text_of(now));
         wait(between_looks);
     }
 }
 
-void require_end(Guest& guest, std::string const& command_id, Component const& component) {
+void await_success(Client& client, std::string const& command_id, Component const& component) {
     while (true) {
-        while (guest.hear_now()) {
+        while (client.receive_now()) {
         }
-        if (!guest.endings(command_id).empty()) break;
-        auto const state = guest.state_of(command_id);
+        if (!client.completion_statuses(command_id).empty()) break;
+        auto const state = client.command_state(command_id);
         if (state != "RUNNING" && state != "WAITING") break;
         wait(milliseconds{5});
     }
-    guest.require_success(command_id, component);
+    client.require_success(command_id, component);
 }
 
-milliseconds duration_of(Guest& guest, Command const& command, Component const& component) {
+milliseconds duration_of(Client& client, Command const& command, Component const& component) {
     auto const begin = Clock::now();
-    require_end(guest, guest.order(command), component);
+    await_success(client, client.execute_one(command), component);
     return since(begin);
 }
 
-milliseconds shortest_duration(Guest& guest, Component const& component) {
+milliseconds shortest_duration(Client& client, Component const& component) {
     auto shortest = milliseconds::max();
-    for (int i = 0; i < 3; ++i) shortest = std::min(shortest, duration_of(guest, command(component, "stop"), component));
+    for (int i = 0; i < 3; ++i) shortest = std::min(shortest, duration_of(client, command(component, "stop"), component));
     return shortest;
 }
 

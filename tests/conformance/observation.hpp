@@ -1,4 +1,4 @@
-// What RoIS itself says about the world: where a robot is while it moves, and how long commands take.
+// Observes the effects of commands through RoIS: the position of a robot while it moves, and the duration of commands.
 #pragma once
 
 #include <chrono>
@@ -6,70 +6,71 @@
 #include <string>
 #include <vector>
 
+#include "conformance/context.hpp"
 #include "conformance/point.hpp"
-#include "conformance/stage.hpp"
 
 namespace rois::conformance {
 
 using std::chrono::milliseconds;
 
-// One row of robot_position (table 34).
-struct Sighting {
-    std::string robot;  // its code
+// An answer of robot_position (table 34).
+struct RobotPosition {
+    std::string robot;  // the code of its robot_ref; may be empty
     Point at;
     double sigma = 5;          // mm; the reported standard deviation, or an assumed one
     double heading_sigma = 1;  // degrees
     std::string timestamp;
 };
 
-// The part of a measured difference between two positions, or headings, that measurement errors can explain.
+// Return the greatest difference between two measurements of the same position (mm) or heading (degrees).
 double noise(double sigma);
-double noise(Sighting const&);          // mm
-double heading_noise(Sighting const&);  // degrees
-// How far a robot may end from where it should, after `distance` millimetres.
-double tolerance(Sighting const&, double distance);
-double heading_tolerance(Sighting const&);
+double noise(RobotPosition const&);
+double heading_noise(RobotPosition const&);
+// Return the allowed error of position (mm) and heading (degrees) after a motion of `distance` millimetres.
+double tolerance(RobotPosition const&, double distance);
+double heading_tolerance(RobotPosition const&);
 
-// The standard deviations of position (mm) and heading (degrees) in a `covariance`, written row by row; nothing when it is not
-// square.
+// Returns the standard deviations of position (mm) and heading (degrees) in a `covariance`, written row by row. Returns nothing
+// if the matrix is not square.
 std::optional<std::pair<double, double>> deviations_in(std::string const& covariance);
 
-// Sees the robot of one component.
-class Eye {
+// Observes the robot of one component.
+class PositionObserver {
 public:
-    // NotObservable when no single component of the same engine reports robot_position.
-    Eye(Guest&, Component const& of);
+    // Throws NotObservable unless exactly one component of the same engine reports robot_position.
+    PositionObserver(Client&, Component const& of);
 
-    Sighting look() const;
-    // Repeats the observation until this holds, for at most half a second, because reports may lag. Returns the last observation.
-    Sighting look_until(std::function<bool(Sighting const&)> const& holds) const;
+    RobotPosition observe() const;
+    // Repeats the observation until the condition holds, for at most half a second: reports may lag. Returns the last
+    // observation.
+    RobotPosition observe_until(std::function<bool(RobotPosition const&)> const& holds) const;
 
 private:
-    Guest& guest_;
+    Client& client_;
     std::string of_;
-    Component const* teller_ = nullptr;
+    Component const* reporter_ = nullptr;
 };
 
 struct Trip {
-    std::string status;  // with which the command completed
-    Sighting end;        // right after that
-    std::vector<Sighting> way;
-    milliseconds took{};
+    std::string status;  // of the completed command; empty if the observation ended early
+    RobotPosition end;   // the last observation
+    std::vector<RobotPosition> path;
+    milliseconds duration{};
 };
 
-// Looks at the robot until the command completes. Waits for as long as the robot moves, and then for the patience. Ends early,
-// with the status "", as soon as `enough` holds.
-Trip watch(
-    Stage&, Guest&, Eye const&, std::string const& command_id,
-    std::function<bool(Sighting const&)> const& enough = [](Sighting const&) { return false; });
+// Observes the robot until the command completes. Throws Broken if the robot stands still for longer than the patience before
+// that. Returns early, with the status "", as soon as `is_enough` holds.
+Trip observe_command(
+    Context&, Client&, PositionObserver const&, std::string const& command_id,
+    std::function<bool(RobotPosition const&)> const& is_enough = [](RobotPosition const&) { return false; });
 
-// Expects that the command completes with OK after its running time. Throws NotPlayed if the component has failed.
-void require_end(Guest&, std::string const& command_id, Component const&);
-// Expects that the command completes with OK. Returns the time from the request to its end. Throws NotPlayed if the component has
+// Waits while the command runs, then requires the status OK. Throws Skipped if the component has failed.
+void await_success(Client&, std::string const& command_id, Component const&);
+// Requires that the command completes with OK. Returns the time from the request to its end. Throws Skipped if the component has
 // failed.
-milliseconds duration_of(Guest&, Command const&, Component const&);
-// How long a command takes that completes at once: the way to the component and back.
-milliseconds shortest_duration(Guest&, Component const&);
+milliseconds duration_of(Client&, Command const&, Component const&);
+// Returns the duration of a command that completes at once: the transmission time to the component and back.
+milliseconds shortest_duration(Client&, Component const&);
 
 void wait(milliseconds);
 

@@ -11,14 +11,14 @@ struct Point {
     std::optional<double> heading{};  // degrees
 };
 
-// "x, y" or "x, y, th"; nothing for any other text, such as the name of a place.
+// Reads "x, y" or "x, y, th". Returns nothing for any other text, such as the name of a place.
 std::optional<Point> point_in(std::string text);
 std::string text_of(Point const&);
 
 double distance(Point const&, Point const&);
-// From one heading to another, -180 to 180, positive to the left.
+// Returns the turn from one heading to another, -180 to 180 degrees, positive to the left.
 double turn(double from, double to);
-// So far from `from`, in this direction. Keeps the heading of `from`.
+// Returns the point at this distance (mm) and direction (degrees) from `from`, with the heading of `from`.
 Point ahead(Point const& from, double distance, double direction);
 double direction(Point const& from, Point const& to);
 

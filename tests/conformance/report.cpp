@@ -10,11 +10,11 @@ namespace rois::conformance {
 
 namespace {
 
-constexpr std::size_t longest_text = 1'000;  // of a line; a whole profile says no more
+constexpr std::size_t longest_text = 1'000;  // bytes of a message; answers such as a whole profile are cut
 
 constexpr std::string_view replacement = "\uFFFD";
 
-// Characters of XML, on one line and without those that move a terminal's cursor.
+// Appends valid XML characters. Replaces line breaks and tabs by spaces, and control characters of terminals by U+FFFD.
 void append_shown(std::string& clean, std::string_view text) {
     while (!text.empty()) {
         auto const rest = text;
@@ -33,10 +33,10 @@ std::string shortened(std::string const& text) {
     return text.size() <= longest_text ? text : text.substr(0, longest_text) + " ...";
 }
 
-// The only way to add text: one line for each entry, whatever a gateway has put into it.
+// All text output goes through this function: each entry is one line, whatever a gateway has answered.
 void write_line(std::ostream& out, std::string const& line) { out << readable(line) << "\n"; }
 
-// The only way into the document.
+// All texts of the XML document go through this function.
 void add_attribute(pugi::xml_node element, char const* name, std::string const& text) {
     element.append_attribute(name) = readable(text).c_str();
 }
@@ -47,8 +47,8 @@ char const* word(Outcome outcome) {
             return "holds          ";
         case Outcome::broken:
             return "BROKEN         ";
-        case Outcome::not_played:
-            return "not played     ";
+        case Outcome::skipped:
+            return "skipped        ";
         case Outcome::not_observable:
             return "not observable ";
     }
@@ -106,8 +106,8 @@ void write_text(std::ostream& out, Report const& report) {
     }
     out << "\n";
     write_line(out, number(report.count(Outcome::holds), "check") + " held, " + std::to_string(report.count(Outcome::broken)) +
-                        " found a broken rule, " + std::to_string(report.count(Outcome::not_played)) + " could not be played, " +
-                        std::to_string(report.count(Outcome::not_observable)) + " had an effect that cannot be observed here.");
+                        " found a broken rule, " + std::to_string(report.count(Outcome::skipped)) + " skipped, " +
+                        std::to_string(report.count(Outcome::not_observable)) + " not observable.");
 }
 
 void write_junit(std::ostream& out, Report const& report) {
@@ -119,7 +119,7 @@ void write_junit(std::ostream& out, Report const& report) {
         add_attribute(suite, "name", chapter.title);
         suite.append_attribute("tests") = chapter.findings.size();
         suite.append_attribute("failures") = count_in(chapter, Outcome::broken);
-        suite.append_attribute("skipped") = count_in(chapter, Outcome::not_played) + count_in(chapter, Outcome::not_observable);
+        suite.append_attribute("skipped") = count_in(chapter, Outcome::skipped) + count_in(chapter, Outcome::not_observable);
         for (auto const& finding : chapter.findings) add_case(suite, chapter, finding);
     }
     document.save(out, "  ");
@@ -134,7 +134,7 @@ void write_junit_error(std::ostream& out, std::string const& gateway, std::strin
     suite.append_attribute("tests") = 1;
     suite.append_attribute("errors") = 1;
     auto test = suite.append_child("testcase");
-    add_attribute(test, "name", "the_gateway_can_be_judged");
+    add_attribute(test, "name", "the_gateway_can_be_checked");
     add_attribute(test, "classname", "rois-conformance");
     add_attribute(test.append_child("error"), "message", shortened(why));
     document.save(out, "  ");

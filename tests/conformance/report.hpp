@@ -1,4 +1,4 @@
-// What came of the checks, as text for people and as JUnit XML for build servers.
+// The results of the checks, as text for people and as JUnit XML for build servers.
 #pragma once
 
 #include <ostream>
@@ -8,15 +8,15 @@
 
 namespace rois::conformance {
 
-enum class Outcome { holds, broken, not_played, not_observable };
+enum class Outcome { holds, broken, skipped, not_observable };
 
-// A check over one way.
+// The result of a check over one transport.
 struct Finding {
     std::string name;
     std::string proves;
-    std::string over;  // "HTTP", "WebSocket"; empty for checks over all transports
+    std::string over;  // "HTTP" or "WebSocket"; empty for rules over all transports
     Outcome outcome = Outcome::holds;
-    std::string text{};  // why, unless it holds
+    std::string text{};  // the reason, unless the outcome is `holds`
     double seconds = 0;
 };
 
@@ -32,10 +32,10 @@ struct Report {
     std::size_t count(Outcome) const;
 };
 
-// All that is written is readable, whatever a gateway has answered.
+// Both write only `readable` text, whatever a gateway has answered.
 void write_text(std::ostream&, Report const&);
 void write_junit(std::ostream&, Report const&);
-// The report of a gateway that could not be judged.
+// Writes the report of a gateway that could not be checked, with one error.
 void write_junit_error(std::ostream&, std::string const& gateway, std::string const& why);
 
 // Returns the text on one line, with U+FFFD in place of control characters and bytes that are not UTF-8.

@@ -18,8 +18,8 @@ std::shared_ptr<xml::Schemas const> schemas() {
     return std::make_shared<xml::Schemas const>(xml::NamedFiles{files.begin(), files.end()});
 }
 
-// Texts may be rounded to whole millimetres and degrees.
-bool says(pugi::xml_node located, Point const& point) {
+// Returns whether the element has this position. Texts may be rounded to whole millimetres and degrees.
+bool matches(pugi::xml_node located, Point const& point) {
     constexpr double rounded = 1;
     std::istringstream position{located.child("position").text().get()}, orientation{located.child("orientation").text().get()};
     double x = 0, y = 0, roll = 0, pitch = 0, yaw = 0;
@@ -38,28 +38,28 @@ std::string written(pugi::xml_node node) {
 
 Traffic::Traffic()
     : rules_{{"documents_are_valid", "docs/clients.md; schemas"},
-             {"answers_belong_to_their_requests", "docs/clients.md"},
-             {"refusals_give_a_reason", "table 1; docs/clients.md"},
-             {"notifications_are_counted_without_gaps", "decision 22"},
-             {"answers_come_before_what_they_cause", "figures 9, 10; decision 22"},
+             {"answers_match_their_requests", "docs/clients.md"},
+             {"refusals_have_a_reason", "table 1; docs/clients.md"},
+             {"notification_sequences_have_no_gaps", "decision 22"},
+             {"an_answer_precedes_its_notifications", "figures 9, 10; decision 22"},
              {"commands_complete_once", "figure 10; decision 12"},
-             {"events_are_those_that_were_subscribed", "figure 13; table 6"},
-             {"an_event_id_names_one_event", "table 6; decisions 20, 21"},
+             {"events_match_their_subscriptions", "figure 13; table 6"},
+             {"event_ids_are_unique", "table 6; decisions 20, 21"},
              {"events_expire_in_the_future", "table 6; decision 21"},
-             {"located_elements_say_what_texts_say", "decision 27; docs/frames.md"},
+             {"located_elements_match_their_texts", "decision 27; docs/frames.md"},
              {"times_are_utc", "table 6; decision 28"},
-             {"nothing_is_sent_outside_of_a_session", "figure 6; decision 3"},
+             {"no_notification_is_sent_without_a_session", "figure 6; decision 3"},
              {"errors_have_details", "figure 7; tables 6, 7; decision 24"}},
       validator_{schemas()} {}
 
-void Traffic::see(std::string const& name, bool holds, std::string const& otherwise) {
-    auto const rule = std::ranges::find(rules_, name, &StandingRule::name);
-    if (rule == rules_.end()) throw std::logic_error{"no rule " + name};
-    ++rule->seen;
-    if (!holds && rule->objection.empty()) rule->objection = otherwise;
+void Traffic::check(std::string const& name, bool holds, std::string const& message) {
+    auto const rule = std::ranges::find(rules_, name, &MessageRule::name);
+    if (rule == rules_.end()) throw std::logic_error{"unknown rule '" + name + "'"};
+    ++rule->occasions;
+    if (!holds && rule->violation.empty()) rule->violation = message;
 }
 
-void Traffic::look_at_located(pugi::xml_node results) {
+void Traffic::check_located(pugi::xml_node results) {
     for (auto const result : results.children("result")) {
         std::string_view const frame = result.child("rois:data_type_ref").attribute("rois:codebook_ref").value();
         std::vector<pugi::xml_node> located;
@@ -69,18 +69,19 @@ void Traffic::look_at_located(pugi::xml_node results) {
                 located.push_back(one);
         if (located.empty()) continue;
         for (auto const value : result.children("rois:value")) {
-            auto const said = point_in(value.text().get());
-            if (!said) continue;  // the name of a place
-            auto const fits = [&](auto const one) { return says(one, *said); };
-            see("located_elements_say_what_texts_say", std::ranges::any_of(located, fits),
-                std::string{"no element `located` says \""} + value.text().get() + "\": " + written(results));
+            auto const point = point_in(value.text().get());
+            if (!point) continue;  // the name of a place
+            auto const fits = [&](auto const one) { return matches(one, *point); };
+            check("located_elements_match_their_texts", std::ranges::any_of(located, fits),
+                  std::string{"expected an element `located` with the position \""} + value.text().get() + "\", got " +
+                      written(results));
         }
     }
 }
 
 void Traffic::validate(std::string const& document) {
     auto const objection = validator_.objection_to(document);
-    see("documents_are_valid", !objection, objection ? objection->text + ": " + document : "");
+    check("documents_are_valid", !objection, objection ? objection->text + ": " + document : "");
 }
 
 }  // namespace rois::conformance

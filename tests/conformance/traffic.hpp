@@ -1,5 +1,5 @@
-// What holds for all that a gateway says, whatever is played: each document is looked at here, and the first objection to each of
-// these rules is kept.
+// The rules for all messages. Each document of a gateway is checked here, in every check. The first violation of each rule is
+// kept.
 #pragma once
 
 #include <string>
@@ -11,29 +11,29 @@
 
 namespace rois::conformance {
 
-// A rule of this kind.
-struct StandingRule {
+// A rule for all messages.
+struct MessageRule {
     std::string name;
     std::string proves;
-    unsigned seen = 0;        // occasions to see it
-    std::string objection{};  // empty: it holds
+    unsigned occasions = 0;   // number of messages to which the rule applied
+    std::string violation{};  // the first violation; empty if the rule holds
 };
 
 class Traffic {
 public:
     Traffic();
 
-    // One occasion to see the rule of this name; `otherwise` is kept when it does not hold.
-    void see(std::string const& name, bool holds, std::string const& otherwise);
-    // The positions in `results`, as texts and as elements: they say the same.
-    void look_at_located(pugi::xml_node results);
-    // A document of the messages' or the profiles' schemas.
+    // Counts a message to which the rule `name` applies. If the rule does not hold, keeps `message`.
+    void check(std::string const& name, bool holds, std::string const& message);
+    // Checks that each position in `results` equals an element `located`.
+    void check_located(pugi::xml_node results);
+    // Validates a document against the schemas.
     void validate(std::string const& document);
 
-    std::vector<StandingRule> const& rules() const { return rules_; }
+    std::vector<MessageRule> const& rules() const { return rules_; }
 
 private:
-    std::vector<StandingRule> rules_;
+    std::vector<MessageRule> rules_;
     xml::Validator validator_;
 };
 

@@ -105,7 +105,7 @@ struct Rig {
             other.notifications(0, 0);
             other.get("/metrics");
             other.post("<connect/>");  // the full validator checks it
-            if (leaves == Leaves::without) desk.vanish();
+            if (leaves == Leaves::without) desk.keep_session();
         } catch (std::runtime_error const&) {
             ++broken;  // the connection: its application starts again
         }

@@ -90,7 +90,7 @@ std::set<std::string> all_tests(Tree const& tree) {
         bool const of_functions = file.ends_with("_checks.cpp");
         for_each_line(text, [&, &source = text](std::string const& line, std::size_t) {
             for (std::sregex_iterator at(line.begin(), line.end(), check), end; at != end; ++at)
-                if (!of_functions || source.find("void " + (*at)[1].str() + "(Stage") != source.npos) names.insert((*at)[1]);
+                if (!of_functions || source.find("void " + (*at)[1].str() + "(Context") != source.npos) names.insert((*at)[1]);
         });
     }
     return names;

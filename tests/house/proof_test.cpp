@@ -44,15 +44,14 @@ Tree whole() {
         "| document | rows | done | not done | not ours |\n|---|---|---|---|---|\n"
         "| [conformance.md](conformance.md) | 117 | 117 | 0 | 0 |\n| [conformance-xml.md](conformance-xml.md) | 2 | 0 | 1 | 1 |\n"
         "| all | 119 | 117 | 1 | 1 |\n\n";
-    return {
-        {"docs/conformance.md", head + all_rows()},
-        {"docs/conformance-xml.md", row("C++", "-", "not ours: this is XML") + row("1.2", "-", "not done: too costly")},
-        {"docs/conformance-program.md", row("7", "`No.Test`", "some day")},
-        {"tests/lamp/lamp_test.cpp", "TEST_F(Lamp, Shines) {}\n// TEST(Lamp, IsGreen)\n" + numbered_tests()},
-        {"tests/lamp/shines.sh", ""},
-        {"tests/conformance/lamp_checks.cpp",
-         "void a_lamp_shines(Stage& stage) {}\n{{\"a_lamp_shines\", \"table 1\", a_lamp_shines},\n{\"an_operation\", \"\"}\n"},
-        {"tests/conformance/traffic.cpp", "rules_{{\"documents_are_valid\", \"schemas\"},\n"}};
+    return {{"docs/conformance.md", head + all_rows()},
+            {"docs/conformance-xml.md", row("C++", "-", "not ours: this is XML") + row("1.2", "-", "not done: too costly")},
+            {"docs/conformance-program.md", row("7", "`No.Test`", "some day")},
+            {"tests/lamp/lamp_test.cpp", "TEST_F(Lamp, Shines) {}\n// TEST(Lamp, IsGreen)\n" + numbered_tests()},
+            {"tests/lamp/shines.sh", ""},
+            {"tests/conformance/lamp_checks.cpp",
+             "void a_lamp_shines(Context&) {}\n{{\"a_lamp_shines\", \"table 1\", a_lamp_shines},\n{\"an_operation\", \"\"}\n"},
+            {"tests/conformance/traffic.cpp", "rules_{{\"documents_are_valid\", \"schemas\"},\n"}};
 }
 
 // Returns the complaints after replacing `what` by `by` in one file.

@@ -11,8 +11,8 @@ struct Address {
     std::string host = "127.0.0.1";  // a name or an IP address
     std::uint16_t port = 0;
     std::string authority = "localhost";         // for the header Host
-    std::string token{};                         // the bearer token; empty: none
-    std::chrono::milliseconds patience{20'000};  // longest wait for one thing
+    std::string token{};                         // the bearer token; may be empty
+    std::chrono::milliseconds patience{20'000};  // longest wait for one answer, notification or connection
 };
 
 }  // namespace rois::kit

@@ -10,28 +10,28 @@ namespace rois::kit {
 
 namespace {
 
-class HttpWire final : public Wire {
+class HttpConnection final : public Connection {
 public:
-    explicit HttpWire(Address const& address) : client_{address}, patience_{address.patience} {}
+    explicit HttpConnection(Address const& address) : client_{address}, patience_{address.patience} {}
 
     std::string ask(std::string const& request, std::vector<std::string>&) override { return client_.post(request).body; }
 
-    void wait(std::vector<std::string>& news) override { take(poll(), news); }
+    void wait(std::vector<std::string>& notifications) override { take(poll(), notifications); }
 
-    void look(std::vector<std::string>& news) override { take(client_.notifications(last_, 0), news); }
+    void fetch(std::vector<std::string>& notifications) override { take(client_.notifications(last_, 0), notifications); }
 
-    void use(std::string const& session) override {
+    void set_session(std::string const& session) override {
         if (client_.session != session) last_ = 0;
         client_.session = session;
     }
 
 private:
-    void take(HttpReply const& reply, std::vector<std::string>& news) {
+    void take(HttpReply const& reply, std::vector<std::string>& notifications) {
         pugi::xml_document as_written;
         as_written.load_buffer(reply.body.data(), reply.body.size());
         for (auto const notification : as_written.document_element().children()) {
             last_ = notification.attribute("sequence").as_uint();
-            news.push_back(document_of(notification));
+            notifications.push_back(document_of(notification));
         }
     }
 
@@ -39,19 +39,19 @@ private:
     HttpReply poll() {
         using Clock = std::chrono::steady_clock;
         constexpr std::chrono::seconds longest{30};  // long poll (docs/clients.md)
-        constexpr std::chrono::milliseconds imprecision{500};
+        constexpr std::chrono::milliseconds tolerance{500};
         auto const patience = std::max(std::chrono::ceil<std::chrono::seconds>(patience_), std::chrono::seconds{1});
         auto const end = Clock::now() + patience;
         std::string empty;
         for (auto left = patience; left.count() > 0; left = std::chrono::round<std::chrono::seconds>(end - Clock::now())) {
             auto const wait = std::min(left, longest);
-            auto const due = Clock::now() + wait - imprecision;
+            auto const deadline = Clock::now() + wait - tolerance;
             auto reply = client_.notifications(last_, static_cast<unsigned>(wait.count()));
             if (reply.root().first_child()) return reply;
             empty = reply.body;
-            if (Clock::now() < due) throw LineEnded{"a long poll returned early without a notification: " + empty};
+            if (Clock::now() < deadline) throw LineEnded{"a long poll returned early without a notification: " + empty};
         }
-        throw LineEnded{"no notification for " + std::to_string(patience.count()) + " s: " + empty};
+        throw LineEnded{"received no notification within " + std::to_string(patience.count()) + " s; last answer: " + empty};
     }
 
     // Adds the namespaces that the enclosing list declares.
@@ -69,24 +69,24 @@ private:
     unsigned last_ = 0;
 };
 
-class WebSocketWire final : public Wire {
+class WebSocketConnection final : public Connection {
 public:
-    explicit WebSocketWire(Address const& address) : client_{address} {}
+    explicit WebSocketConnection(Address const& address) : client_{address} {}
 
-    std::string ask(std::string const& request, std::vector<std::string>& news) override {
+    std::string ask(std::string const& request, std::vector<std::string>& notifications) override {
         client_.send(request);
         while (true) {
             auto text = next_text();
             if (!is_notification(text)) return text;
-            news.push_back(std::move(text));
+            notifications.push_back(std::move(text));
         }
     }
 
-    void wait(std::vector<std::string>& news) override { news.push_back(next_text()); }
+    void wait(std::vector<std::string>& notifications) override { notifications.push_back(next_text()); }
 
-    void look(std::vector<std::string>&) override {}  // they arrive with the answers
+    void fetch(std::vector<std::string>&) override {}  // notifications arrive with the answers
 
-    void use(std::string const&) override {}  // the session is the socket's
+    void set_session(std::string const&) override {}  // a WebSocket has one session
 
 private:
     static bool is_notification(std::string const& text) { return !Document{text}.attribute("sequence").empty(); }
@@ -97,7 +97,8 @@ private:
             client_.send(frame.payload, Kind::pong);
             frame = client_.next();
         }
-        if (frame.kind != Kind::text) throw LineEnded{"closed with " + std::to_string(frame.close_code())};
+        if (frame.kind != Kind::text)
+            throw LineEnded{"expected a text frame; the WebSocket closed with code " + std::to_string(frame.close_code())};
         return frame.payload;
     }
 
@@ -106,14 +107,16 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Wire> wire_to(Address const& address, Way way) {
-    if (way == Way::http) return std::make_unique<HttpWire>(address);
-    return std::make_unique<WebSocketWire>(address);
+std::unique_ptr<Connection> connection_over(Address const& address, Transport transport) {
+    if (transport == Transport::http) return std::make_unique<HttpConnection>(address);
+    return std::make_unique<WebSocketConnection>(address);
 }
 
-std::ostream& operator<<(std::ostream& out, Way way) { return out << (way == Way::http ? "Http" : "WebSocket"); }
+std::ostream& operator<<(std::ostream& out, Transport transport) {
+    return out << (transport == Transport::http ? "Http" : "WebSocket");
+}
 
-void Application::leave() {
+void Application::disconnect_if_connected() {
     if (connected_) disconnect();
 }
 
@@ -121,9 +124,9 @@ Document Application::ask(std::string const& operation, Xml const& children, Att
     auto const request_id = "request-" + std::to_string(++requests_);
     auto with_id = attributes;
     with_id.emplace_back("request_id", request_id);
-    std::vector<std::string> news;
-    Document const answer{wire_->ask(request(operation, children, with_id), news)};
-    take(news);
+    std::vector<std::string> notifications;
+    Document const answer{connection_->ask(request(operation, children, with_id), notifications)};
+    take(notifications);
     check_answer(answer, operation, request_id);
     return answer;
 }
@@ -134,7 +137,7 @@ Document Application::connect() {
     if (!connected_) last_sequence_ = 0;
     connected_ = true;
     session_ = answer.text("session");
-    wire_->use(session_);
+    connection_->set_session(session_);
     return answer;
 }
 
@@ -186,9 +189,9 @@ std::vector<std::string> Application::search(Xml const& condition) {
 
 Document Application::receive() {
     if (waiting_.empty()) {
-        std::vector<std::string> news;
-        wire_->wait(news);
-        take(news);
+        std::vector<std::string> notifications;
+        connection_->wait(notifications);
+        take(notifications);
     }
     history_.push_back(waiting_.front());
     waiting_.erase(waiting_.begin());
@@ -197,9 +200,9 @@ Document Application::receive() {
 
 std::optional<Document> Application::receive_now() {
     if (waiting_.empty()) {
-        std::vector<std::string> news;
-        wire_->look(news);
-        take(news);
+        std::vector<std::string> notifications;
+        connection_->fetch(notifications);
+        take(notifications);
     }
     if (waiting_.empty()) return {};
     return receive();
@@ -207,21 +210,20 @@ std::optional<Document> Application::receive_now() {
 
 Document Application::next_event(std::string const& type) {
     while (true) {
-        auto notification = receive();
-        if (notification.text("event_type") == type) return notification;
+        auto received = receive();
+        if (received.text("event_type") == type) return received;
     }
 }
 
 std::string Application::status_of(std::string const& command_id) {
     while (true) {
-        auto const notification = receive();
-        if (notification.name() == "completed" && notification.text("command_id") == command_id)
-            return notification.text("status");
+        auto const received = receive();
+        if (received.name() == "completed" && received.text("command_id") == command_id) return received.text("status");
     }
 }
 
-void Application::take(std::vector<std::string> const& news) {
-    for (auto const& text : news) {
+void Application::take(std::vector<std::string> const& notifications) {
+    for (auto const& text : notifications) {
         Document notification{text};
         check_notification(notification, ++last_sequence_);
         waiting_.push_back(std::move(notification));

@@ -22,7 +22,7 @@ Ended run_gateway(std::vector<std::string> const& arguments, Variables const& = 
 // A gateway that listens on a free port of the loopback. The destructor ends it; the test fails if its exit code is not 0.
 class GatewayProcess {
 public:
-    // Waits until it listens. Throws std::runtime_error with its output if it ends before that.
+    // Waits until the gateway listens. Throws std::runtime_error with its output if the gateway ends before that.
     explicit GatewayProcess(std::vector<std::string> arguments = {}, Variables const& = {});
     ~GatewayProcess();
     GatewayProcess(GatewayProcess const&) = delete;
@@ -45,12 +45,12 @@ public:
 
 private:
     pid_t process_ = 0;
-    int errors_ = -1;  // its standard error; the reader empties it, so that the gateway never waits for the test
+    int errors_ = -1;  // standard error of the gateway; the reader thread empties the pipe, so that the gateway never blocks
     std::thread reader_;
     std::mutex mutex_;  // guards the members below
     std::condition_variable news_;
     std::string log_;
-    bool ended_ = false;  // the end of the log was read
+    bool ended_ = false;  // the reader has reached the end of the log
     std::string url_;
     std::uint16_t port_ = 0;
 };

@@ -118,7 +118,7 @@ HttpReply HttpClient::say(std::string_view bytes, std::string_view method) {
 HttpReply HttpClient::read(std::string_view method) {
     HttpReply reply;
     auto const head = line_->take_until("\r\n\r\n");
-    if (!head.starts_with("HTTP/1.1 ") || head.size() < 12) throw LineEnded{"not an HTTP answer: " + head};
+    if (!head.starts_with("HTTP/1.1 ") || head.size() < 12) throw LineEnded{"expected an HTTP/1.1 answer, got " + head};
     reply.status = std::atoi(head.substr(9, 3).c_str());
     reply.headers = read_headers(head);
     reopens_ = lower(reply.header("connection")).find("close") != std::string::npos;
@@ -142,7 +142,7 @@ std::string HttpClient::next_chunk() {
     auto const size = line_->take_until("\r\n");
     char* end = nullptr;
     auto const length = std::strtoul(size.c_str(), &end, 16);
-    if (end == size.c_str()) throw LineEnded{"not the size of a chunk: " + size};
+    if (end == size.c_str()) throw LineEnded{"chunked body: expected the size of a chunk, got " + size};
     if (length == 0) {
         while (line_->take_until("\r\n") != "\r\n") {  // trailers
         }
@@ -157,7 +157,7 @@ std::string HttpClient::next_line() {
     if (!is_chunked_) return line_->take_until("\n");
     for (auto end = streamed_.find('\n'); end == std::string::npos; end = streamed_.find('\n')) {
         auto const chunk = next_chunk();
-        if (chunk.empty()) throw LineEnded{"the stream has ended after: " + streamed_};
+        if (chunk.empty()) throw LineEnded{"the event stream ended within a line: " + streamed_};
         streamed_ += chunk;
     }
     auto const end = streamed_.find('\n') + 1;
@@ -190,9 +190,9 @@ HttpReply HttpClient::call(std::string const& operation, Xml const& children, At
 HttpReply HttpClient::notifications(unsigned after, unsigned wait) {
     constexpr std::chrono::seconds on_its_way{5};  // longest delay of an answer
     reopen_when_closed();
-    line_->be_patient(std::max<std::chrono::milliseconds>(address_.patience, std::chrono::seconds{wait} + on_its_way));
+    line_->set_patience(std::max<std::chrono::milliseconds>(address_.patience, std::chrono::seconds{wait} + on_its_way));
     auto reply = get("/rois/notifications?after=" + std::to_string(after) + "&wait=" + std::to_string(wait));
-    line_->be_patient(address_.patience);
+    line_->set_patience(address_.patience);
     return reply;
 }
 

@@ -57,7 +57,7 @@ public:
     HttpReply say(std::string_view bytes, std::string_view method = "GET");
     HttpReply read(std::string_view method = "GET");  // of an event stream only the head
     std::string next_line();                          // of an event stream, with its line end
-    // Both open a new connection if the last answer has closed this one.
+    // Both open a new connection if the server has closed the last one.
     HttpReply get(std::string const& target, Headers const& = {}, std::string const& method = "GET");
     HttpReply post(std::string const& body, Headers const& = {{"Content-Type", "application/xml"}});
 
@@ -71,14 +71,14 @@ public:
 private:
     std::string always() const;  // the header lines of every request
 
-    std::string next_chunk();  // of a chunked body (RFC 9112, 7.1); empty at its end
+    std::string next_chunk();  // the next chunk of a chunked body (RFC 9112, 7.1); empty at the end
     void reopen_when_closed();
 
     Address address_;
     std::unique_ptr<Line> line_;
     bool reopens_ = false;
     bool is_chunked_ = false;
-    std::string streamed_;  // of a chunked event stream: arrived, not read
+    std::string streamed_;  // of a chunked event stream: received bytes that were not read yet
 };
 
 }  // namespace rois::kit

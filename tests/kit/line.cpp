@@ -69,7 +69,7 @@ bool Line::receive(Clock::time_point deadline) {
     auto const left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
     pollfd waiting{socket_, POLLIN, 0};
     if (poll(&waiting, 1, static_cast<int>(std::max<std::int64_t>(left.count(), 0))) == 0)
-        throw LineEnded{"nothing received for " + in_seconds(patience_) + "; before: " + received_};
+        throw LineEnded{"received no bytes for " + in_seconds(patience_) + "; received before: " + received_};
     std::array<char, 65'536> buffer;
     auto const size = recv(socket_, buffer.data(), buffer.size(), 0);
     if (size <= 0) return false;
@@ -79,7 +79,7 @@ bool Line::receive(Clock::time_point deadline) {
 
 std::string Line::take(std::size_t size) {
     for (auto const until = deadline(); received_.size() < size;) {
-        if (!receive(until)) throw LineEnded{"closed after: " + received_};
+        if (!receive(until)) throw LineEnded{"the peer closed the connection; received before: " + received_};
     }
     auto taken = received_.substr(0, size);
     received_.erase(0, size);
@@ -88,7 +88,7 @@ std::string Line::take(std::size_t size) {
 
 std::string Line::take_until(std::string_view mark) {
     for (auto const until = deadline(); received_.find(mark) == std::string::npos;) {
-        if (!receive(until)) throw LineEnded{"closed after: " + received_};
+        if (!receive(until)) throw LineEnded{"the peer closed the connection; received before: " + received_};
     }
     return take(received_.find(mark) + mark.size());
 }

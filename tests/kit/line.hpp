@@ -30,14 +30,14 @@ public:
     std::size_t send_now(std::string_view bytes);
     void finish();  // closes the sending direction
 
-    // Sets the longest wait of the functions below; at first that of the address.
-    void be_patient(std::chrono::milliseconds patience) { patience_ = patience; }
+    // Sets the longest wait of the functions below. Default: the patience of the address.
+    void set_patience(std::chrono::milliseconds patience) { patience_ = patience; }
 
     // Returns the next `size` bytes. Throws LineEnded if they do not arrive.
     std::string take(std::size_t size);
-    // Returns the bytes up to and including the mark. Throws LineEnded.
+    // Returns the bytes up to and including the mark. Throws LineEnded if it does not arrive.
     std::string take_until(std::string_view mark);
-    // Returns whether the peer closes without another byte.
+    // Waits until the peer closes or sends. Returns whether it closed without another byte.
     bool ends();
     // Returns all bytes until the peer closes.
     std::string rest();

@@ -5,8 +5,8 @@
 
 namespace rois::kit {
 
-// Replaces the prefixes of elements, attributes and the values of xsi:type: none for messages, else rois, fes, gml, unr or xsi.
-// A name with one of these prefixes but another namespace becomes `other:...`. A name without a namespace stays.
+// Replaces the prefixes of elements, attributes and the values of xsi:type by rois, fes, gml, unr or xsi. Messages get no prefix.
+// A name that has one of these prefixes but another namespace becomes `other:...`. A name without a namespace is unchanged.
 void give_known_prefixes(pugi::xml_document&);
 
 }  // namespace rois::kit

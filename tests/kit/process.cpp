@@ -67,7 +67,7 @@ void read_both(pid_t process, int out, std::string& out_text, int error, std::st
         auto const left = std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
         if (poll(both.data(), both.size(), std::max(0, static_cast<int>(left.count()))) == 0) {
             kill(process, SIGKILL);
-            error_text += "killed because it did not end by itself\n";
+            error_text += "killed: the program did not end within 100 s\n";
             break;
         }
         if (both[0].revents != 0 && !read_some(out, out_text)) both[0].fd = -1;

@@ -65,7 +65,8 @@ MediaUrl::MediaUrl(std::string const& url) {
     static std::string const scheme = "http://";
     auto const slash = url.find('/', scheme.size());
     auto const colon = url.rfind(':', slash);
-    if (!url.starts_with(scheme) || slash == url.npos) throw std::invalid_argument{url + " is not a URL of media"};
+    if (!url.starts_with(scheme) || slash == url.npos)
+        throw std::invalid_argument{"'" + url + "' is not a media URL: expected http://HOST[:PORT]/PATH"};
     bool const has_port = colon >= scheme.size();
     address.host = url.substr(scheme.size(), (has_port ? colon : slash) - scheme.size());
     address.port = static_cast<std::uint16_t>(has_port ? std::stoi(url.substr(colon + 1, slash - colon - 1)) : 80);
@@ -76,11 +77,11 @@ std::string media_request(MediaUrl const& url, std::string const& method) {
     return method + " " + url.target + " HTTP/1.1\r\nHost: " + url.address.host + "\r\n\r\n";
 }
 
-std::string Receiving::next_picture() {
+std::string MediaReceiver::next_picture() {
     static std::string const length = "Content-Length: ";
     auto const head = line_.take_until("\r\n\r\n");
     auto const at = head.find(length);
-    if (at == head.npos) throw std::runtime_error{"a part without a length: " + head};
+    if (at == head.npos) throw std::runtime_error{"multipart video: expected a Content-Length, got " + head};
     auto picture = line_.take(static_cast<std::size_t>(std::stoul(head.substr(at + length.size()))));
     line_.take_until("\r\n");
     return picture;

@@ -24,9 +24,9 @@ struct MediaUrl {
 std::string media_request(MediaUrl const&, std::string const& method = "GET");
 
 // Reads the sound or video at this URL.
-class Receiving {
+class MediaReceiver {
 public:
-    explicit Receiving(std::string const& url) : url_{url}, line_{url_.address} {
+    explicit MediaReceiver(std::string const& url) : url_{url}, line_{url_.address} {
         line_.send(media_request(url_));
         head_ = line_.take_until("\r\n\r\n");
     }

@@ -22,7 +22,7 @@ sockaddr_in loopback(std::uint16_t port) {
 
 int new_socket() {
     auto const descriptor = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    if (descriptor < 0) throw std::runtime_error{"no socket"};
+    if (descriptor < 0) throw std::runtime_error{"cannot open a socket"};
     return descriptor;
 }
 
@@ -95,7 +95,7 @@ Listener::Listener() : descriptor_{new_socket()} {
     socklen_t size = sizeof address;
     auto* const generic = reinterpret_cast<sockaddr*>(&address);
     if (bind(descriptor_, generic, size) != 0 || listen(descriptor_, 64) != 0 || getsockname(descriptor_, generic, &size) != 0)
-        throw std::runtime_error{"cannot listen"};
+        throw std::runtime_error{"cannot listen on a port of the loopback"};
     port_ = ntohs(address.sin_port);
 }
 

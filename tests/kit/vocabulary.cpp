@@ -100,7 +100,7 @@ Xml between(std::string const& path, std::string const& lower, std::string const
 
 Xml is_null(std::string const& path) { return element("fes:PropertyIsNull", reference(path)); }
 
-Xml contrary(Xml const& filter) { return element("fes:Not", filter); }
+Xml negation(Xml const& filter) { return element("fes:Not", filter); }
 
 Xml related(std::string const& relation, std::string const& path, Xml const& other) {
     return element("fes:" + relation, reference(path) + other);
@@ -167,9 +167,9 @@ Xml command_list(Command const& command) { return message("rois:command_list", c
 
 Xml concurrent(Xml const& branches) { return typed("ConcurrentCommandsType", branches); }
 
-Xml one_after_another(Xml const& units) { return typed("SequentialCommandUnitType", units); }
+Xml sequential_unit(Xml const& units) { return typed("SequentialCommandUnitType", units); }
 
-Xml side_by_side(Xml const& units) { return typed("ParallelCommandUnitType", units); }
+Xml parallel_unit(Xml const& units) { return typed("ParallelCommandUnitType", units); }
 
 Xml sequence(Xml const& units) {
     return element("rois:CommandUnitSequence", {{"xmlns:xsi", "http://www.w3.org/2001/XMLSchema-instance"}}, units);

@@ -23,7 +23,7 @@ public:
     std::string attribute(char const* name) const { return root().attribute(name).value(); }
     std::string text(char const* child) const { return root().child(child).text().get(); }
     std::string ref(char const* child = "component_ref") const { return root().child(child).attribute("rois:code").value(); }
-    std::vector<std::string> children() const;  // their names, in order
+    std::vector<std::string> children() const;  // the names of the child elements, in order
     Values values(char const* list = "results") const;
     std::string whole() const;
     std::string const& as_received() const { return *text_; }
@@ -49,13 +49,13 @@ Xml like(std::string const& reference, std::string const& pattern);  // wildcard
 Xml compared(std::string const& comparison, std::string const& reference, std::string const& literal);  // PropertyIs...
 Xml between(std::string const& reference, std::string const& lower, std::string const& upper);
 Xml is_null(std::string const& reference);
-Xml contrary(Xml const& filter);
+Xml negation(Xml const& filter);
 Xml related(std::string const& relation, std::string const& reference, Xml const& other);  // Within, During, ...
 Xml box(std::string const& lower, std::string const& upper, std::string const& frame = "");
 Xml place(std::string const& name);
 Xml distance(std::string const& length, std::string const& unit = "mm");
 Xml undefined_function(std::string const& reference);  // an unknown predicate: is_free(reference)
-Xml nearest(std::string const& place);                 // `<fes:SortBy>`, by the component's distance to it
+Xml nearest(std::string const& place);                 // `<fes:SortBy>`, by the component's distance to the place
 Xml sorted_by(std::string const& reference, std::string const& order);
 Xml ordered(Xml const& filter, Xml const& sort_by);  // `<condition>`; the filter may be empty
 Xml where(Xml const& filter);                        // `<condition>`
@@ -88,9 +88,9 @@ Xml unit(Command const&);                                      // of a sequence
 Xml pause(int delay);                                          // a unit that only delays
 Xml branch(std::vector<Command> const&);                       // commands one after the other
 Xml command_list(Command const&);                              // a branch of the flat form
-Xml concurrent(Xml const& branches);                           // the published parallel unit, of branches in either form
-Xml one_after_another(Xml const& units);                       // the sequential unit of RoIS 1.0 (2011)
-Xml side_by_side(Xml const& units);                            // the parallel unit of RoIS 1.0 (2011)
+Xml concurrent(Xml const& branches);                           // the parallel unit of the published schema; `branches`: see above
+Xml sequential_unit(Xml const& units);                         // the sequential unit of the specification of 2011
+Xml parallel_unit(Xml const& units);                           // the parallel unit of the specification of 2011
 Xml sequence(Xml const& units);                                // for execute
 std::vector<std::string> command_ids(Document const& answer);  // of an answer of execute, in document order
 

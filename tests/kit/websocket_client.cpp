@@ -24,7 +24,7 @@ int Frame::close_code() const {
 
 WebSocketClient::WebSocketClient(Address const& address, std::string const& path) : http_{address} {
     auto const status = shake_hands(http_, {}, path).status;
-    if (status != 101) throw LineEnded{"no WebSocket: HTTP status " + std::to_string(status) + " instead of 101"};
+    if (status != 101) throw LineEnded{"WebSocket handshake: expected status 101, got " + std::to_string(status)};
 }
 
 void WebSocketClient::send(std::string_view payload, Kind kind) { line().send(whole_frame(kind, payload, Masked::yes)); }
@@ -52,7 +52,8 @@ pugi::xml_node WebSocketClient::next_document() {
         send(frame.payload, Kind::pong);
         frame = next();
     }
-    if (frame.kind != Kind::text) throw LineEnded{"closed with " + std::to_string(frame.close_code())};
+    if (frame.kind != Kind::text)
+        throw LineEnded{"expected a text frame; the WebSocket closed with code " + std::to_string(frame.close_code())};
     document_.load_string(frame.payload.c_str());
     give_known_prefixes(document_);
     return document_.document_element();
@@ -65,11 +66,11 @@ pugi::xml_node WebSocketClient::call(std::string const& operation, Xml const& ch
     return answer;
 }
 
-int WebSocketClient::closes() {
+int WebSocketClient::await_close() {
     auto frame = next();
     while (frame.kind != Kind::close) frame = next();
     send(frame.payload, Kind::close);
-    if (!line().ends()) throw LineEnded{"bytes after the close frame"};
+    if (!line().ends()) throw LineEnded{"received bytes after the close frame"};
     return frame.close_code();
 }
 

@@ -11,7 +11,7 @@
 namespace rois::kit {
 
 inline constexpr auto good_key = "dGhlIHNhbXBsZSBub25jZQ==";
-inline constexpr auto its_accept = "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=";  // RFC 6455, 1.3
+inline constexpr auto expected_accept = "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=";  // RFC 6455, 1.3
 
 // Sends the handshake; `other` adds or replaces header fields, an empty value removes one.
 HttpReply shake_hands(HttpClient&, Headers const& other = {}, std::string const& path = "/rois");
@@ -25,7 +25,7 @@ struct Frame {
 
 class WebSocketClient {
 public:
-    // Shakes hands.
+    // Opens the WebSocket. Throws LineEnded if the server refuses the handshake.
     explicit WebSocketClient(Address const&, std::string const& path = "/rois");
 
     Line& line() { return http_.line(); }
@@ -41,11 +41,11 @@ public:
     // Calls `ask`, and returns the next document.
     pugi::xml_node call(std::string const& operation, Xml const& children = {}, Attributes const& attributes = {});
     // Waits until the server closes the connection, and returns its close code; skips other frames.
-    int closes();
+    int await_close();
 
     std::string const& session() const { return http_.session; }
-    // Lets the destructor keep the session: closes without a close frame.
-    void vanish() { http_.session.clear(); }
+    // Makes the destructor close the connection without `disconnect`, so that the session stays open.
+    void keep_session() { http_.session.clear(); }
 
 private:
     HttpClient http_;

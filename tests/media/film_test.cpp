@@ -31,7 +31,7 @@ TEST(HttpFilm, IsOnePictureAfterAnother) {
     Stage stage;
     Screen screen;
     auto const outlet = stage.server.serve(screen.film(Film::Form::motion_jpeg), Flow::on);
-    Receiving receiving{outlet->address()};
+    MediaReceiver receiving{outlet->address()};
     EXPECT_THAT(receiving.head(), HasSubstr("\r\nContent-Type: multipart/x-mixed-replace;boundary=picture\r\n"));
     EXPECT_EQ(colour_of(receiving.next_picture()), 'r');
     screen.colour = 'b';
@@ -45,7 +45,7 @@ TEST(HttpFilm, BeginsWithTheFirstPicture) {
     Screen screen;
     screen.colour = '-';
     auto const outlet = stage.server.serve(screen.film(Film::Form::motion_jpeg), Flow::on);
-    Receiving receiving{outlet->address()};
+    MediaReceiver receiving{outlet->address()};
     screen.colour = 'g';
     EXPECT_EQ(colour_of(receiving.next_picture()), 'g');
 }
@@ -55,7 +55,7 @@ TEST(HttpFilm, SendsNothingWhileHeld) {
     Screen screen, other;
     auto const held = stage.server.serve(screen.film(Film::Form::motion_jpeg), Flow::on);
     auto const going_on = stage.server.serve(other.film(Film::Form::motion_jpeg), Flow::on);
-    Receiving receiving{held->address()}, witness{going_on->address()};
+    MediaReceiver receiving{held->address()}, witness{going_on->address()};
     receiving.next_picture();
     held->hold();
     for (int i = 0; i < 2; ++i) witness.next_picture();
@@ -72,15 +72,15 @@ TEST(HttpFilm, MayBeFetchedPictureByPicture) {
     Stage stage;
     Screen screen;
     auto const outlet = stage.server.serve(screen.film(Film::Form::jpeg), Flow::on);
-    Receiving first{outlet->address()};
+    MediaReceiver first{outlet->address()};
     EXPECT_THAT(first.head(), StartsWith("HTTP/1.1 200 OK\r\nContent-Type: image/jpeg\r\n"));
     EXPECT_EQ(colour_of(first.line().rest()), 'r');
     outlet->hold();
-    Receiving held{outlet->address()};
+    MediaReceiver held{outlet->address()};
     EXPECT_THAT(held.head(), StartsWith("HTTP/1.1 503 "));
     EXPECT_EQ(held.line().rest(), "the stream is suspended\n");
     outlet->go_on();
-    EXPECT_EQ(colour_of(Receiving{outlet->address()}.line().rest()), 'r');
+    EXPECT_EQ(colour_of(MediaReceiver{outlet->address()}.line().rest()), 'r');
 }
 
 TEST(HttpFilm, Answers503WithoutAPicture) {
@@ -88,7 +88,7 @@ TEST(HttpFilm, Answers503WithoutAPicture) {
     Screen screen;
     screen.colour = '-';
     auto const outlet = stage.server.serve(screen.film(Film::Form::jpeg), Flow::on);
-    Receiving receiving{outlet->address()};
+    MediaReceiver receiving{outlet->address()};
     EXPECT_THAT(receiving.head(), StartsWith("HTTP/1.1 503 "));
     EXPECT_EQ(receiving.line().rest(), "there is no picture yet\n");
 }
@@ -99,10 +99,10 @@ TEST(HttpFilm, CountsRequestsForPicturesAsReception) {
     Stage stage{settings};
     Screen screen;
     auto const outlet = stage.server.serve(screen.film(Film::Form::jpeg), Flow::on);
-    Receiving{outlet->address()}.line().rest();
+    MediaReceiver{outlet->address()}.line().rest();
     EXPECT_EQ(next_reception(*outlet), Reception::begun);
     EXPECT_EQ(next_reception(*outlet), Reception::ended);
-    Receiving{outlet->address()}.line().rest();
+    MediaReceiver{outlet->address()}.line().rest();
     EXPECT_EQ(next_reception(*outlet), Reception::begun);
 }
 

@@ -26,7 +26,7 @@ TEST_F(MediaServer, Answers404ForUnknownPaths) {
     MediaUrl const url{outlet->address()};
     for (std::string const path : {"/", "/stream-2", "/stream-1/", "/STREAM-1", "//stream-1", "*", "/../stream-1"})
         EXPECT_THAT(answer("GET " + path + " HTTP/1.1\r\nHost: x\r\n\r\n"), StartsWith("HTTP/1.1 404 ")) << path;
-    EXPECT_THAT(Receiving{outlet->address() + "?again"}.head(), StartsWith("HTTP/1.1 200 "));
+    EXPECT_THAT(MediaReceiver{outlet->address() + "?again"}.head(), StartsWith("HTTP/1.1 200 "));
     outlet.reset();
     EXPECT_THAT(answer(media_request(url)), StartsWith("HTTP/1.1 404 "));
 }
@@ -56,21 +56,21 @@ TEST_F(MediaServer, ReportsStartAndEndOfReception) {
     auto const outlet = stage.server.serve(Sound{}, Flow::on);
     EXPECT_TRUE(outlet->receptions().empty());
     {
-        Receiving one{outlet->address()};
+        MediaReceiver one{outlet->address()};
         EXPECT_EQ(next_reception(*outlet), Reception::begun);
-        Receiving two{outlet->address()};
+        MediaReceiver two{outlet->address()};
         two.line().take(100);
         EXPECT_TRUE(outlet->receptions().empty()) << "only the first one is reported";
     }
     EXPECT_EQ(next_reception(*outlet), Reception::ended);
-    Receiving again{outlet->address()};
+    MediaReceiver again{outlet->address()};
     EXPECT_EQ(next_reception(*outlet), Reception::begun);
 }
 
 TEST_F(MediaServer, NoticesAReceiverThatLeavesWhileHeld) {
     auto const outlet = stage.server.serve(Sound{}, Flow::on);
     {
-        Receiving receiving{outlet->address()};
+        MediaReceiver receiving{outlet->address()};
         EXPECT_EQ(next_reception(*outlet), Reception::begun);
         outlet->hold();
     }
@@ -82,7 +82,7 @@ TEST_F(MediaServer, EndsTheConnectionWithTheOutlet) {
     auto sound = stage.server.serve(Sound{}, Flow::on), held = stage.server.serve(Sound{}, Flow::on);
     auto film = stage.server.serve(screen.film(Film::Form::motion_jpeg), Flow::on);
     held->hold();
-    Receiving one{sound->address()}, two{film->address()}, three{held->address()};
+    MediaReceiver one{sound->address()}, two{film->address()}, three{held->address()};
     one.line().take(100);
     two.next_picture();
     sound.reset();
@@ -98,8 +98,8 @@ TEST(MediaServerLimits, QueuesConnectionsBeyondTheLimit) {
     settings.max_connections = 2;
     Stage stage{settings};
     auto const outlet = stage.server.serve(Sound{}, Flow::on);
-    auto one = std::make_unique<Receiving>(outlet->address());
-    Receiving two{outlet->address()};
+    auto one = std::make_unique<MediaReceiver>(outlet->address());
+    MediaReceiver two{outlet->address()};
     MediaUrl const url{outlet->address()};
     Line third{url.address};
     third.send(media_request(url));
@@ -127,7 +127,7 @@ TEST(MediaServerLimits, DisconnectsAReceiverThatDoesNotRead) {
         large.rgb.push_back(static_cast<std::uint8_t>((noise = noise * 1'664'525 + 1) >> 24));
     auto const outlet = stage.server.serve(
         Film{.draw = [&] { return std::optional{large}; }, .frames_per_second = 25, .form = Film::Form::motion_jpeg}, Flow::on);
-    Receiving idle{outlet->address()};
+    MediaReceiver idle{outlet->address()};
     EXPECT_EQ(next_reception(*outlet), Reception::begun);
     EXPECT_EQ(next_reception(*outlet), Reception::ended);
 }
@@ -158,7 +158,7 @@ TEST(MediaServerSettings, OutletsMayOutliveIt) {
     auto const sound = stage->server.serve(Sound{}, Flow::on);
     Mailbox mailbox;
     auto const sent = stage->server.send({}, "rtp://127.0.0.1:" + std::to_string(mailbox.port()), Flow::on);
-    Receiving receiving{sound->address()};
+    MediaReceiver receiving{sound->address()};
     stage.reset();
     receiving.line().rest();
     sound->hold();

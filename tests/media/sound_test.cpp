@@ -56,7 +56,7 @@ TEST(Tone, HasAWavHeader) {
 TEST(HttpSound, IsATone) {
     Stage stage;
     auto const outlet = stage.server.serve(Sound{}, Flow::on);
-    Receiving receiving{outlet->address()};
+    MediaReceiver receiving{outlet->address()};
     EXPECT_THAT(receiving.head(), StartsWith("HTTP/1.1 200 OK\r\n"));
     EXPECT_THAT(receiving.head(), HasSubstr("\r\nContent-Type: audio/wav\r\n"));
     EXPECT_EQ(receiving.line().take(44), wav_header({}));
@@ -67,7 +67,7 @@ TEST(HttpSound, IsATone) {
 TEST(HttpSound, IsNetworkOrderAsL16) {
     Stage stage;
     auto const outlet = stage.server.serve(Sound{{.rate = 8'000, .channels = 1}, Sound::Form::l16}, Flow::on);
-    Receiving receiving{outlet->address()};
+    MediaReceiver receiving{outlet->address()};
     EXPECT_THAT(receiving.head(), HasSubstr("\r\nContent-Type: audio/L16;rate=8000;channels=1\r\n"));
     EXPECT_GT(share_of(440, samples_of(receiving.line().take(3'200), ByteOrder::big_endian), 8'000), 0.999);
 }
@@ -75,7 +75,7 @@ TEST(HttpSound, IsNetworkOrderAsL16) {
 TEST(HttpSound, ResumesWhereItWasHeld) {
     Stage stage;
     auto const held = stage.server.serve(Sound{}, Flow::on), other = stage.server.serve(Sound{}, Flow::on);
-    Receiving receiving{held->address()}, witness{other->address()};
+    MediaReceiver receiving{held->address()}, witness{other->address()};
     receiving.line().take(44);
     auto sound = receiving.line().take(1'280);
     held->hold();

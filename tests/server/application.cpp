@@ -6,11 +6,12 @@
 
 namespace rois::test {
 
-Application::Application(Way way, GatewayProcess const& gateway) : kit::Application{wire_to(gateway.address(), way)} {}
+Application::Application(Transport transport, GatewayProcess const& gateway)
+    : kit::Application{connection_over(gateway.address(), transport)} {}
 
 Application::~Application() {
     try {
-        leave();
+        disconnect_if_connected();
     } catch (LineEnded const& ended) {
         ADD_FAILURE() << "at disconnect: " << ended.what();
     }

@@ -12,7 +12,7 @@ using namespace kit;
 class Application : public kit::Application {
 public:
     // Not connected yet.
-    explicit Application(Way, GatewayProcess const&);
+    explicit Application(Transport, GatewayProcess const&);
     ~Application() override;  // disconnects
 
 private:

@@ -15,7 +15,7 @@ using testing::IsEmpty;
 // An empty hall, 20 times as fast as real time.
 GatewayProcess& empty_hall();
 
-class Conversation : public testing::TestWithParam<Way> {
+class Conversation : public testing::TestWithParam<Transport> {
 protected:
     Conversation() { desk.connect(); }
 
@@ -24,7 +24,7 @@ protected:
 
 // Runs the tests of a suite over HTTP and over WebSocket.
 #define ROIS_OVER_BOTH_WAYS(suite) \
-    INSTANTIATE_TEST_SUITE_P(Over, suite, testing::ValuesIn(all_ways), testing::PrintToStringParamName())
+    INSTANTIATE_TEST_SUITE_P(Over, suite, testing::ValuesIn(all_transports), testing::PrintToStringParamName())
 
 MATCHER(IsOk, "is OK") {
     *result_listener << arg.whole();

@@ -21,14 +21,14 @@ Breaking stores_nothing() {
     return edits_requests("set_parameter", [](pugi::xml_node root) { root.child("parameters").remove_children(); });
 }
 
-Breaking tells_status(char const* status, char const* instead) {
+Breaking reports_status(char const* status, char const* instead) {
     return edits_notifications("completed", [=](pugi::xml_node root) {
         auto text = root.child("status").text();
         if (text.get() == std::string_view{status}) text.set(instead);
     });
 }
 
-Breaking forgets_the_fifth_completion() {
+Breaking drops_the_fifth_completion() {
     auto completed = std::make_shared<int>(0);
     return {.notification = [completed](std::string const& notification) -> Documents {
         if (is(notification, "completed") && ++*completed == 5) return {};
@@ -36,8 +36,8 @@ Breaking forgets_the_fifth_completion() {
     }};
 }
 
-// Everywhere in the same way.
-Breaking names_commands_itself() {
+// Renames the commands in answers of execute and in `completed`.
+Breaking renames_commands() {
     auto named = std::make_shared<std::set<std::string>>();
     auto breaking = edits_answers("execute", in_all("rois:command_id", [named](pugi::xml_attribute id) {
                                       named->insert(id.value());
@@ -54,7 +54,7 @@ Breaking leaves_ids_empty() {
     return edits_answers("execute", in_all("rois:command_id", [](pugi::xml_attribute id) { id.set_value(""); }));
 }
 
-Breaking names_no_path() {
+Breaking omits_the_path() {
     return edits_answers("execute", [](pugi::xml_node root) {
         auto reason = root.child("reason").text();
         std::string const text = reason.get();
@@ -63,10 +63,10 @@ Breaking names_no_path() {
 }
 
 // Runs the first unit of a sequence that is refused.
-Breaking runs_what_comes_before_a_bad_unit() {
+Breaking runs_units_before_an_invalid_one() {
     return {.answer = [](std::string const& request, std::string const& answer, ProxiedConnection& link) -> Documents {
         if (is(request, "execute") && answer.find("BAD_PARAMETER") != std::string::npos)
-            link.ask_aside(edited(request, [](pugi::xml_node root) {
+            link.send_hidden(edited(request, [](pugi::xml_node root) {
                 auto sequence = root.first_child();
                 while (sequence.first_child().next_sibling()) sequence.remove_child(sequence.last_child());
             }));
@@ -74,13 +74,13 @@ Breaking runs_what_comes_before_a_bad_unit() {
     }};
 }
 
-Breaking delays_nothing() {
+Breaking ignores_delays() {
     return edits_requests("execute", in_all("rois:delay_time", [](pugi::xml_attribute delay) {
                               if (delay.as_int() > 0) delay.set_value(0);
                           }));
 }
 
-Breaking takes_negative_delays() {
+Breaking accepts_negative_delays() {
     return edits_requests("execute", in_all("rois:delay_time", [](pugi::xml_attribute delay) {
                               if (delay.as_int() < 0) delay.set_value(0);
                           }));
@@ -93,20 +93,20 @@ Breaking runs_all_in_sequence() {
                           }));
 }
 
-Breaking lets_stop_do_nothing() {
+Breaking replaces_stop_by_suspend() {
     return edits_requests("execute", in_all("rois:command_type", [](pugi::xml_attribute type) {
                               if (type.value() == std::string_view{"stop"}) type.set_value("suspend");
                           }));
 }
 
-Breaking echoes_sequences_alone() {
+Breaking echoes_parallel_as_sequential() {
     return edits_answers("execute", in_all("xsi:type", [](pugi::xml_attribute type) {
                              if (type.value() == std::string_view{"rois:ParallelCommandUnitType"})
                                  type.set_value("rois:SequentialCommandUnitType");
                          }));
 }
 
-Breaking echoes_no_nested_arguments() {
+Breaking omits_nested_arguments() {
     return edits_answers("execute", [](pugi::xml_node root) {
         for_each_below(root, [](pugi::xml_node node) {
             if (node.name() == std::string_view{"rois:command_list"}) node.remove_child("rois:arguments");
@@ -114,8 +114,8 @@ Breaking echoes_no_nested_arguments() {
     });
 }
 
-// Localization continues: the operation in place of `type` completes with OK, too.
-Breaking lets_localization_go_on(char const* type) {
+// Localization continues: set_parameter replaces `type`, and completes with OK, too.
+Breaking continues_localization(char const* type) {
     return edits_requests("execute", [=](pugi::xml_node root) {
         for_each_below(root, [&](pugi::xml_node node) {
             auto command = node.attribute("rois:command_type");
@@ -126,7 +126,7 @@ Breaking lets_localization_go_on(char const* type) {
     });
 }
 
-Breaking calls_waiting_running() {
+Breaking reports_waiting_as_running() {
     return edits_answers("get_command_result", [](pugi::xml_node root) {
         for_each_below(root, [](pugi::xml_node node) {
             if (std::string_view{node.value()} == "WAITING") node.set_value("RUNNING");
@@ -142,31 +142,31 @@ std::string const a_status =
 
 std::vector<BrokenRule> rules_of_commands() {
     return {
-        {"set_parameter stores nothing", "set_parameter_completes_once_and_stores", stores_nothing},
-        {"bad parameters are taken", "bad_parameters_are_refused",
-         [] { return says("set_parameter", "BAD_PARAMETER", "OK", "<command_id>c-0</command_id>"); }},
+        {"set_parameter stores nothing", "set_parameter_completes_once_and_stores_the_value", stores_nothing},
+        {"invalid parameters are accepted", "invalid_parameters_are_refused",
+         [] { return answers_with("set_parameter", "BAD_PARAMETER", "OK", "<command_id>c-0</command_id>"); }},
         {"commands have no id", "every_command_gets_an_id", leaves_ids_empty},
-        {"an application cannot name its commands", "every_command_gets_an_id", names_commands_itself},
-        {"a bad unit is not named", "a_bad_unit_is_named_by_its_path", names_no_path},
-        {"a bad sequence runs until it goes wrong", "of_a_bad_sequence_nothing_runs", runs_what_comes_before_a_bad_unit},
+        {"an application cannot name its commands", "every_command_gets_an_id", renames_commands},
+        {"an invalid unit is not named", "an_invalid_unit_is_named_by_its_path", omits_the_path},
+        {"an invalid sequence runs up to the invalid command", "an_invalid_sequence_runs_no_command",
+         runs_units_before_an_invalid_one},
         {"commands complete twice", "commands_complete_once", [] { return repeats("completed"); }},
-        {"a command never completes", "every_command_of_a_sequence_completes_once", forgets_the_fifth_completion},
-        {"a stopped command is reported as done", "stop_ends_the_action", [] { return tells_status("ABORT", "OK"); }},
-        {"errors are reported as done", "in_a_wrong_state_there_is_an_error", [] { return tells_status("ERROR", "OK"); }},
-        {"stop only suspends", "stop_ends_the_action", lets_stop_do_nothing},
-        {"a waiting command is reported as running", "results_report_the_progress_of_a_command", calls_waiting_running},
-        {"anybody sees the results of a command", "results_of_an_unknown_or_anothers_command_are_refused",
-         [] { return says("get_command_result", "BAD_PARAMETER", "OK", a_status); }},
-        {"results are not chosen", "results_are_chosen_by_condition",
+        {"a command never completes", "every_command_of_a_sequence_completes_once", drops_the_fifth_completion},
+        {"a stopped command is reported as done", "stop_aborts_the_running_action", [] { return reports_status("ABORT", "OK"); }},
+        {"errors are reported as done", "suspend_and_resume_fail_in_a_wrong_state", [] { return reports_status("ERROR", "OK"); }},
+        {"stop only suspends", "stop_aborts_the_running_action", replaces_stop_by_suspend},
+        {"a waiting command is reported as running", "results_report_the_progress_of_a_command", reports_waiting_as_running},
+        {"other applications can read the results of a command", "results_of_unknown_and_foreign_commands_are_refused",
+         [] { return answers_with("get_command_result", "BAD_PARAMETER", "OK", a_status); }},
+        {"the condition on results is ignored", "a_condition_selects_results_of_a_command",
          [] { return edits_requests("get_command_result", remove_condition); }},
-        {"delays are ignored", "a_delay_is_in_milliseconds_from_the_turn", delays_nothing},
-        {"negative delays are taken", "a_delay_is_not_negative", takes_negative_delays},
-        {"units change their type in the answer", "the_answer_echoes_the_structure", echoes_sequences_alone},
-        {"arguments within branches are not echoed", "the_answer_echoes_the_structure", echoes_no_nested_arguments},
-        {"localization goes on after stop", "every_function_can_be_suspended", [] { return lets_localization_go_on("stop"); }},
-        {"localization cannot be suspended", "every_function_can_be_suspended",
-         [] { return lets_localization_go_on("suspend"); }},
-        {"parallel units run in sequence", "units_nest_freely", runs_all_in_sequence}};
+        {"delays are ignored", "delays_are_in_milliseconds_and_add_up", ignores_delays},
+        {"negative delays are accepted", "a_negative_delay_is_refused", accepts_negative_delays},
+        {"units change their type in the answer", "the_answer_echoes_the_structure", echoes_parallel_as_sequential},
+        {"arguments within branches are not echoed", "the_answer_echoes_the_structure", omits_nested_arguments},
+        {"localization continues after stop", "every_function_can_be_suspended", [] { return continues_localization("stop"); }},
+        {"localization cannot be suspended", "every_function_can_be_suspended", [] { return continues_localization("suspend"); }},
+        {"parallel units run in sequence", "sequential_and_parallel_units_can_be_nested", runs_all_in_sequence}};
 }
 
 }  // namespace rois::broken

@@ -9,20 +9,20 @@ namespace rois::broken {
 
 namespace {
 
-Breaking forgets_a_profile() {
+Breaking omits_a_profile() {
     return edits_answers("get_profile", [](pugi::xml_node root) {
         if (std::string_view{root.last_child().name()} == "rois:HRIComponentProfile") root.remove_child(root.last_child());
     });
 }
 
-Breaking tells_no_times() {
+Breaking reports_invalid_times() {
     return edits_answers("query", [](pugi::xml_node root) {
         auto const result = root.child("results").find_child_by_attribute("result", "rois:name", "timestamp");
         if (result) result.child("rois:value").text().set("yesterday");
     });
 }
 
-Breaking tells_no_structure() {
+Breaking omits_located() {
     return edits_answers("query", [](pugi::xml_node root) {
         auto results = root.child("results");
         while (results.remove_child("located")) {
@@ -30,8 +30,8 @@ Breaking tells_no_structure() {
     });
 }
 
-// The first number of each `name` within `located` becomes another one.
-Breaking locates_elsewhere(char const* name) {
+// Changes the first and third number of each element `name` in `located`.
+Breaking changes_located(char const* name) {
     return edits_answers("query", [=](pugi::xml_node root) {
         for (auto const located : root.child("results").children("located")) {
             std::istringstream written{located.child(name).text().get()};
@@ -44,7 +44,7 @@ Breaking locates_elsewhere(char const* name) {
     });
 }
 
-Breaking subscribes_anew() {
+Breaking changes_subscribe_ids() {
     auto subscriptions = std::make_shared<int>(0);
     return edits_answers("subscribe", [subscriptions](pugi::xml_node root) {
         auto text = root.child("subscribe_id").text();
@@ -52,11 +52,11 @@ Breaking subscribes_anew() {
     });
 }
 
-Breaking never_inlines() {
+Breaking ignores_inline_results() {
     return edits_requests("subscribe", [](pugi::xml_node root) { root.remove_attribute("inline_results"); });
 }
 
-// Gives all events one id, whose details are those of the last event.
+// Gives all events the same id, with the details of the last event.
 Breaking uses_one_event_id() {
     auto last = std::make_shared<std::string>();
     auto breaking = edits_notifications("receive_event", [last](pugi::xml_node root) {
@@ -71,13 +71,13 @@ Breaking uses_one_event_id() {
     return breaking;
 }
 
-Breaking expired_long_ago() {
+Breaking expires_in_the_past() {
     return edits_notifications("receive_event",
                                [](pugi::xml_node root) { root.child("expire").text().set("2000-01-01T00:00:00.000Z"); });
 }
 
-// After the first request.
-Breaking keeps_inlining() {
+// Sends inline results with all subscriptions after the first one with inline_results.
+Breaking keeps_inline_results() {
     auto is_asked_for = std::make_shared<bool>(false);
     return edits_requests("subscribe", [=](pugi::xml_node root) {
         auto asked = root.attribute("inline_results");
@@ -86,7 +86,7 @@ Breaking keeps_inlining() {
     });
 }
 
-Breaking tells_a_profile_too_many() {
+Breaking adds_a_profile() {
     return {.answer = [](std::string const& request, std::string const& answer, ProxiedConnection&) -> Documents {
         if (!is(request, "get_profile") || request.find("<condition") == std::string::npos) return {answer};
         return {edited(answer, [](pugi::xml_node root) {
@@ -97,7 +97,7 @@ Breaking tells_a_profile_too_many() {
 }
 
 // Repeats the last event under another id after each completed command.
-Breaking is_never_silent() {
+Breaking repeats_events_after_commands() {
     auto last = std::make_shared<std::string>();
     return {.notification = [last](std::string const& notification) -> Documents {
         if (is(notification, "receive_event"))
@@ -107,11 +107,11 @@ Breaking is_never_silent() {
     }};
 }
 
-Breaking names_another_subscription() {
+Breaking changes_the_subscription() {
     return edits_notifications("receive_event", [](pugi::xml_node root) { root.child("subscribe_id").text().set("s-0"); });
 }
 
-Breaking tells_local_time() {
+Breaking reports_local_time() {
     return edits_notifications("receive_event", [](pugi::xml_node root) {
         auto expire = root.child("expire").text();
         std::string const text = expire.get();
@@ -120,9 +120,9 @@ Breaking tells_local_time() {
 }
 
 std::string const no_results = "<results/>";
-std::string const nobody = "<component_ref rois:code=\"nobody\"/>";
+std::string const unknown_component = "<component_ref rois:code=\"unknown\"/>";
 
-// A value.
+// Replaces the text of elements with this text.
 Edit replaces(std::string const& value, std::string const& instead) {
     return [=](pugi::xml_node root) {
         for_each_below(root, [&](pugi::xml_node node) {
@@ -135,44 +135,45 @@ Edit replaces(std::string const& value, std::string const& instead) {
 
 std::vector<BrokenRule> rules_of_information() {
     return {
-        {"a paused stream is reported as running", "a_stream_is_suspended_until_it_is_resumed",
+        {"a paused stream is reported as running", "a_stream_is_suspended_until_resume",
          [] { return edits_answers("query", replaces("STREAMING_SUSPENDED", "STREAMING_RUNNING")); }},
-        {"the end of a stream is not told", "a_stream_is_connected_until_it_is_disconnected",
+        {"the end of a stream is not reported", "a_stream_is_connected_until_disconnect",
          [] { return edits_notifications("receive_event", replaces("STREAMING_NOT_CONNECTED", "STREAMING_NOT_RUNNING")); }},
-        {"a profile is missing", "each_component_has_a_profile", forgets_a_profile},
-        {"get_profile tells all, whatever is asked for", "get_profile_chooses_by_condition",
+        {"a profile is missing", "each_component_has_a_profile", omits_a_profile},
+        {"get_profile ignores the condition", "a_condition_selects_profiles",
          [] { return edits_requests("get_profile", remove_condition); }},
         {"details of unknown errors are returned", "details_of_an_unknown_error_are_refused",
-         [] { return says("get_error_detail", "BAD_PARAMETER", "OK", no_results); }},
+         [] { return answers_with("get_error_detail", "BAD_PARAMETER", "OK", no_results); }},
         {"unknown queries have an empty answer", "an_unknown_query_is_unsupported",
-         [] { return says("query", "UNSUPPORTED", "OK", nobody + no_results); }},
+         [] { return answers_with("query", "UNSUPPORTED", "OK", unknown_component + no_results); }},
         {"any component answers a query", "every_query_of_every_component_is_answered",
          [] { return edits_requests("query", remove_condition); }},
-        {"results are not of their type", "every_query_of_every_component_is_answered", tells_no_times},
-        {"positions have no structure", "located_results_have_their_structure", tells_no_structure},
-        {"positions contradict their texts", "located_elements_say_what_texts_say", [] { return locates_elsewhere("position"); }},
-        {"orientations contradict their texts", "located_elements_say_what_texts_say",
-         [] { return locates_elsewhere("orientation"); }},
-        {"Japanese is reported as jp", "languages_are_iso_639_1", [] { return edits_answers("query", replaces("ja", "jp")); }},
-        {"the same subscription has another id", "the_same_subscription_again_changes_nothing", subscribes_anew},
-        {"unsubscribe does nothing", "after_unsubscribe_nothing_is_received", [] { return does_nothing_at("unsubscribe"); }},
-        {"events come twice", "the_same_subscription_again_changes_nothing", [] { return repeats("receive_event"); }},
-        {"results are never inline", "results_come_inline_when_asked_for", never_inlines},
-        {"events name another subscription", "events_are_those_that_were_subscribed", names_another_subscription},
-        {"details are not chosen", "details_are_chosen_by_condition",
+        {"results are not of their type", "every_query_of_every_component_is_answered", reports_invalid_times},
+        {"positions have no structure", "positions_have_located_elements", omits_located},
+        {"positions contradict their texts", "located_elements_match_their_texts", [] { return changes_located("position"); }},
+        {"orientations contradict their texts", "located_elements_match_their_texts",
+         [] { return changes_located("orientation"); }},
+        {"Japanese is reported as jp", "languages_are_iso_639_1_codes",
+         [] { return edits_answers("query", replaces("ja", "jp")); }},
+        {"the same subscription has another id", "a_repeated_subscription_keeps_its_id", changes_subscribe_ids},
+        {"unsubscribe does nothing", "no_event_is_received_after_unsubscribe", [] { return ignores_operation("unsubscribe"); }},
+        {"events are sent twice", "a_repeated_subscription_keeps_its_id", [] { return repeats("receive_event"); }},
+        {"results are never inline", "results_are_inline_if_requested", ignores_inline_results},
+        {"events name another subscription", "events_match_their_subscriptions", changes_the_subscription},
+        {"the condition on details is ignored", "a_condition_selects_details_of_an_event",
          [] { return edits_requests("get_event_detail", remove_condition); }},
         {"details of unknown events are returned", "details_of_an_unknown_event_are_refused",
-         [] { return says("get_event_detail", "BAD_PARAMETER", "OK", no_results); }},
-        {"what cannot happen is subscribed", "what_cannot_happen_is_unsupported",
-         [] { return says("subscribe", "UNSUPPORTED", "OK", "<subscribe_id>s-0</subscribe_id>"); }},
-        {"all events are sent, whatever is asked for", "only_events_that_match_are_received",
+         [] { return answers_with("get_event_detail", "BAD_PARAMETER", "OK", no_results); }},
+        {"subscriptions to unknown events are accepted", "a_subscription_to_an_unknown_event_is_refused",
+         [] { return answers_with("subscribe", "UNSUPPORTED", "OK", "<subscribe_id>s-0</subscribe_id>"); }},
+        {"the condition of a subscription is ignored", "only_matching_events_are_received",
          [] { return edits_requests("subscribe", remove_condition); }},
-        {"ids of events are used again", "each_event_has_an_id_of_its_own", uses_one_event_id},
-        {"events expired long ago", "events_expire_in_the_future", expired_long_ago},
-        {"results stay inline", "inline_results_are_taken_back", keeps_inlining},
-        {"get_profile tells profiles that were not chosen", "get_profile_chooses_by_condition", tells_a_profile_too_many},
-        {"functions are never silent", "what_does_not_run_is_silent", is_never_silent},
-        {"times are local", "times_are_utc", tells_local_time}};
+        {"all events have the same id", "each_event_has_a_unique_id", uses_one_event_id},
+        {"events expired long ago", "events_expire_in_the_future", expires_in_the_past},
+        {"results stay inline", "inline_results_can_be_switched_off", keeps_inline_results},
+        {"get_profile returns profiles that do not match", "a_condition_selects_profiles", adds_a_profile},
+        {"inactive functions send events", "an_inactive_component_sends_no_events", repeats_events_after_commands},
+        {"times are local", "times_are_utc", reports_local_time}};
 }
 
 }  // namespace rois::broken

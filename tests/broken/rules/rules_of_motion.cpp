@@ -52,8 +52,8 @@ Breaking drives_without_headings() {
     });
 }
 
-// Changes the text, and the element with the same meaning.
-Breaking is_told_at(Displace const& displaced) {
+// Changes each position in the text and in the element `located`.
+Breaking reports_position_at(Displace const& displaced) {
     return edits_answers("query", [=](pugi::xml_node root) {
         auto const results = root.child("results");
         auto const data = results.find_child_by_attribute("result", "rois:name", "position_data");
@@ -62,22 +62,22 @@ Breaking is_told_at(Displace const& displaced) {
         for (auto const located : results.children("located")) {
             std::istringstream position{located.child("position").text().get()};
             std::istringstream orientation{located.child("orientation").text().get()};
-            Position told;
+            Position reported;
             double z = 0, roll = 0, pitch = 0;
-            position >> told.x >> told.y >> z;
-            orientation >> roll >> pitch >> told.heading;
-            told = displaced(told);
+            position >> reported.x >> reported.y >> z;
+            orientation >> roll >> pitch >> reported.heading;
+            reported = displaced(reported);
             std::ostringstream there, turned;
-            there << told.x << " " << told.y << " " << z;
-            turned << roll << " " << pitch << " " << told.heading;
+            there << reported.x << " " << reported.y << " " << z;
+            turned << roll << " " << pitch << " " << reported.heading;
             located.child("position").text().set(there.str().c_str());
             located.child("orientation").text().set(turned.str().c_str());
         }
     });
 }
 
-// Repeats the first reported values. `chosen` selects the results.
-Breaking tells_again(std::function<bool(std::string const& name)> const& chosen) {
+// Repeats the first reported values of the results that `chosen` selects.
+Breaking repeats_first_values(std::function<bool(std::string const& name)> const& chosen) {
     auto const first = std::make_shared<pugi::xml_document>();
     return edits_answers("query", [=](pugi::xml_node root) {
         auto results = root.child("results");
@@ -117,7 +117,7 @@ Breaking drives_curves_as_lines() {
     });
 }
 
-Breaking tells_targets(std::function<void(pugi::xml_node target, pugi::xml_node is_final)> const& edit) {
+Breaking edits_targets(std::function<void(pugi::xml_node target, pugi::xml_node is_final)> const& edit) {
     return edits_notifications("receive_event", [=](pugi::xml_node root) {
         if (root.child("event_type").text().get() != std::string_view{"reached_target"}) return;
         auto const results = root.child("results");
@@ -128,23 +128,23 @@ Breaking tells_targets(std::function<void(pugi::xml_node target, pugi::xml_node 
 
 bool is_target(std::string const& notification) { return notification.find("reached_target") != std::string::npos; }
 
-Breaking tells_the_last_target_alone() {
+Breaking reports_only_the_last_target() {
     return {.notification = [](std::string const& notification) -> Documents {
         if (is_target(notification) && notification.find(">false<") != std::string::npos) return {};
         return {notification};
     }};
 }
 
-Breaking tells_targets_afterwards() {
+Breaking reports_targets_after_completion() {
     auto const held = std::make_shared<Documents>();
     return {.notification = [held](std::string const& notification) -> Documents {
         if (is_target(notification)) {
             held->push_back(notification);
             return {};
         }
-        Documents said{notification};
-        if (is(notification, "completed")) std::ranges::move(std::exchange(*held, {}), std::back_inserter(said));
-        return said;
+        Documents sent{notification};
+        if (is(notification, "completed")) std::ranges::move(std::exchange(*held, {}), std::back_inserter(sent));
+        return sent;
     }};
 }
 
@@ -152,11 +152,11 @@ Breaking tells_targets_afterwards() {
 
 std::vector<BrokenRule> rules_of_motion() {
     std::string const arrives = "navigation_reaches_its_target", in_order = "targets_are_visited_in_order";
-    std::string const targets = "each_reached_target_is_reported", line = "move_drives_its_line";
-    std::string const direction = "move_minds_its_direction", curve = "move_drives_its_curve";
-    std::string const halts = "stop_halts_the_robot", holds = "suspend_halts_the_robot_and_resume_drives_on";
+    std::string const targets = "each_reached_target_is_reported", line = "move_follows_its_line";
+    std::string const direction = "move_follows_its_direction", curve = "move_follows_its_curve";
+    std::string const halts = "stop_halts_the_robot", holds = "suspend_halts_the_robot_and_resume_continues";
     std::vector<BrokenRule> rules{
-        {"start of a navigation is a stop", arrives, [] { return replaces_command("navigation", "start", "stop"); }},
+        {"start of a navigation has the effect of stop", arrives, [] { return replaces_command("navigation", "start", "stop"); }},
         {"targets are mirrored", arrives,
          [] { return drives_to([](Position at) -> Position {
                   return {at.x, 2 * here - at.y, at.heading};
@@ -170,26 +170,26 @@ std::vector<BrokenRule> rules_of_motion() {
          [] { return drives_to([](Position at) -> Position {
                   return {at.x, at.y, -at.heading};
               }); }},
-        {"a navigation goes half of the way", arrives,
+        {"a navigation drives half of the path", arrives,
          [] { return drives_to([](Position at) -> Position {
                   return {(at.x + here) / 2, (at.y + here) / 2, at.heading};
               }); }},
         {"a navigation completes before it has arrived", arrives, [] { return completes_at_once("navigation"); }},
         {"a navigation completes long after it has arrived", arrives, [] { return completes_late("navigation"); }},
-        {"positions are those of the beginning", arrives,
-         [] { return tells_again([](std::string const& name) { return name != "robot_ref"; }); }},
+        {"positions never change", arrives,
+         [] { return repeats_first_values([](std::string const& name) { return name != "robot_ref"; }); }},
         {"positions have the time of the first one", arrives,
-         [] { return tells_again([](std::string const& name) { return name == "timestamp"; }); }},
+         [] { return repeats_first_values([](std::string const& name) { return name == "timestamp"; }); }},
         {"positions of the robot are mirrored", arrives,
-         [] { return is_told_at([](Position at) -> Position {
+         [] { return reports_position_at([](Position at) -> Position {
                   return {2 * here - at.x, at.y, at.heading};
               }); }},
         {"headings of the robot are reported to the right", arrives,
-         [] { return is_told_at([](Position at) -> Position {
+         [] { return reports_position_at([](Position at) -> Position {
                   return {at.x, at.y, -at.heading};
               }); }},
         {"positions of the robot are in metres", line,
-         [] { return is_told_at([](Position at) -> Position {
+         [] { return reports_position_at([](Position at) -> Position {
                   return {at.x / 1'000, at.y / 1'000, at.heading};
               }); }},
         {"only the last target is driven to", in_order,
@@ -200,29 +200,29 @@ std::vector<BrokenRule> rules_of_motion() {
                  return Values{values.rbegin(), values.rend()};
              });
          }},
-        {"targets are reported at the start of the way", targets,
-         [] { return tells_targets([](pugi::xml_node target, pugi::xml_node) { target.text().set("6000, 6000, 0"); }); }},
+        {"reached_target reports the starting point", targets,
+         [] { return edits_targets([](pugi::xml_node target, pugi::xml_node) { target.text().set("6000, 6000, 0"); }); }},
         {"every target is the last one", targets,
-         [] { return tells_targets([](pugi::xml_node, pugi::xml_node is_final) { is_final.text().set("true"); }); }},
-        {"only the last target is reported", targets, tells_the_last_target_alone},
-        {"targets are reported after the end of the way", targets, tells_targets_afterwards},
-        {"time_limit of a navigation is ignored", "navigation_gives_up_at_its_time_limit",
+         [] { return edits_targets([](pugi::xml_node, pugi::xml_node is_final) { is_final.text().set("true"); }); }},
+        {"only the last target is reported", targets, reports_only_the_last_target},
+        {"targets are reported after the navigation has completed", targets, reports_targets_after_completion},
+        {"time_limit of a navigation is ignored", "navigation_stops_at_its_time_limit",
          [] { return drops_argument("navigation", "time_limit"); }},
-        {"the robot rolls on to its target after stop", halts, [] { return pretends_to_stop("navigation"); }},
-        {"the robot rolls on to its target after suspend", holds, [] { return pretends_to_suspend("navigation"); }},
-        {"the robot stays where it is after resume", holds,
+        {"the robot continues to its target after stop", halts, [] { return pretends_to_stop("navigation"); }},
+        {"the robot continues to its target after suspend", holds, [] { return pretends_to_suspend("navigation"); }},
+        {"the robot does not continue after resume", holds,
          [] { return replaces_command("navigation", "resume", "set_parameter"); }},
         {"suspend ends a navigation", holds, [] { return replaces_command("navigation", "suspend", "stop"); }},
-        {"start of a move is a stop", line, [] { return replaces_command("move", "start", "stop"); }},
+        {"start of a move has the effect of stop", line, [] { return replaces_command("move", "start", "stop"); }},
         {"a move completes before it has arrived", line, [] { return completes_at_once("move"); }},
-        {"a move goes a third of the way", line,
+        {"a move drives a third of its line", line,
          [] { return moves("line", [](int way, int turn) {
                   return std::pair{way / 3, turn};
               }); }},
-        {"a move goes backwards", line, [] { return moves("line", [](int way, int turn) {
-                                                 return std::pair{-way, turn};
-                                             }); }},
-        {"a move takes centimetres for millimetres", line,
+        {"a move drives backwards", line, [] { return moves("line", [](int way, int turn) {
+                                                   return std::pair{-way, turn};
+                                               }); }},
+        {"a move interprets millimetres as centimetres", line,
          [] { return moves("line", [](int way, int turn) {
                   return std::pair{way * 10, turn};
               }); }},
@@ -243,7 +243,7 @@ std::vector<BrokenRule> rules_of_motion() {
          [] { return moves("curve", [](int radius, int turn) {
                   return std::pair{radius, -turn};
               }); }},
-        {"the time of a move is ignored", "move_takes_its_time", [] { return drops_argument("move", "time"); }}};
+        {"the time of a move is ignored", "move_is_slower_with_a_longer_time", [] { return drops_argument("move", "time"); }}};
     for (auto& rule : rules) {
         // A fast robot arrives before it is halted, or within the allowed delay of reports.
         bool const completes_early = rule.name.ends_with("completes before it has arrived");

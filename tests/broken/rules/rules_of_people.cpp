@@ -29,8 +29,8 @@ pugi::xml_node values_of(pugi::xml_node root, char const* name) {
     return root.child("results").find_child_by_attribute("result", "rois:name", name);
 }
 
-// The people of each event, in its texts and in the elements with the same meaning.
-Breaking tells_people_at(std::function<Place(Place)> const& displaced) {
+// Changes the positions of people in each event: in the texts and in the elements `located`.
+Breaking reports_people_at(std::function<Place(Place)> const& displaced) {
     return edits_notifications("receive_event", [=](pugi::xml_node root) {
         for (auto const value : values_of(root, "position_data").children("rois:value")) {
             std::string const text = value.text().get();
@@ -44,9 +44,9 @@ Breaking tells_people_at(std::function<Place(Place)> const& displaced) {
     });
 }
 
-Breaking tells_people_from_the_robot() {
+Breaking reports_people_relative_to_the_robot() {
     auto const robot = std::make_shared<Place>();
-    auto breaking = tells_people_at([=](Place at) -> Place { return {at.x - robot->x, at.y - robot->y}; });
+    auto breaking = reports_people_at([=](Place at) -> Place { return {at.x - robot->x, at.y - robot->y}; });
     breaking.answer = edits_answers("query", [=](pugi::xml_node root) {
                           if (auto const data = values_of(root, "position_data"))
                               *robot = place_in(data.child("rois:value").text().get());
@@ -63,7 +63,7 @@ Breaking renames_people() {
     });
 }
 
-Breaking loses_a_position() {
+Breaking omits_a_position() {
     return edits_notifications("receive_event", [](pugi::xml_node root) {
         auto positions = values_of(root, "position_data");
         positions.remove_child(positions.last_child());
@@ -72,8 +72,8 @@ Breaking loses_a_position() {
     });
 }
 
-// The right person with the position of another one.
-Breaking chooses_names_alone() {
+// Returns the selected person with a wrong position.
+Breaking selects_names_only() {
     return edits_answers("get_event_detail", [](pugi::xml_node root) {
         for (auto const value : values_of(root, "position_data").children("rois:value")) value.text().set("1000, 1000, 0");
         while (root.child("results").remove_child("located")) {
@@ -81,7 +81,7 @@ Breaking chooses_names_alone() {
     });
 }
 
-Breaking forgets_parameter(std::string const& name) {
+Breaking ignores_parameter(std::string const& name) {
     return edits_requests("set_parameter", [=](pugi::xml_node root) {
         for_each_below(root, [&](pugi::xml_node node) {
             if (node.attribute("rois:name").value() == name) node.parent().remove_child(node);
@@ -92,38 +92,38 @@ Breaking forgets_parameter(std::string const& name) {
 }  // namespace
 
 std::vector<BrokenRule> rules_of_people() {
-    std::string const stand = "people_who_stand_still_keep_name_and_place", active = "an_active_function_reports_events";
+    std::string const stand = "people_who_stand_still_keep_ref_and_position", active = "only_an_active_function_reports_events";
     auto const visitor = World::visitor, stroller = World::strollers;
     auto const websocket = Over::websocket;
-    return {{"a condition on details chooses all people or none", "details_have_the_entries_that_match",
+    return {{"a condition on details selects all people or none", "a_condition_selects_entries_of_details",
              [] { return edits_requests("get_event_detail", remove_condition); }, websocket, World::strollers},
-            {"a condition on details chooses names without their positions", "details_have_the_entries_that_match",
-             chooses_names_alone, websocket, World::strollers},
+            {"a condition on details selects names without their positions", "a_condition_selects_entries_of_details",
+             selects_names_only, websocket, World::strollers},
             {"people are mirrored", "follow_keeps_its_distance",
-             [] { return tells_people_at([](Place at) -> Place {
+             [] { return reports_people_at([](Place at) -> Place {
                       return {at.x, 12'000 - at.y};
                   }); }, websocket, visitor},
-            {"people are reported relative to the robot", "people_are_where_the_robot_drives_to", tells_people_from_the_robot,
-             websocket, visitor},
-            {"people get another name in each event", stand, renames_people, websocket, visitor},
-            {"somebody has no position", stand, loses_a_position, websocket, visitor},
-            {"start of a follow is a stop", "follow_keeps_its_distance",
+            {"people are reported relative to the robot", "positions_of_people_are_independent_of_the_robot",
+             reports_people_relative_to_the_robot, websocket, visitor},
+            {"people have another name in each event", stand, renames_people, websocket, visitor},
+            {"a person has no position", stand, omits_a_position, websocket, visitor},
+            {"start of a follow has the effect of stop", "follow_keeps_its_distance",
              [] { return replaces_command("follow", "start", "stop"); }, websocket, visitor},
             {"a follow keeps another distance", "follow_keeps_its_distance",
              [] { return edits_arguments("follow", "distance", [](Values) { return Values{"2600"}; }); }, websocket, visitor},
-            {"a follow is over when the robot has come up", "follow_keeps_its_distance",
-             [] { return completes_at_once("follow"); }, websocket, visitor},
-            {"minimum_interval is ignored", "minimum_interval_spaces_events",
-             [] { return forgets_parameter("minimum_interval"); }, websocket, stroller},
-            {"detection_threshold is ignored", "detection_threshold_holds_small_motions_back",
-             [] { return forgets_parameter("detection_threshold"); }, websocket, stroller},
+            {"a follow completes before stop", "follow_keeps_its_distance", [] { return completes_at_once("follow"); }, websocket,
+             visitor},
+            {"minimum_interval is ignored", "minimum_interval_limits_events",
+             [] { return ignores_parameter("minimum_interval"); }, websocket, stroller},
+            {"detection_threshold is ignored", "detection_threshold_suppresses_small_motions",
+             [] { return ignores_parameter("detection_threshold"); }, websocket, stroller},
             {"people are reported while localization is suspended", active, [] { return pretends_to_suspend(localization); },
              websocket, stroller},
             {"people are reported after stop", active, [] { return replaces_command(localization, "stop", "set_parameter"); },
              websocket, stroller},
             {"no person is reported after resume", active,
              [] { return replaces_command(localization, "resume", "set_parameter"); }, websocket, stroller},
-            {"people are reported after release", active, [] { return does_nothing_at("release"); }, websocket, stroller}};
+            {"people are reported after release", active, [] { return ignores_operation("release"); }, websocket, stroller}};
 }
 
 }  // namespace rois::broken

@@ -11,41 +11,41 @@ namespace rois::broken {
 
 namespace {
 
-// Sends this kind of notification of one session to all others, too, with the next answer.
-std::function<Breaking()> tells_all_sessions(std::string const& kind) {
-    struct Gossip {
+// Also sends this kind of notification to all other sessions, after their next answer.
+std::function<Breaking()> sends_to_all_sessions(std::string const& kind) {
+    struct Shared {
         std::mutex mutex;
         std::vector<std::shared_ptr<Documents>> sessions;  // the notifications to send to each
     };
-    return [=, gossip = std::make_shared<Gossip>()] {
+    return [=, shared = std::make_shared<Shared>()] {
         auto const news = std::make_shared<Documents>();
-        std::lock_guard const lock{gossip->mutex};
-        gossip->sessions.push_back(news);
+        std::lock_guard const lock{shared->mutex};
+        shared->sessions.push_back(news);
         return Breaking{.answer = [=](std::string const&, std::string const& answer, ProxiedConnection&) -> Documents {
-                            std::lock_guard const telling{gossip->mutex};
-                            auto said = std::exchange(*news, {});
-                            said.insert(said.begin(), answer);
-                            return said;
+                            std::lock_guard const inner_lock{shared->mutex};
+                            auto sent = std::exchange(*news, {});
+                            sent.insert(sent.begin(), answer);
+                            return sent;
                         },
                         .notification = [=](std::string const& notification) -> Documents {
-                            std::lock_guard const telling{gossip->mutex};
+                            std::lock_guard const inner_lock{shared->mutex};
                             if (is(notification, kind))
-                                for (auto const& session : gossip->sessions)
+                                for (auto const& session : shared->sessions)
                                     if (session != news) session->push_back(notification);
                             return {notification};
                         }};
     };
 }
 
-// Returns earlier details again.
-Breaking forgets_to_expire() {
-    auto const told = std::make_shared<std::map<std::string, std::string>>();
+// Returns the details of expired events.
+Breaking never_expires() {
+    auto const reported = std::make_shared<std::map<std::string, std::string>>();
     return {.answer = [=](std::string const& request, std::string const& answer, ProxiedConnection&) -> Documents {
         if (!is(request, "get_event_detail")) return {answer};
         std::string id;
         edited(request, [&](pugi::xml_node root) { id = root.child("event_id").text().get(); });
         auto const is_ok = answer.find("return_code=\"OK\"") != std::string::npos;
-        auto const& known = is_ok ? (*told)[id] = answer : (*told)[id];
+        auto const& known = is_ok ? (*reported)[id] = answer : (*reported)[id];
         if (is_ok || known.empty()) return {answer};
         pugi::xml_document before;
         before.load_buffer(known.data(), known.size());
@@ -57,7 +57,7 @@ Breaking forgets_to_expire() {
     }};
 }
 
-Breaking stops_the_clock() {
+Breaking repeats_the_first_timestamp() {
     auto const first = std::make_shared<std::string>();
     return edits_notifications("receive_event", [=](pugi::xml_node root) {
         auto text = root.child("results").find_child_by_attribute("result", "rois:name", "timestamp").child("rois:value").text();
@@ -66,7 +66,7 @@ Breaking stops_the_clock() {
     });
 }
 
-// A text.
+// Replaces texts that equal `text`.
 Edit replaces(std::string const& text, std::string const& instead) {
     return [=](pugi::xml_node root) {
         for_each_below(root, [&](pugi::xml_node node) {
@@ -75,25 +75,25 @@ Edit replaces(std::string const& text, std::string const& instead) {
     };
 }
 
-Breaking tells_no_errors() {
+Breaking drops_errors() {
     return {.notification = [](std::string const& notification) -> Documents {
         if (is(notification, "receive_error")) return {};
         return {notification};
     }};
 }
 
-// Restores the parameters of before a release when the component is bound again.
+// `bind` restores the parameters that were set before `release`.
 Breaking keeps_parameters() {
     auto const last = std::make_shared<std::string>();
     return {.answer = [=](std::string const& request, std::string const& answer, ProxiedConnection& link) -> Documents {
         if (is(request, "set_parameter")) *last = request;
-        if (is(request, "bind") && !last->empty()) link.ask_aside(*last);
+        if (is(request, "bind") && !last->empty()) link.send_hidden(*last);
         return {answer};
     }};
 }
 
 // The query get_parameter returns the last set values to every session.
-std::function<Breaking()> tells_what_was_set() {
+std::function<Breaking()> reveals_set_values() {
     struct Last {
         std::mutex mutex;
         pugi::xml_document parameter;
@@ -113,14 +113,14 @@ std::function<Breaking()> tells_what_was_set() {
                 auto results = root.child("results");
                 std::string const name = set.attribute("rois:name").value();
                 results.remove_child(results.find_child_by_attribute("result", "rois:name", name.c_str()));
-                auto told = results.prepend_copy(set);
-                told.set_name("result");
+                auto reported = results.prepend_copy(set);
+                reported.set_name("result");
             })};
         }};
     };
 }
 
-Breaking takes_any_codebook() {
+Breaking ignores_codebooks() {
     return edits_requests("set_parameter", [](pugi::xml_node root) {
         for_each_below(root, [](pugi::xml_node node) {
             if (std::string_view{node.name()} == "rois:data_type_ref") node.remove_attribute("rois:codebook_ref");
@@ -128,18 +128,18 @@ Breaking takes_any_codebook() {
     });
 }
 
-bool is_about_the_engine(std::string const& request) { return request.find(">engine<") != std::string::npos; }
+bool has_engine_reference(std::string const& request) { return request.find(">engine<") != std::string::npos; }
 
-// The condition of `operation`, if it refers to the engine.
+// Removes the condition of `operation` if it refers to the engine.
 Breaking ignores_the_engine(std::string const& operation) {
     return {.request = [=](std::string const& request) {
-        return is(request, operation) && is_about_the_engine(request) ? edited(request, remove_condition) : request;
+        return is(request, operation) && has_engine_reference(request) ? edited(request, remove_condition) : request;
     }};
 }
 
-Breaking asks_the_first_robot() {
+Breaking queries_the_first_robot() {
     return {.request = [](std::string const& request) {
-        if (!is(request, "query") || !is_about_the_engine(request)) return request;
+        if (!is(request, "query") || !has_engine_reference(request)) return request;
         return edited(request, replaces("robot2", "robot1"));
     }};
 }
@@ -162,42 +162,42 @@ Breaking exchanges_robots() {
 }  // namespace
 
 std::vector<BrokenRule> rules_of_systems() {
-    std::string const agree = "status_and_errors_agree_with_what_happens";
+    std::string const agree = "status_and_errors_match_the_result_of_start";
     auto const websocket = Over::websocket;
-    auto const unwell = World::unwell, robots = World::two_robots;
+    auto const failed_functions = World::failed_functions, robots = World::two_robots;
     return {
-        {"events of other sessions are sent", "what_was_not_subscribed_is_not_received", tells_all_sessions("receive_event")},
-        {"completions of other sessions are sent", "answers_come_before_what_they_cause", tells_all_sessions("completed")},
-        {"details never expire", "details_expire", forgets_to_expire, websocket, World::short_memory},
-        {"all events have the time of the first one", "timestamps_go_on", stops_the_clock},
+        {"events of other sessions are sent", "events_without_a_subscription_are_not_received",
+         sends_to_all_sessions("receive_event")},
+        {"completions of other sessions are sent", "an_answer_precedes_its_notifications", sends_to_all_sessions("completed")},
+        {"details never expire", "details_of_an_event_expire", never_expires, websocket, World::short_expiry},
+        {"all events have the time of the first one", "timestamps_increase", repeats_the_first_timestamp},
         {"a component that has failed is READY", agree, [] { return edits_answers("query", replaces("ERROR", "READY")); },
-         websocket, unwell},
-        {"a component that complains has failed", agree, [] { return edits_answers("query", replaces("WARNING", "ERROR")); },
-         websocket, unwell},
+         websocket, failed_functions},
+        {"a component with a WARNING is reported as failed", agree,
+         [] { return edits_answers("query", replaces("WARNING", "ERROR")); }, websocket, failed_functions},
         {"a failed start is reported as done", agree, [] { return edits_notifications("completed", replaces("ERROR", "OK")); },
-         websocket, unwell},
-        {"failures of components are not told", agree, tells_no_errors, websocket, unwell},
-        {"silence of a component is reported as its failure", agree,
+         websocket, failed_functions},
+        {"failures of components are not reported", agree, drops_errors, websocket, failed_functions},
+        {"an unresponsive component is reported as an internal error", agree,
          [] { return edits_notifications("receive_error", replaces("COMPONENT_NOT_RESPONDING", "COMPONENT_INTERNAL_ERROR")); },
-         websocket, unwell},
+         websocket, failed_functions},
         {"errors name another component", agree,
          [] {
              return edits_notifications("receive_error", [](pugi::xml_node root) {
                  root.child("component_ref").attribute("rois:code").set_value("navigation");
              });
          },
-         websocket, unwell},
-        {"parameters outlive their binding", "parameters_end_with_the_binding", keeps_parameters},
-        {"get_parameter returns set values to other sessions", "parameters_are_read_without_a_binding_by_query",
-         tells_what_was_set()},
-        {"codebooks of identifiers are ignored", "identifiers_of_a_foreign_codebook_are_refused", takes_any_codebook},
-        {"search ignores the engine", "engine_chooses_components", [] { return ignores_the_engine("search"); }, websocket,
+         websocket, failed_functions},
+        {"parameters outlive their binding", "release_discards_set_parameters", keeps_parameters},
+        {"get_parameter returns set values to other sessions", "the_query_get_parameter_hides_set_values", reveals_set_values()},
+        {"codebooks of identifiers are ignored", "identifiers_of_an_unknown_codebook_are_refused", ignores_codebooks},
+        {"search ignores the engine", "engine_selects_components", [] { return ignores_the_engine("search"); }, websocket,
          robots},
-        {"get_profile ignores the engine", "engine_chooses_profiles", [] { return ignores_the_engine("get_profile"); },
+        {"get_profile ignores the engine", "engine_selects_profiles", [] { return ignores_the_engine("get_profile"); },
          Over::http, robots},
-        {"each engine's position is that of the first robot", "engine_chooses_the_robot", asks_the_first_robot, websocket,
+        {"each engine's position is that of the first robot", "engine_selects_the_robot", queries_the_first_robot, websocket,
          robots},
-        {"each robot drives for the other one", "each_robot_moves_by_itself", exchanges_robots, websocket, robots}};
+        {"commands move the robot of the other engine", "robots_move_independently", exchanges_robots, websocket, robots}};
 }
 
 }  // namespace rois::broken

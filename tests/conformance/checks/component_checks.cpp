@@ -1,32 +1,31 @@
-// The methods of every component that is free (7.6, tables 31 to 47): the common commands, `start` with what it needs, and its
-// events.
+// The messages of every free component (7.6, tables 31 to 47): the common commands, `start` with its arguments, and the events.
 #include <algorithm>
 
 #include "conformance/basic_messages.hpp"
-#include "conformance/stage.hpp"
+#include "conformance/context.hpp"
 
 namespace rois::conformance {
 
 namespace {
 
-// What `start` of a basic component needs; nothing when that cannot be known here.
-std::optional<std::vector<Argument>> arguments_of_start(Guest& guest, Component const& component) {
+// Returns arguments for `start` of a basic component, or nothing if valid values are unknown.
+std::optional<std::vector<Argument>> arguments_of_start(Client& client, Component const& component) {
     auto const kind = component.basic();
-    if (kind == "speechsynthesis") return {{spoken(component, "Hi.")}};
+    if (kind == "speechsynthesis") return {{speech_argument(component, "Hi.")}};
     if (kind == "move")
-        return {{component.parameter_named("line") ? straight_on(component, 10) : argument(component, "curve", {"10 10"})}};
+        return {{component.parameter_named("line") ? straight_line(component, 10) : argument(component, "curve", {"10 10"})}};
     if (kind == "follow") {
-        auto const robot = guest.robot_of(component);
+        auto const robot = client.robot_of(component);
         if (!robot) return {};
         return {{argument(component, "target_object_ref", {robot->ref}), argument(component, "distance", {"1000"})}};
     }
     if (kind == "navigation") {
-        auto const robot = guest.robot_of(component);
+        auto const robot = client.robot_of(component);
         if (!robot) return {};
         return {{argument(component, "target_position", {robot->position})}};
     }
     if (kind == "reaction") {
-        auto const parameters = guest.get_parameter(component.ref).values("parameters");
+        auto const parameters = client.get_parameter(component.ref).values("parameters");
         auto const reactions = parameters.find("available_reactions");
         if (reactions == parameters.end() || reactions->second.empty()) return {};
         return {{argument(component, "reaction_ref", {reactions->second.front()})}};
@@ -40,49 +39,50 @@ bool is_completed_status(std::string const& status) {
     return std::ranges::find(all, status) != all.end();
 }
 
-// Each free component, bound by the guest; NotPlayed when none was.
-void with_each(Stage& stage, Guest& guest, void (*play)(Guest&, Component const&)) {
-    bool played = false;
-    for (auto const& component : stage.catalogue().components) {
-        if (guest.bind(component.ref).return_code() != "OK") continue;
+// Calls `run` for each free component while it is bound. Throws Skipped if other applications use all components.
+void with_each(Context& context, Client& client, void (*run)(Client&, Component const&)) {
+    bool ran = false;
+    for (auto const& component : context.catalogue().components) {
+        if (client.bind(component.ref).return_code() != "OK") continue;
         {
-            Keeping const keeping{guest, component};
-            play(guest, component);
+            SavedParameters const saved{client, component};
+            run(client, component);
         }
-        ok(guest.release(component.ref));
-        played = true;
+        require_ok(client.release(component.ref));
+        ran = true;
     }
-    if (!played) throw NotPlayed{"other applications use all components"};
+    if (!ran) throw Skipped{"other applications use all components"};
 }
 
-void start_and_stop(Guest& guest, Component const& component) {
+void start_and_stop(Client& client, Component const& component) {
     if (!component.is_common) return;
-    auto const arguments = arguments_of_start(guest, component);
+    auto const arguments = arguments_of_start(client, component);
     if (!arguments) return;
-    auto const answer = guest.execute({.component = component.ref, .arguments = *arguments});
-    if (answer.return_code() == "BAD_PARAMETER" && component.basic() == "follow") return;  // the target is the application itself
-    auto const start = first("a command in the answer", kit::command_ids(ok(answer)));
-    auto const stop = guest.order(command(component, "stop"));
-    same("the status of stop of " + component.ref, "OK", guest.status_of(stop));
-    guest.settle(component);
-    auto const endings = guest.endings(start);
-    require(endings.size() == 1 && is_completed_status(endings.front()),
-            "start of " + component.ref + " should complete once, and did with " + list(endings));
+    auto const answer = client.execute({.component = component.ref, .arguments = *arguments});
+    if (answer.return_code() == "BAD_PARAMETER" && component.basic() == "follow") return;  // the robot cannot follow itself
+    auto const start = first_of("a command in the answer", kit::command_ids(require_ok(answer)));
+    auto const stop = client.execute_one(command(component, "stop"));
+    require_equal("the status of stop of " + component.ref, "OK", client.status_of(stop));
+    client.flush_notifications(component);
+    auto const completion_statuses = client.completion_statuses(start);
+    require(
+        completion_statuses.size() == 1 && is_completed_status(completion_statuses.front()),
+        "expected start of " + component.ref + " to complete once with a status of table 8, got " + list(completion_statuses));
 }
 
-void common_commands(Guest& guest, Component const& component) {
+void common_commands(Client& client, Component const& component) {
     if (!component.is_common) return;
-    same("the status of stop of " + component.ref, "OK", guest.ending(command(component, "stop")));
-    same("the status of suspend of " + component.ref, "ERROR", guest.ending(command(component, "suspend")));
-    same("the status of resume of " + component.ref, "ERROR", guest.ending(command(component, "resume")));
+    require_equal("the status of stop of " + component.ref, "OK", client.run(command(component, "stop")));
+    require_equal("the status of suspend of " + component.ref, "ERROR", client.run(command(component, "suspend")));
+    require_equal("the status of resume of " + component.ref, "ERROR", client.run(command(component, "resume")));
 }
 
-void hold_and_go_on(Guest& guest, Component const& component) {
+void hold_and_go_on(Client& client, Component const& component) {
     if (!component.is_function()) return;
-    if (guest.ending(command(component, "start")) != "OK") return;  // a component that has failed
+    if (client.run(command(component, "start")) != "OK") return;  // a component that has failed
     auto const ends = [&](char const* type, char const* when, char const* status) {
-        same(std::string{"the status of "} + type + " of " + component.ref + when, status,
-             guest.ending(command(component, type)));
+        require_equal(std::string{"the status of "} + type + " of " + component.ref + when, status,
+                      client.run(command(component, type)));
     };
     ends("suspend", "", "OK");
     ends("suspend", " again", "ERROR");
@@ -90,15 +90,15 @@ void hold_and_go_on(Guest& guest, Component const& component) {
     ends("resume", " again", "ERROR");
     ends("stop", "", "OK");
     ends("suspend", " after stop", "ERROR");
-    if (guest.ending(command(component, "start")) != "OK") return;
-    ok(guest.release(component.ref));
-    if (guest.bind(component.ref).return_code() != "OK") return;
+    if (client.run(command(component, "start")) != "OK") return;
+    require_ok(client.release(component.ref));
+    if (client.bind(component.ref).return_code() != "OK") return;
     ends("suspend", " after release", "ERROR");
 }
 
-// Without people, only this is observable: get_parameter returns the set values.
-void parameters_set_and_read(Guest& guest, Component const& component) {
-    auto const read = guest.get_parameter(component.ref);
+// Sets the current values again: without people, only get_parameter shows the effect of parameters.
+void parameters_set_and_read(Client& client, Component const& component) {
+    auto const read = client.get_parameter(component.ref);
     if (read.return_code() != "OK" || component.parameters.empty()) return;
     auto const values = read.values("parameters");
     std::vector<Argument> same_again;
@@ -106,36 +106,36 @@ void parameters_set_and_read(Guest& guest, Component const& component) {
         if (auto const found = values.find(parameter.name);
             found != values.end() && !found->second.empty() && component.can_set(parameter))
             same_again.push_back({parameter.name, parameter.type, found->second});
-    same("set_parameter with the values read from " + component.ref, "OK",
-         guest.status_of(ok(guest.set_parameter(component.ref, same_again)).text("command_id")));
-    require(ok(guest.get_parameter(component.ref)).values("parameters") == values,
-            "the parameters of " + component.ref + " changed when they were set to what they are");
+    require_equal("set_parameter with the values read from " + component.ref, "OK",
+                  client.status_of(require_ok(client.set_parameter(component.ref, same_again)).text("command_id")));
+    require(require_ok(client.get_parameter(component.ref)).values("parameters") == values,
+            "the parameters of " + component.ref + " changed when they were set to their current values");
 }
 
-void every_component_starts_and_stops(Stage& stage) {
-    Guest guest{stage};
-    for (auto const& component : stage.catalogue().components)
-        for (auto const& event : component.events) ok(guest.subscribe(event.name, only(component), true));
-    with_each(stage, guest, start_and_stop);
+void every_component_starts_and_stops(Context& context) {
+    Client client{context};
+    for (auto const& component : context.catalogue().components)
+        for (auto const& event : component.events) require_ok(client.subscribe(event.name, only(component), true));
+    with_each(context, client, start_and_stop);
 }
 
-void every_component_knows_the_common_commands(Stage& stage) {
-    Guest guest{stage};
-    with_each(stage, guest, common_commands);
+void every_component_supports_the_common_commands(Context& context) {
+    Client client{context};
+    with_each(context, client, common_commands);
 }
 
-void every_function_can_be_suspended(Stage& stage) {
-    Guest guest{stage};
-    with_each(stage, guest, hold_and_go_on);
+void every_function_can_be_suspended(Context& context) {
+    Client client{context};
+    with_each(context, client, hold_and_go_on);
 }
 
-void every_parameter_can_be_set_to_what_it_is(Stage& stage) {
-    Guest guest{stage};
-    with_each(stage, guest, parameters_set_and_read);
+void every_parameter_accepts_its_current_value(Context& context) {
+    Client client{context};
+    with_each(context, client, parameters_set_and_read);
 }
 
-// Those that the tables name; the profile may have more.
-void basic_components_have_their_messages(Stage& stage) {
+// Requires the messages in the tables. The profile may have more.
+void basic_components_have_their_messages(Context& context) {
     using Names = std::vector<std::string>;
     static std::map<std::string, std::pair<Names, Names>> const tables{
         // queries, events
@@ -154,40 +154,41 @@ void basic_components_have_their_messages(Stage& stage) {
     auto const has = [](std::vector<Message> const& messages, std::string const& name) {
         return std::ranges::find(messages, name, &Message::name) != messages.end();
     };
-    for (auto const& component : stage.catalogue().components) {
+    for (auto const& component : context.catalogue().components) {
         if (component.basic().empty()) continue;
         require(component.has_common || component.basic() == "systeminformation",
-                component.ref + " lacks the parts common to all components (table 32)");
+                "the profile of " + component.ref + " lacks the common messages (table 32)");
         auto const found = tables.find(component.basic());
         if (found == tables.end()) continue;
         for (auto const& query : found->second.first)
-            require(has(component.queries, query), component.ref + " has no query " + query);
+            require(has(component.queries, query), "the profile of " + component.ref + " lacks the query " + query);
         for (auto const& event : found->second.second)
-            require(has(component.events, event), component.ref + " has no event " + event);
+            require(has(component.events, event), "the profile of " + component.ref + " lacks the event " + event);
     }
 }
 
-void basic_messages_have_their_results(Stage& stage) {
-    for (auto const& component : stage.catalogue().components) {
+void basic_messages_have_their_results(Context& context) {
+    for (auto const& component : context.catalogue().components) {
         for (auto const& basic : basic_messages()) {
             if (component.basic() != basic.kind) continue;
             auto const* const message = basic.is_event ? component.event(basic.name) : component.query(basic.name);
-            require(message != nullptr, component.ref + " has no " + (basic.is_event ? "event " : "query ") + basic.name);
-            for (auto const* const due : {&basic.results, &basic.settable})
-                for (auto const& result : *due) {
+            require(message != nullptr,
+                    "the profile of " + component.ref + " lacks the " + (basic.is_event ? "event " : "query ") + basic.name);
+            for (auto const* const expected : {&basic.results, &basic.settable})
+                for (auto const& result : *expected) {
                     auto const found = std::ranges::find(message->results, result.name, &TypedName::name);
                     require(found != message->results.end(),
-                            basic.name + " of " + component.ref + " has no result " + result.name + " in its profile");
+                            "the profile of " + component.ref + " lacks the result " + result.name + " of " + basic.name);
                     require(is_same_type(found->type, result.type), result.name + " of " + basic.name + " of " + component.ref +
-                                                                        " should be of the type " + result.type + ", and is of " +
+                                                                        ": expected the type " + result.type + ", got " +
                                                                         found->type);
                 }
         }
     }
 }
 
-// The mandatory ones. Of conditional ones, which exclude each other, there is one at least.
-void basic_components_have_their_parameters(Stage& stage) {
+// Requires the mandatory parameters, and at least one of each group of alternatives.
+void basic_components_have_their_parameters(Context& context) {
     using Alternatives = std::vector<std::string>;
     static std::map<std::string, std::vector<Alternatives>> const tables{{"speechrecognition", {{"languages"}}},
                                                                          {"speechsynthesis", {{"speech_text", "SSML_text"}}},
@@ -195,12 +196,12 @@ void basic_components_have_their_parameters(Stage& stage) {
                                                                          {"navigation", {{"target_position"}}},
                                                                          {"follow", {{"target_object_ref"}, {"distance"}}},
                                                                          {"move", {{"line", "curve"}}}};
-    for (auto const& component : stage.catalogue().components) {
+    for (auto const& component : context.catalogue().components) {
         auto const found = tables.find(component.basic());
         if (found == tables.end()) continue;
         for (auto const& names : found->second)
             require(std::ranges::any_of(names, [&](auto const& name) { return component.parameter_named(name) != nullptr; }),
-                    component.ref + " has no parameter " + list(names));
+                    "the profile of " + component.ref + ": expected one of the parameters " + list(names));
     }
 }
 
@@ -209,13 +210,14 @@ void basic_components_have_their_parameters(Stage& stage) {
 Clause component_clause() {
     return {
         "7.6 Common messages: every component",
-        {{"basic_components_have_their_messages", "tables 32 to 47", basic_components_have_their_messages, Way::http},
-         {"basic_messages_have_their_results", "tables 34 to 47", basic_messages_have_their_results, Way::http},
-         {"basic_components_have_their_parameters", "tables 42 to 47; 7.6.15", basic_components_have_their_parameters, Way::http},
-         {"every_component_knows_the_common_commands", "table 32; decision 9", every_component_knows_the_common_commands},
+        {{"basic_components_have_their_messages", "tables 32 to 47", basic_components_have_their_messages, Transport::http},
+         {"basic_messages_have_their_results", "tables 34 to 47", basic_messages_have_their_results, Transport::http},
+         {"basic_components_have_their_parameters", "tables 42 to 47; 7.6.15", basic_components_have_their_parameters,
+          Transport::http},
+         {"every_component_supports_the_common_commands", "table 32; decision 9", every_component_supports_the_common_commands},
          {"every_component_starts_and_stops", "tables 32 to 47; decisions 8, 9, 12", every_component_starts_and_stops},
          {"every_function_can_be_suspended", "table 32; decisions 6, 8, 9", every_function_can_be_suspended},
-         {"every_parameter_can_be_set_to_what_it_is", "table 16; decision 8", every_parameter_can_be_set_to_what_it_is}}};
+         {"every_parameter_accepts_its_current_value", "table 16; decision 8", every_parameter_accepts_its_current_value}}};
 }
 
 }  // namespace rois::conformance

@@ -1,5 +1,5 @@
-// How notifications reach an application over HTTP (docs/clients.md; decisions 22 and 23).
-#include "conformance/stage.hpp"
+// Notifications over HTTP: long poll and event stream (docs/clients.md; decisions 22 and 23).
+#include "conformance/context.hpp"
 #include "kit/http_client.hpp"
 
 namespace rois::conformance {
@@ -9,18 +9,18 @@ namespace {
 using kit::HttpClient;
 using kit::HttpReply;
 
-// A session for which three notifications wait.
-class Inbox {
+// A session with three waiting notifications.
+class ThreeNotifications {
 public:
-    explicit Inbox(Stage& stage) : client{stage.address()} {
-        auto const dial = dial_of(stage);
-        auto const& component = *dial.component;
+    explicit ThreeNotifications(Context& context) : client{context.address()} {
+        auto const number = number_parameter_of(context);
+        auto const& component = *number.component;
         client.call("connect");
         auto const bound = client.call("bind", kit::component_ref(component.ref)).return_code();
-        if (bound == "OUT_OF_RESOURCES") throw NotPlayed{"another application uses " + component.ref};
-        auto const set = kit::component_ref(component.ref) + kit::parameters({turned(dial, 50)});
+        if (bound == "OUT_OF_RESOURCES") throw Skipped{"another application uses " + component.ref};
+        auto const set = kit::component_ref(component.ref) + kit::parameters({with_value(number, 50)});
         for (int i = 0; i < 3; ++i) ids.push_back(client.call("set_parameter", set).text("command_id"));
-        for (int i = 0; i < 3; ++i) client.notifications(i, 5);  // until the last one has completed
+        for (int i = 0; i < 3; ++i) client.notifications(i, 5);  // returns after the last command has completed
     }
 
     HttpClient client;
@@ -33,41 +33,44 @@ std::vector<std::string> commands_in(HttpReply const& reply) {
     return ids;
 }
 
-void a_long_poll_gives_what_is_there(Stage& stage) {
-    Inbox inbox{stage};
-    auto const reply = inbox.client.notifications(0, 5);
-    stage.traffic().validate(reply.body);
-    same("the document", "notifications", reply.root().name());
-    require(commands_in(reply) == inbox.ids, "three commands should have completed in order: " + reply.body);
-    unsigned sequence = 0;
-    for (auto const notification : reply.root())
-        require(notification.attribute("sequence").as_uint() == ++sequence, "the sequence has a gap: " + reply.body);
-}
-
-void reading_discards_nothing(Stage& stage) {
-    Inbox inbox{stage};
-    auto const first = inbox.client.notifications(0, 5);
-    same("the same notifications again", first.body, inbox.client.notifications(0, 5).body);
-    auto const rest = commands_in(inbox.client.notifications(2, 5));
-    require(rest == std::vector{inbox.ids[2]}, "after=2 should give the third: " + list(rest));
-    auto const none = inbox.client.notifications(3, 0);
-    require(none.status == 200 && !none.root().first_child(), "after=3 should give an empty list: " + none.body);
-}
-
-void a_long_poll_takes_numbers_only(Stage& stage) {
-    Inbox inbox{stage};
-    for (auto const* const query : {"after=x", "after=-1", "wait=soon", "wait=31"}) {
-        auto const reply = inbox.client.get(std::string{"/rois/notifications?"} + query);
-        require(reply.status == 400,
-                std::string{query} + " should be answered with 400, and is with " + std::to_string(reply.status));
+void a_long_poll_returns_the_waiting_notifications(Context& context) {
+    ThreeNotifications waiting{context};
+    auto const reply = waiting.client.notifications(0, 5);
+    context.traffic().validate(reply.body);
+    require_equal("the document", "notifications", reply.root().name());
+    require(commands_in(reply) == waiting.ids, "expected `completed` of three commands in order, got " + reply.body);
+    unsigned expected = 0;
+    for (auto const notification : reply.root()) {
+        ++expected;
+        require(notification.attribute("sequence").as_uint() == expected,
+                "expected sequence " + std::to_string(expected) + ", got " + reply.body);
     }
 }
 
-void notifications_need_a_session(Stage& stage) {
-    HttpClient client{stage.address()};
+void a_long_poll_discards_no_notification(Context& context) {
+    ThreeNotifications waiting{context};
+    auto const first = waiting.client.notifications(0, 5);
+    require_equal("the same notifications again", first.body, waiting.client.notifications(0, 5).body);
+    auto const rest = commands_in(waiting.client.notifications(2, 5));
+    require(rest == std::vector{waiting.ids[2]}, "after=2: expected only the third notification, got " + list(rest));
+    auto const none = waiting.client.notifications(3, 0);
+    require(none.status == 200 && !none.root().first_child(),
+            "after=3: expected an empty list with status 200, got " + none.body);
+}
+
+void a_long_poll_refuses_invalid_numbers(Context& context) {
+    ThreeNotifications waiting{context};
+    for (auto const* const query : {"after=x", "after=-1", "wait=soon", "wait=31"}) {
+        auto const reply = waiting.client.get(std::string{"/rois/notifications?"} + query);
+        require(reply.status == 400, std::string{query} + ": expected status 400, got " + std::to_string(reply.status));
+    }
+}
+
+void notifications_need_a_session(Context& context) {
+    HttpClient client{context.address()};
     auto const reply = client.get("/rois/notifications");
-    require(reply.status == 403, "the status should be 403, and is " + std::to_string(reply.status));
-    same("the fault", "no_session", reply.fault());
+    require(reply.status == 403, "expected status 403, got " + std::to_string(reply.status));
+    require_equal("the fault", "no_session", reply.fault());
 }
 
 // Reads the `id` and the document of one event of the stream.
@@ -86,23 +89,23 @@ std::pair<std::string, std::string> next_event(HttpClient& stream) {
     return {id, data};
 }
 
-void an_event_stream_gives_the_same(Stage& stage) {
-    Inbox inbox{stage};
-    HttpClient stream{stage.address()}, again{stage.address()};
+void an_event_stream_sends_the_same_notifications(Context& context) {
+    ThreeNotifications waiting{context};
+    HttpClient stream{context.address()}, again{context.address()};
     for (auto* const client : {&stream, &again}) {
         bool const is_first = client == &stream;
-        client->session = inbox.client.session;
+        client->session = waiting.client.session;
         kit::Headers headers{{"Accept", "text/event-stream"}};
         if (!is_first) headers["Last-Event-ID"] = "2";
         auto const reply = client->get("/rois/notifications", headers);
-        same("the content type", "text/event-stream", reply.header("Content-Type").substr(0, 17));
+        require_equal("the content type", "text/event-stream", reply.header("Content-Type").substr(0, 17));
         for (std::size_t number = is_first ? 1 : 3; number <= 3; ++number) {
             auto const [id, data] = next_event(*client);
-            stage.traffic().validate(data);
-            same("the id", std::to_string(number), id);
+            context.traffic().validate(data);
+            require_equal("the id", std::to_string(number), id);
             Document const notification{data};
-            same("the sequence", id, notification.attribute("sequence"));
-            same("the command", inbox.ids[number - 1], notification.text("command_id"));
+            require_equal("the sequence", id, notification.attribute("sequence"));
+            require_equal("the command", waiting.ids[number - 1], notification.text("command_id"));
         }
         client->session.clear();
     }
@@ -111,13 +114,14 @@ void an_event_stream_gives_the_same(Stage& stage) {
 }  // namespace
 
 Clause notification_clause() {
-    return {
-        "7.4.2.2 Service application base: notifications over HTTP",
-        {{"a_long_poll_gives_what_is_there", "table 6; decision 22; docs/clients.md", a_long_poll_gives_what_is_there, Way::http},
-         {"reading_discards_nothing", "decision 23", reading_discards_nothing, Way::http},
-         {"a_long_poll_takes_numbers_only", "docs/clients.md", a_long_poll_takes_numbers_only, Way::http},
-         {"notifications_need_a_session", "figure 6; decision 1", notifications_need_a_session, Way::http},
-         {"an_event_stream_gives_the_same", "docs/clients.md", an_event_stream_gives_the_same, Way::http}}};
+    return {"7.4.2.2 Service application base: notifications over HTTP",
+            {{"a_long_poll_returns_the_waiting_notifications", "table 6; decision 22; docs/clients.md",
+              a_long_poll_returns_the_waiting_notifications, Transport::http},
+             {"a_long_poll_discards_no_notification", "decision 23", a_long_poll_discards_no_notification, Transport::http},
+             {"a_long_poll_refuses_invalid_numbers", "docs/clients.md", a_long_poll_refuses_invalid_numbers, Transport::http},
+             {"notifications_need_a_session", "figure 6; decision 1", notifications_need_a_session, Transport::http},
+             {"an_event_stream_sends_the_same_notifications", "docs/clients.md", an_event_stream_sends_the_same_notifications,
+              Transport::http}}};
 }
 
 }  // namespace rois::conformance

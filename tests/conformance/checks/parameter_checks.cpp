@@ -4,7 +4,7 @@
 #include <cctype>
 #include <string_view>
 
-#include "conformance/stage.hpp"
+#include "conformance/context.hpp"
 
 namespace rois::conformance {
 
@@ -15,79 +15,83 @@ std::string upper(std::string text) {
     return text;
 }
 
-// With a dial that the guest has bound.
-class Turning {
+// An integer parameter of a component that the client has bound.
+class BoundNumber {
 public:
-    explicit Turning(Stage& stage) : dial{dial_of(stage)}, guest{stage} { guest.take(*dial.component); }
+    explicit BoundNumber(Context& context) : number{number_parameter_of(context)}, client{context} {
+        client.bind_or_skip(*number.component);
+    }
 
     std::string value() {
-        auto const values = ok(guest.get_parameter(dial.component->ref)).values("parameters");
-        auto const found = values.find(dial.parameter);
+        auto const values = require_ok(client.get_parameter(number.component->ref)).values("parameters");
+        auto const found = values.find(number.name);
         return found == values.end() || found->second.empty() ? "" : found->second.front();
     }
-    std::string text(int value) const { return dial.text(value); }
-    Document set(std::vector<Argument> const& arguments) { return guest.set_parameter(dial.component->ref, arguments); }
+    std::string text(int value) const { return number.text(value); }
+    Document set(std::vector<Argument> const& arguments) { return client.set_parameter(number.component->ref, arguments); }
 
-    Dial dial;
-    Guest guest;
+    NumberParameter number;
+    Client client;
 };
 
-void set_parameter_completes_once_and_stores(Stage& stage) {
-    Turning turning{stage};
-    auto const id = ok(turning.set({turned(turning.dial, 41)})).text("command_id");
-    require(!id.empty(), "set_parameter should answer with a command_id");
-    same("the status of set_parameter", "OK", turning.guest.status_of(id));
-    same(turning.dial.parameter, turning.text(41), turning.value());
-    ok(turning.set({turned(turning.dial, 42)}));
-    turning.guest.settle(*turning.dial.component);
-    same(turning.dial.parameter, turning.text(42), turning.value());
-    require(turning.guest.endings(id).size() == 1, "set_parameter completed more than once");
+void set_parameter_completes_once_and_stores_the_value(Context& context) {
+    BoundNumber bound{context};
+    auto const id = require_ok(bound.set({with_value(bound.number, 41)})).text("command_id");
+    require(!id.empty(), "set_parameter: expected a command_id in the answer, got none");
+    require_equal("the status of set_parameter", "OK", bound.client.status_of(id));
+    require_equal(bound.number.name, bound.text(41), bound.value());
+    require_ok(bound.set({with_value(bound.number, 42)}));
+    bound.client.flush_notifications(*bound.number.component);
+    require_equal(bound.number.name, bound.text(42), bound.value());
+    require(bound.client.completion_statuses(id).size() == 1,
+            "expected set_parameter to complete once, got " + list(bound.client.completion_statuses(id)));
 }
 
-void execute_of_set_parameter_does_the_same(Stage& stage) {
-    Turning turning{stage};
-    same("the status", "OK",
-         turning.guest.ending(
-             {.component = turning.dial.component->ref, .type = "set_parameter", .arguments = {turned(turning.dial, 43)}}));
-    same(turning.dial.parameter, turning.text(43), turning.value());
+void set_parameter_as_a_command_stores_the_value(Context& context) {
+    BoundNumber bound{context};
+    require_equal(
+        "the status", "OK",
+        bound.client.run(
+            {.component = bound.number.component->ref, .type = "set_parameter", .arguments = {with_value(bound.number, 43)}}));
+    require_equal(bound.number.name, bound.text(43), bound.value());
 }
 
-void parameters_are_named_ignoring_case(Stage& stage) {
-    Turning turning{stage};
-    ok(turning.set({{upper(turning.dial.parameter), upper(turning.dial.type), {turning.text(44)}}}));
-    same(turning.dial.parameter, turning.text(44), turning.value());
+void parameter_names_are_case_insensitive(Context& context) {
+    BoundNumber bound{context};
+    require_ok(bound.set({{upper(bound.number.name), upper(bound.number.type), {bound.text(44)}}}));
+    require_equal(bound.number.name, bound.text(44), bound.value());
 }
 
-void data_types_may_be_urns(Stage& stage) {
-    Turning turning{stage};
-    ok(turning.set({{turning.dial.parameter, "urn:x-rois:def:DataType:ATR::Integer", {turning.text(49)}}}));
-    same(turning.dial.parameter, turning.text(49), turning.value());
+void data_types_may_be_urns(Context& context) {
+    BoundNumber bound{context};
+    require_ok(bound.set({{bound.number.name, "urn:x-rois:def:DataType:ATR::Integer", {bound.text(49)}}}));
+    require_equal(bound.number.name, bound.text(49), bound.value());
 }
 
-// As the later published profiles spell them.
-void published_spellings_are_taken(Stage& stage) {
+// Names of parameters in the published profiles that differ from the names in the specification.
+void published_spellings_are_accepted(Context& context) {
     struct Spelling {
-        char const *kind, *seed, *published, *type;
+        char const *kind, *specified, *published, *type;
     };
     static constexpr std::array<Spelling, 3> spellings{{{"navigation", "target_position", "target_positions", "string[]"},
                                                         {"speechsynthesis", "SSML_text", "ssml_text", "string"},
                                                         {"speechrecognition", "grammar", "grammer", "string"}}};
-    bool played = false;
-    for (auto const& [kind, seed, published, type] : spellings)
-        for (auto const& component : stage.catalogue().components) {
+    bool ran = false;
+    for (auto const& [kind, specified, published, type] : spellings)
+        for (auto const& component : context.catalogue().components) {
             if (component.basic() != kind) continue;
-            Guest guest{stage};
-            if (guest.bind(component.ref).return_code() != "OK") continue;
-            auto const values = guest.get_parameter(component.ref).values("parameters");
-            auto const found = values.find(seed);
-            if (found == values.end() || found->second.empty()) continue;  // what fits is not known here
-            ok(guest.set_parameter(component.ref, {{published, type, found->second}}));
-            played = true;
+            Client client{context};
+            if (client.bind(component.ref).return_code() != "OK") continue;
+            auto const values = client.get_parameter(component.ref).values("parameters");
+            auto const found = values.find(specified);
+            if (found == values.end() || found->second.empty()) continue;  // a valid value is unknown
+            require_ok(client.set_parameter(component.ref, {{published, type, found->second}}));
+            ran = true;
         }
-    if (!played) throw NotPlayed{"no free component has a value for a name with two spellings"};
+    if (!ran) throw Skipped{"no free component has a value for a parameter with two spellings"};
 }
 
-// The codes of ISO 639-1; those that were withdrawn (bh, mo, sh) are not among them.
+// The codes of ISO 639-1, without the withdrawn ones (bh, mo, sh).
 constexpr std::string_view languages =
     "aa ab ae af ak am an ar as av ay az ba be bg bi bm bn bo br bs ca ce ch co cr cs cu cv cy da de dv dz ee el en eo es et eu "
     "fa "
@@ -101,119 +105,120 @@ constexpr std::string_view languages =
 
 bool is_language(std::string const& code) { return code.size() == 2 && languages.find(code + " ") != languages.npos; }
 
-void languages_are_iso_639_1(Stage& stage) {
-    bool played = false;
-    Guest guest{stage};
+void languages_are_iso_639_1_codes(Context& context) {
+    bool ran = false;
+    Client client{context};
     for (auto const* const kind : {"speechrecognition", "speechsynthesis"})
-        for (auto const& component : stage.catalogue().components) {
+        for (auto const& component : context.catalogue().components) {
             if (component.basic() != kind || !component.query("get_parameter")) continue;
-            for (auto const& [name, values] : guest.query("get_parameter", only(component)).values())
+            for (auto const& [name, values] : client.query("get_parameter", only(component)).values())
                 for (auto const& text : values) {
                     if (name != "language" && !name.ends_with("languages")) continue;
                     require(is_language(text),
-                            name + " of " + component.ref + " has " + text + ", which is not a code of ISO 639-1");
-                    played = true;
+                            name + " of " + component.ref + ": '" + text + "' is not a language code: expected ISO 639-1");
+                    ran = true;
                 }
         }
-    if (!played) throw NotPlayed{"no component tells languages"};
+    if (!ran) throw Skipped{"no component reports languages"};
 }
 
-void bad_parameters_are_refused(Stage& stage) {
-    Turning turning{stage};
-    auto const& [component, name, type, base] = turning.dial;
-    ok(turning.set({turned(turning.dial, 45)}));
-    refused(turning.set({{nobody, "string", {"red"}}}), "BAD_PARAMETER", nobody);
-    refused(turning.set({{name, type, {"soon"}}}), "BAD_PARAMETER", name);
-    refused(turning.set({{name, type, {turning.text(46), turning.text(47)}}}), "BAD_PARAMETER", name);
-    refused(turning.set({{name, "string", {turning.text(46)}}}), "BAD_PARAMETER", name);
-    refused(turning.set({{name, type, {"99999999999"}}}), "BAD_PARAMETER", name);
-    refused(turning.set({turned(turning.dial, 46), {nobody, "string", {"red"}}}), "BAD_PARAMETER", nobody);
-    same(name + " after a refused value", turning.text(45), turning.value());
+void invalid_parameters_are_refused(Context& context) {
+    BoundNumber bound{context};
+    auto const& [component, name, type, base] = bound.number;
+    require_ok(bound.set({with_value(bound.number, 45)}));
+    require_refusal(bound.set({{unknown_name, "string", {"red"}}}), "BAD_PARAMETER", unknown_name);
+    require_refusal(bound.set({{name, type, {"soon"}}}), "BAD_PARAMETER", name);
+    require_refusal(bound.set({{name, type, {bound.text(46), bound.text(47)}}}), "BAD_PARAMETER", name);
+    require_refusal(bound.set({{name, "string", {bound.text(46)}}}), "BAD_PARAMETER", name);
+    require_refusal(bound.set({{name, type, {"99999999999"}}}), "BAD_PARAMETER", name);
+    require_refusal(bound.set({with_value(bound.number, 46), {unknown_name, "string", {"red"}}}), "BAD_PARAMETER", unknown_name);
+    require_equal(name + " after a refused value", bound.text(45), bound.value());
 }
 
-// Of all components that are free: names and types are those of the profile.
-void parameters_are_those_of_the_profile(Stage& stage) {
-    Guest guest{stage};
-    for (auto const& component : stage.catalogue().components) {
-        if (guest.bind(component.ref).return_code() != "OK") continue;
-        auto const answer = guest.get_parameter(component.ref);
+// Compares the names and types of the parameters of all free components with their profiles.
+void parameters_match_the_profile(Context& context) {
+    Client client{context};
+    for (auto const& component : context.catalogue().components) {
+        if (client.bind(component.ref).return_code() != "OK") continue;
+        auto const answer = client.get_parameter(component.ref);
         if (answer.return_code() == "ERROR") continue;  // a component that has failed
         auto known = component.parameters;
         if (auto const* const query = component.query("get_parameter"))
             known.insert(known.end(), query->results.begin(), query->results.end());
-        for (auto const& [name, values] : ok(answer).values("parameters")) {
+        for (auto const& [name, values] : require_ok(answer).values("parameters")) {
             auto const found = std::ranges::find(known, name, &TypedName::name);
-            require(found != known.end(), component.ref + " has the parameter " + name + ", its profile has not");
+            require(found != known.end(), "the profile of " + component.ref + " lacks the parameter " + name);
             require(is_of_type(found->type, values),
-                    name + " of " + component.ref + " is " + list(values) + ", its type is " + found->type);
+                    name + " of " + component.ref + ": expected a value of type " + found->type + ", got " + list(values));
         }
     }
 }
 
-void parameters_are_read_without_a_binding_by_query(Stage& stage) {
-    Turning turning{stage};
-    ok(turning.set({turned(turning.dial, 48)}));
-    if (!turning.dial.component->query("get_parameter"))
-        throw NotPlayed{turning.dial.component->ref + " has no query get_parameter"};
-    Guest other{stage};
-    auto const values = ok(other.query("get_parameter", only(*turning.dial.component))).values();
-    auto const found = values.find(turning.dial.parameter);
-    require(found == values.end() || found->second != std::vector{turning.text(48)},
-            "the query get_parameter tells others that " + turning.dial.parameter + " was set to " + turning.text(48));
+void the_query_get_parameter_hides_set_values(Context& context) {
+    BoundNumber bound{context};
+    require_ok(bound.set({with_value(bound.number, 48)}));
+    if (!bound.number.component->query("get_parameter"))
+        throw Skipped{bound.number.component->ref + " has no query get_parameter"};
+    Client other{context};
+    auto const values = require_ok(other.query("get_parameter", only(*bound.number.component))).values();
+    auto const found = values.find(bound.number.name);
+    require(found == values.end() || found->second != std::vector{bound.text(48)},
+            "the query get_parameter returned the value of another application: " + bound.number.name + " = " + bound.text(48));
 }
 
-void parameters_end_with_the_binding(Stage& stage) {
-    Turning turning{stage};
-    auto const& ref = turning.dial.component->ref;
-    ok(turning.set({turned(turning.dial, 47)}));
-    same(turning.dial.parameter, turning.text(47), turning.value());
-    ok(turning.guest.release(ref));
-    auto const answer = turning.guest.bind(ref);
-    if (answer.return_code() == "OUT_OF_RESOURCES") throw NotPlayed{"another application uses " + ref};
-    ok(answer);
-    require(turning.value() != turning.text(47),
-            turning.dial.parameter + " of " + ref + " is still " + turning.text(47) + ", which was set before release");
+void release_discards_set_parameters(Context& context) {
+    BoundNumber bound{context};
+    auto const& ref = bound.number.component->ref;
+    require_ok(bound.set({with_value(bound.number, 47)}));
+    require_equal(bound.number.name, bound.text(47), bound.value());
+    require_ok(bound.client.release(ref));
+    auto const answer = bound.client.bind(ref);
+    if (answer.return_code() == "OUT_OF_RESOURCES") throw Skipped{"another application uses " + ref};
+    require_ok(answer);
+    require(bound.value() != bound.text(47),
+            bound.number.name + " of " + ref + " still has the value from before release: " + bound.text(47));
 }
 
-// The code of a reaction that the component has. Nothing is started.
-void identifiers_of_a_foreign_codebook_are_refused(Stage& stage) {
-    auto const& reaction = stage.one_of({"reaction"});
-    Guest guest{stage};
-    guest.take(reaction);
-    auto const answer = ok(guest.get_parameter(reaction.ref));
+// Sets the code of a known reaction, with and without an unknown codebook. Starts no reaction.
+void identifiers_of_an_unknown_codebook_are_refused(Context& context) {
+    auto const& reaction = context.component_of_kind({"reaction"});
+    Client client{context};
+    client.bind_or_skip(reaction);
+    auto const answer = require_ok(client.get_parameter(reaction.ref));
     auto const parameters = answer.values("parameters");
     auto const reactions = parameters.find("available_reactions");
-    if (reactions == parameters.end() || reactions->second.empty()) throw NotPlayed{reaction.ref + " has no reactions"};
-    auto const due = argument(reaction, "reaction_ref", {reactions->second.front()});
+    if (reactions == parameters.end() || reactions->second.empty()) throw Skipped{reaction.ref + " has no available_reactions"};
+    auto const expected = argument(reaction, "reaction_ref", {reactions->second.front()});
     auto const set = [&](kit::Attributes type_ref) {
-        type_ref.insert(type_ref.begin(), {"rois:code", due.type});
-        auto const content = kit::element("rois:data_type_ref", type_ref) + kit::text_element("rois:value", due.values.front());
-        auto const parameter = kit::element("parameter", {{"rois:name", due.name}}, content);
-        return guest.ask("set_parameter", kit::component_ref(reaction.ref) + kit::element("parameters", parameter));
+        type_ref.insert(type_ref.begin(), {"rois:code", expected.type});
+        auto const content =
+            kit::element("rois:data_type_ref", type_ref) + kit::text_element("rois:value", expected.values.front());
+        auto const parameter = kit::element("parameter", {{"rois:name", expected.name}}, content);
+        return client.ask("set_parameter", kit::component_ref(reaction.ref) + kit::element("parameters", parameter));
     };
-    ok(set({}));
-    auto const told = answer.root().child("parameters").find_child_by_attribute("rois:name", "available_reactions");
-    std::string const known = told.child("rois:data_type_ref").attribute("rois:codebook_ref").value();
-    refused(set({{"rois:codebook_ref", "urn:x-conformance:codebook:nowhere"}}), "BAD_PARAMETER", known);
+    require_ok(set({}));
+    auto const reported = answer.root().child("parameters").find_child_by_attribute("rois:name", "available_reactions");
+    std::string const known = reported.child("rois:data_type_ref").attribute("rois:codebook_ref").value();
+    require_refusal(set({{"rois:codebook_ref", "urn:x-conformance:codebook:nowhere"}}), "BAD_PARAMETER", known);
 }
 
 }  // namespace
 
 Clause parameter_clause() {
     return {"7.4.2 Command interface: parameters",
-            {{"set_parameter_completes_once_and_stores", "figure 9; table 3; decisions 8, 12",
-              set_parameter_completes_once_and_stores},
-             {"execute_of_set_parameter_does_the_same", "table 12", execute_of_set_parameter_does_the_same},
-             {"parameters_are_named_ignoring_case", "decision 26", parameters_are_named_ignoring_case},
+            {{"set_parameter_completes_once_and_stores_the_value", "figure 9; table 3; decisions 8, 12",
+              set_parameter_completes_once_and_stores_the_value},
+             {"set_parameter_as_a_command_stores_the_value", "table 12", set_parameter_as_a_command_stores_the_value},
+             {"parameter_names_are_case_insensitive", "decision 26", parameter_names_are_case_insensitive},
              {"data_types_may_be_urns", "table 16; decision 26", data_types_may_be_urns},
-             {"published_spellings_are_taken", "decision 26", published_spellings_are_taken},
-             {"languages_are_iso_639_1", "tables 42, 44; decision 28", languages_are_iso_639_1},
-             {"bad_parameters_are_refused", "table 1; decision 26", bad_parameters_are_refused},
-             {"parameters_are_those_of_the_profile", "figure 9; tables 16, 19; decision 26", parameters_are_those_of_the_profile},
-             {"parameters_are_read_without_a_binding_by_query", "decision 18", parameters_are_read_without_a_binding_by_query},
-             {"parameters_end_with_the_binding", "figure 11; decision 30", parameters_end_with_the_binding},
-             {"identifiers_of_a_foreign_codebook_are_refused", "table 45; decision 31",
-              identifiers_of_a_foreign_codebook_are_refused}}};
+             {"published_spellings_are_accepted", "decision 26", published_spellings_are_accepted},
+             {"languages_are_iso_639_1_codes", "tables 42, 44; decision 28", languages_are_iso_639_1_codes},
+             {"invalid_parameters_are_refused", "table 1; decision 26", invalid_parameters_are_refused},
+             {"parameters_match_the_profile", "figure 9; tables 16, 19; decision 26", parameters_match_the_profile},
+             {"the_query_get_parameter_hides_set_values", "decision 18", the_query_get_parameter_hides_set_values},
+             {"release_discards_set_parameters", "figure 11; decision 30", release_discards_set_parameters},
+             {"identifiers_of_an_unknown_codebook_are_refused", "table 45; decision 31",
+              identifiers_of_an_unknown_codebook_are_refused}}};
 }
 
 }  // namespace rois::conformance

@@ -198,8 +198,8 @@ TEST(WebSocketWithoutASession, ClosesAfterAWhile) {
     speaks.call("connect");
     left.call("connect");
     left.call("disconnect");
-    EXPECT_EQ(mute.closes(), 1008);
-    EXPECT_EQ(left.closes(), 1008);
+    EXPECT_EQ(mute.await_close(), 1008);
+    EXPECT_EQ(left.await_close(), 1008);
     EXPECT_EQ(fault_of(speaks.call("search")), "") << "it has a session";
 }
 

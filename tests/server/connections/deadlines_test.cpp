@@ -47,7 +47,7 @@ TEST(Deadline, IsNotRenewedByEmptyLines) {
             client.line().send(lines[i % lines.size()]);
             std::this_thread::sleep_for(std::chrono::milliseconds{50});
         }
-        client.line().be_patient(std::chrono::milliseconds{100});
+        client.line().set_patience(std::chrono::milliseconds{100});
         EXPECT_NO_THROW(client.line().rest()) << "it is open still";
     }
 }

@@ -205,16 +205,16 @@ TEST(Link, OfAStreamKeepsTheSession) {
 // Both transports of the kit wait as long as the patience says.
 TEST(Patience, IsTheSameOverBothTransports) {
     constexpr std::chrono::seconds patience{2};
-    for (auto const way : kit::all_ways) {
+    for (auto const transport : kit::all_transports) {
         auto address = shared_gateway().address();
         address.patience = patience;
-        auto const wire = kit::wire_to(address, way);
-        std::vector<std::string> news;
-        wire->use(kit::Document{wire->ask(request("connect"), news)}.text("session"));
+        auto const connection = kit::connection_over(address, transport);
+        std::vector<std::string> notifications;
+        connection->set_session(kit::Document{connection->ask(request("connect"), notifications)}.text("session"));
         auto const began = std::chrono::steady_clock::now();
-        EXPECT_THROW(wire->wait(news), LineEnded);
+        EXPECT_THROW(connection->wait(notifications), LineEnded);
         auto const waited = std::chrono::steady_clock::now() - began;
-        EXPECT_GE(waited, patience - std::chrono::milliseconds{50}) << way;
+        EXPECT_GE(waited, patience - std::chrono::milliseconds{50}) << transport;
     }
 }
 

@@ -26,7 +26,7 @@ TEST(Handshake, IsAnsweredWithTheSubprotocol) {
     EXPECT_EQ(reply.status, 101);
     EXPECT_EQ(reply.header("Upgrade"), "websocket");
     EXPECT_EQ(reply.header("Connection"), "Upgrade");
-    EXPECT_EQ(reply.header("Sec-WebSocket-Accept"), its_accept);
+    EXPECT_EQ(reply.header("Sec-WebSocket-Accept"), expected_accept);
     EXPECT_EQ(reply.header("Sec-WebSocket-Protocol"), "rois.xml.v1");
 }
 
@@ -167,7 +167,7 @@ TEST(WebSocket, OneThatNeverStopsDoesNotDelayTheOthers) {
         }};
         for (int i = 0; i < 10; ++i) {
             HttpClient other{gateway};
-            other.line().be_patient(std::chrono::seconds{3});
+            other.line().set_patience(std::chrono::seconds{3});
             EXPECT_EQ(other.get("/healthz").status, 200);
         }
     }
@@ -179,7 +179,7 @@ TEST(Resume, GoesOnAfterTheLastSequence) {
         WebSocketClient client;
         bind_and_complete(client, 3);
         session = client.session();
-        client.vanish();
+        client.keep_session();
     }
     WebSocketClient again;
     EXPECT_EQ(resume(again, session, 1), "OK");
@@ -205,7 +205,7 @@ TEST(Link, OfAWebSocketThatVanishesIsLostWithItsSession) {
     {
         WebSocketClient vanishing{gateway};
         bind_and_complete(vanishing, 0);
-        vanishing.vanish();
+        vanishing.keep_session();
     }
     WebSocketClient waiting{gateway};  // its session ends with the connection
     waiting.call("connect");
@@ -271,21 +271,21 @@ TEST(Close, With1009ForAMessageThatIsTooLarge) {
     client.send(document + std::string((1 << 20) - document.size(), ' '));
     EXPECT_EQ(code_of(client.next_document()), "OK");
     client.send(std::string((1 << 20) + 1, ' '));
-    EXPECT_EQ(client.closes(), 1009);
+    EXPECT_EQ(client.await_close(), 1009);
 }
 
 TEST(Close, With1008ForEndlessFragments) {
     WebSocketClient client;
     client.send_raw(0x01, "");
     for (int i = 0; i < 1'024; ++i) client.send_raw(0x00, "");
-    EXPECT_EQ(client.closes(), 1008);
+    EXPECT_EQ(client.await_close(), 1008);
 }
 
 TEST(Close, With1008ForAMessageThatDoesNotEnd) {
     GatewayProcess gateway{{"--request-timeout", "0.2"}};
     WebSocketClient client{gateway};
     client.send_raw(0x01, "<connect");
-    EXPECT_EQ(client.closes(), 1008);
+    EXPECT_EQ(client.await_close(), 1008);
 }
 
 // With steady traffic, part of the next message has nearly always arrived.
@@ -302,7 +302,7 @@ TEST(Close, IsNotCausedBySteadyTraffic) {
         client.line().send(frame.substr(20) + frame.substr(0, 20));  // the end of a frame and the beginning of the next
         EXPECT_EQ(name_of(client.next_document()), "search_response");
     } while (std::chrono::steady_clock::now() < until && !testing::Test::HasFailure());
-    EXPECT_EQ(client.closes(), 1008) << "the last one does not end";
+    EXPECT_EQ(client.await_close(), 1008) << "the last one does not end";
 }
 
 TEST(Close, With1008ForAMessageThatDoesNotEndAmongPings) {
@@ -327,7 +327,7 @@ TEST(Close, With1008ForAFloodOfControlFrames) {
         for (int i = 0; i < 50 && kind == Kind::ping; ++i) EXPECT_EQ(client.next().kind, Kind::pong);
         EXPECT_EQ(code_of(client.call("search")), "OK") << "50 within a second are none";
         for (int i = 0; i < 51; ++i) client.send("", kind);
-        EXPECT_EQ(client.closes(), 1008);
+        EXPECT_EQ(client.await_close(), 1008);
     }
 }
 
@@ -336,7 +336,7 @@ TEST(Close, With1008AfterTooManySessions) {
     WebSocketClient first{gateway}, second{gateway};
     first.call("connect");
     EXPECT_EQ(fault_of(second.call("connect")), "too_many");
-    EXPECT_EQ(second.closes(), 1008);
+    EXPECT_EQ(second.await_close(), 1008);
 }
 
 TEST(Fragments, AreOneMessage) {

@@ -16,7 +16,7 @@ using testing::Pair;
 std::string const hall_frame = "urn:x-rois:def:crs:simulation::hall";
 std::string const map_frame = "urn:x-rois:def:crs:simulation::robot2_map";
 
-struct FramesOfRobots : testing::TestWithParam<Way> {
+struct FramesOfRobots : testing::TestWithParam<Transport> {
     static GatewayProcess& hall() {
         static GatewayProcess two{{"--floor-plan", ROIS_SOURCE_DIR "/components/simulation/data/two-robots.xml", "--scenario",
                                    ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--sim-speed", "20", "--seed", "1"}};

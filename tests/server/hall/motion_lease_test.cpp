@@ -22,7 +22,7 @@ auto const far_away = target_position({"14000, 6000", "1000, 6000", "14000, 6000
 // Another application, which receives the errors of navigation.
 class Watcher : public Application {
 public:
-    explicit Watcher(GatewayProcess const& gateway) : Application{Way::websocket, gateway} {
+    explicit Watcher(GatewayProcess const& gateway) : Application{Transport::websocket, gateway} {
         connect();
         subscribe("reached_target");
     }
@@ -62,7 +62,7 @@ TEST_F(Drive, IsHeldAtOnceWhenTheWebSocketIsReset) {
     std::optional<WebSocketClient> driver{std::in_place, gateway};
     driver->call("connect");
     set_out(*driver);
-    driver->vanish();
+    driver->keep_session();
     driver.reset();
     auto const gone_at = Clock::now();
     EXPECT_THAT(watcher.held(), HasSubstr("its motion is held: its application gave no sign of life"));
@@ -140,7 +140,7 @@ TEST_F(Drive, GoesOnWithAnEventStreamAndIsHeldWhenThatCloses) {
                  driver.session + "\r\n\r\n");
     stream->take_until("\r\n\r\n");
     set_out(driver);
-    Application other{Way::http, gateway};
+    Application other{Transport::http, gateway};
     other.connect();
     for (auto const until = Clock::now() + 1500ms; Clock::now() < until;) other.query("robot_position");
     EXPECT_FALSE(watcher.receive_now());
@@ -217,7 +217,7 @@ TEST_F(Drive, IsStoppedByStopForEverythingAndNothingStartsUntilItIsCleared) {
     EXPECT_EQ(ready.status, 503);
     EXPECT_EQ(ready.body, "stopped: nothing starts until POST /rois/clear\n");
     EXPECT_THAT(anybody.get("/metrics").body, HasSubstr("rois_everything_stopped 1"));
-    Application desk{Way::http, gateway};
+    Application desk{Transport::http, gateway};
     desk.connect();
     desk.bind("speech_synthesis");
     EXPECT_THAT(desk.execute(speak("Hello.")), IsRefused("ERROR", "everything was stopped"));

@@ -66,12 +66,12 @@ std::string lamp(std::string const& colour) {
 
 std::string fan() { return profile_document("urn:test::Fan", includes_common, stand_in); }
 
-class ProfilesOfUsers : public testing::TestWithParam<Way> {
+class ProfilesOfUsers : public testing::TestWithParam<Transport> {
 protected:
     ProfileFolder folder_;
 };
 
-INSTANTIATE_TEST_SUITE_P(BothWays, ProfilesOfUsers, testing::ValuesIn(all_ways), testing::PrintToStringParamName());
+INSTANTIATE_TEST_SUITE_P(BothWays, ProfilesOfUsers, testing::ValuesIn(all_transports), testing::PrintToStringParamName());
 
 TEST_P(ProfilesOfUsers, MakeComponents) {
     GatewayProcess gateway{{"--profiles", ROIS_SOURCE_DIR "/components/simulation/profiles"}};
@@ -302,7 +302,7 @@ TEST(EngineParameters, AreInItsProfile) {
     EXPECT_THAT(document, HasSubstr("<rois:ParameterProfile rois:name=\"sim_speed\" rois:default_value=\"2.5\""));
     EXPECT_THAT(document, HasSubstr("rois:name=\"crs\" rois:default_value=\"urn:x-rois:def:crs:simulation::hall\""));
     EXPECT_THAT(document, HasSubstr("rois:name=\"instance\""));
-    Application desk{Way::http, gateway};
+    Application desk{Transport::http, gateway};
     desk.connect();
     EXPECT_THAT(desk.ask("get_profile").whole(), HasSubstr("rois:name=\"sim_speed\""));
     EXPECT_THAT(client.get("/rois/profile/navigation").body,

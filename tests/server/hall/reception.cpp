@@ -44,7 +44,7 @@ std::ostream& operator<<(std::ostream& out, Received const& received) {
     return out << "}";
 }
 
-Reception::Reception(Way way, GatewayProcess const& gateway, std::map<std::string, std::string> messages)
+Reception::Reception(Transport way, GatewayProcess const& gateway, std::map<std::string, std::string> messages)
     : engine_{way, gateway}, messages_{std::move(messages)} {
     engine_.connect();
     for (auto const* ref : {"person_detection", "person_localization", "person_identification", "speech_recognition",

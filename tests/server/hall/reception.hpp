@@ -29,7 +29,7 @@ double distance(Pose const&, Pose const&);  // mm
 class Reception {
 public:
     // Connects, binds and subscribes. `messages` maps the id of a visitor to the message for them.
-    Reception(Way, GatewayProcess const&, std::map<std::string, std::string> messages);
+    Reception(Transport, GatewayProcess const&, std::map<std::string, std::string> messages);
 
     // Receives the next person who has not been received, and returns to the start.
     Received receive();

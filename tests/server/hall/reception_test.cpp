@@ -48,7 +48,7 @@ void expect_targets_before_their_completed(Reception const& reception) {
     }
 }
 
-struct TheReception : testing::TestWithParam<Way> {};
+struct TheReception : testing::TestWithParam<Transport> {};
 ROIS_OVER_BOTH_WAYS(TheReception);
 
 TEST_P(TheReception, ReceivesFourVisitors) {
@@ -99,7 +99,7 @@ std::vector<std::string> steps(std::string const& text) {
 
 // Waits until the only visitor stands at the end of their way.
 void wait_for_tanaka(GatewayProcess const& gateway) {
-    Application guard{Way::websocket, gateway};
+    Application guard{Transport::websocket, gateway};
     guard.connect();
     guard.bind("person_localization");
     guard.subscribe("person_localized", "", true);

@@ -9,7 +9,7 @@ namespace {
 TEST(Speech, IsLoggedPassageByPassage) {
     GatewayProcess gateway{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--sim-speed", "20"}};
     {
-        Application desk{Way::http, gateway};
+        Application desk{Transport::http, gateway};
         desk.connect();
         desk.bind("speech_synthesis");
         desk.execute(Command{.component = "speech_synthesis",

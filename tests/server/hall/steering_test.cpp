@@ -31,7 +31,7 @@ Command let_pass(int milliseconds, std::string const& id = "") {
     return steer("let_pass", {{"time", "int", {std::to_string(milliseconds)}}}, id);
 }
 
-class StillHall : public testing::TestWithParam<Way> {
+class StillHall : public testing::TestWithParam<Transport> {
 protected:
     StillHall() {
         desk.connect();
@@ -117,7 +117,7 @@ TEST(Gateway, IsReadyOnlyWhenAllComponentsHaveHalted) {
     auto const not_ready = watching.get("/readyz");
     EXPECT_EQ(not_ready.status, 503);
     EXPECT_EQ(not_ready.body, "navigation has not confirmed that it stands still\n");
-    Application desk{Way::websocket, gateway};
+    Application desk{Transport::websocket, gateway};
     desk.connect();
     EXPECT_THAT(desk.bind("simulated_hall"), IsOk());
     desk.execute(let_pass(1'000, "pass"));
@@ -130,16 +130,16 @@ TEST(Gateway, IsReadyOnlyWhenAllComponentsHaveHalted) {
 // Returns the words that the robot recognized and its position, after the same commands at the same world times.
 std::vector<std::string> story(std::vector<int> const& passes) {
     GatewayProcess gateway{{"--sim-speed", "0", "--seed", "5"}};
-    Application desk{Way::websocket, gateway};
+    Application desk{Transport::websocket, gateway};
     desk.connect();
     for (auto const* component : {"simulated_hall", "navigation", "speech_synthesis", "person_localization"})
         desk.bind(component);
     desk.subscribe("person_localized", {}, true);
     desk.execute({.component = "person_localization"});
-    desk.execute(one_after_another(unit({.component = "navigation", .arguments = {target_position({"9000, 5000", "start"})}}) +
-                                   unit({.component = "speech_synthesis", .arguments = {speech_text("Here I am.")}}) +
-                                   unit({.component = "navigation", .arguments = {target_position({"desk"})}})));
-    desk.execute(one_after_another(unit(enter("anna")) + unit(walk("anna", "11000, 6000, 180")) + unit(say("anna", "Hello."))));
+    desk.execute(sequential_unit(unit({.component = "navigation", .arguments = {target_position({"9000, 5000", "start"})}}) +
+                                 unit({.component = "speech_synthesis", .arguments = {speech_text("Here I am.")}}) +
+                                 unit({.component = "navigation", .arguments = {target_position({"desk"})}})));
+    desk.execute(sequential_unit(unit(enter("anna")) + unit(walk("anna", "11000, 6000, 180")) + unit(say("anna", "Hello."))));
     int pass = 0;
     for (auto const time : passes) {
         desk.execute(let_pass(time, "pass-" + std::to_string(++pass)));
@@ -162,7 +162,7 @@ TEST(StillHallHistory, DoesNotDependOnTheSizeOfTheTimeSteps) {
 // A hall in real time has the component only with the setting.
 TEST(Steering, IsAvailableOnlyOnRequest) {
     GatewayProcess plain{{"--scenario", nobody}}, asked{{"--scenario", nobody, "--steering", "on", "--sim-speed", "20"}};
-    Application guest{Way::http, plain}, desk{Way::http, asked};
+    Application guest{Transport::http, plain}, desk{Transport::http, asked};
     guest.connect();
     EXPECT_THAT(guest.search(), AllOf(SizeIs(15), Not(Contains("simulated_hall"))));
     desk.connect();
@@ -185,7 +185,7 @@ TEST(Steering, IsAvailableOnlyOnRequest) {
 TEST(Steering, TakesPositionsInEveryFrame) {
     GatewayProcess gateway{
         {"--floor-plan", ROIS_SOURCE_DIR "/components/simulation/data/two-robots.xml", "--scenario", nobody, "--sim-speed", "0"}};
-    Application desk{Way::http, gateway};
+    Application desk{Transport::http, gateway};
     desk.connect();
     EXPECT_THAT(desk.search(), AllOf(SizeIs(31), Not(Contains("robot2.simulated_hall"))));
     desk.bind("simulated_hall");

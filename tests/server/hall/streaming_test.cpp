@@ -23,7 +23,7 @@ GatewayProcess& streaming_hall() {
     return hall;
 }
 
-class Streaming : public testing::TestWithParam<Way> {
+class Streaming : public testing::TestWithParam<Transport> {
 protected:
     Streaming() { desk.connect(); }
 
@@ -85,7 +85,7 @@ TEST_P(Streaming, SoundIsServedByHttp) {
     EXPECT_EQ(stream.encoding, "audio/wav;rate=8000;channels=1");
     await_status(stream, "STREAMING_NOT_RUNNING");
     EXPECT_EQ(status(stream.id), "STREAMING_NOT_RUNNING");
-    Receiving receiving{stream.transport};
+    MediaReceiver receiving{stream.transport};
     EXPECT_THAT(receiving.head(), AllOf(StartsWith("HTTP/1.1 200 "), HasSubstr("Content-Type: audio/wav")));
     receiving.line().take(44);
     EXPECT_GT(share_of(440, samples_of(receiving.line().take(3'200), ByteOrder::little_endian), 8'000), 0.999);
@@ -102,7 +102,7 @@ TEST_P(Streaming, SoundIsServedByHttp) {
     receiving.line().rest();
     await_status(stream, "STREAMING_NOT_CONNECTED");
     EXPECT_EQ(status(stream.id), "STREAMING_NOT_CONNECTED");
-    EXPECT_THAT(Receiving{stream.transport}.head(), StartsWith("HTTP/1.1 404 "));
+    EXPECT_THAT(MediaReceiver{stream.transport}.head(), StartsWith("HTTP/1.1 404 "));
 }
 
 TEST_P(Streaming, SoundHasThePitchOfTheVoiceThatSpeaks) {
@@ -110,7 +110,7 @@ TEST_P(Streaming, SoundHasThePitchOfTheVoiceThatSpeaks) {
     desk.bind("speech_synthesis");
     set("audio_streaming", "audio/wav;rate=8000", "http");
     auto const stream = connect("audio_streaming");
-    Receiving receiving{stream.transport};
+    MediaReceiver receiving{stream.transport};
     receiving.line().take(44);
     auto const is_audible = [&](double pitch) {
         for (int piece = 0; piece < 100; ++piece)
@@ -154,7 +154,7 @@ TEST_P(Streaming, TheHallIsSeenFromAbove) {
     listen("video_streaming");
     set("video_streaming", "multipart/x-mixed-replace;size=1000;framerate=25", "");
     auto const stream = connect("video_streaming");
-    Receiving receiving{stream.transport};
+    MediaReceiver receiving{stream.transport};
     EXPECT_THAT(receiving.head(), HasSubstr("Content-Type: multipart/x-mixed-replace;boundary=picture"));
     receiving.next_picture();
     auto const picture = decoded_jpeg(receiving.next_picture());
@@ -174,14 +174,14 @@ TEST_P(Streaming, TheHallIsSeenFromAbove) {
 TEST_P(Streaming, EndsWithTheBinding) {
     listen("audio_streaming");
     auto const stream = connect("audio_streaming");
-    Receiving receiving{stream.transport};
+    MediaReceiver receiving{stream.transport};
     EXPECT_THAT(desk.release("audio_streaming"), IsOk());
     receiving.line().rest();
     await_status(stream, "STREAMING_NOT_CONNECTED");
 }
 
 TEST_P(Streaming, EndsWithTheSession) {
-    std::optional<Receiving> receiving;
+    std::optional<MediaReceiver> receiving;
     {
         Application guest{GetParam(), streaming_hall()};
         guest.connect();
@@ -197,7 +197,7 @@ TEST_P(Streaming, EndsWithTheSession) {
 
 TEST(StreamingAddress, IsThePublicAddress) {
     GatewayProcess const gateway{{"--media", "127.0.0.1:0", "--media-url", "https://robots.example/media"}};
-    Application desk{Way::http, gateway};
+    Application desk{Transport::http, gateway};
     desk.connect();
     desk.bind("video_streaming");
     auto const command = command_ids(desk.execute(Command{.component = "video_streaming", .type = "connect_stream"})).front();

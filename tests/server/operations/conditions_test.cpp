@@ -97,14 +97,14 @@ TEST_P(Conditions, AreUnderstoodByAllOperationsThatTakeOne) {
         desk.ask("get_profile", where(like("name", "mov?"))).root().child("components").first_child().attribute("ref").value(),
         testing::StrEq("move"));
     EXPECT_EQ(desk.ask("bind_any", where(like("name", "speech_s*"))).ref(), "speech_synthesis");
-    EXPECT_EQ(desk.query("get_parameter", where(contrary(is_null("Property/routing_policy")))).ref(), "navigation");
+    EXPECT_EQ(desk.query("get_parameter", where(negation(is_null("Property/routing_policy")))).ref(), "navigation");
     auto const id = desk.set_parameter("speech_synthesis", {speech_text("hello")}).text("command_id");
     EXPECT_EQ(desk.status_of(id), "OK");
     EXPECT_THAT(desk.get_command_result(id, where(like("status", "O?"))).values(), SizeIs(1));
     EXPECT_THAT(desk.get_command_result(id, where(like("status", "?"))).values(), IsEmpty());
 }
 
-struct Robots : testing::TestWithParam<Way> {
+struct Robots : testing::TestWithParam<Transport> {
     static GatewayProcess& hall() {
         static GatewayProcess two{{"--floor-plan", ROIS_SOURCE_DIR "/components/simulation/data/two-robots.xml", "--scenario",
                                    ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--sim-speed", "20", "--seed", "1"}};
@@ -189,7 +189,7 @@ TEST_P(Robots, SystemInformationReportsAllRobots) {
 }
 
 // One visitor walks in from the entrance to (9000, 4500) and stays there.
-struct Visitor : testing::TestWithParam<Way> {
+struct Visitor : testing::TestWithParam<Transport> {
     Visitor() {
         desk.connect();
         desk.bind("person_localization");
@@ -223,7 +223,7 @@ TEST_P(Visitor, IsNotLocalizedBelowTheLowestThresholdOfTheProfile) {
     EXPECT_THAT(desk.set_parameter("person_localization", {{"detection_threshold", "int", {"125"}}}), IsOk());
 }
 
-struct TalkingVisitor : testing::TestWithParam<Way> {
+struct TalkingVisitor : testing::TestWithParam<Transport> {
     GatewayProcess hall{
         {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/talking_visitor.xml", "--sim-speed", "20", "--seed", "3"}};
     Application desk{GetParam(), hall};

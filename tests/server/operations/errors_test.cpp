@@ -15,7 +15,7 @@ GatewayProcess& unwell() {
     return robot;
 }
 
-struct Errors : testing::TestWithParam<Way> {
+struct Errors : testing::TestWithParam<Transport> {
     Application desk{GetParam(), unwell()};
     Application other{GetParam(), unwell()};
 
@@ -92,13 +92,14 @@ TEST_P(Errors, OfAComponentThatDoesNotStartAreTimeouts) {
     EXPECT_THAT(lines(desk.history()), ElementsAre("completed speech TIMEOUT", "completed next ABORT", "receive_error"));
     EXPECT_EQ(error.text("error_type"), "COMPONENT_NOT_RESPONDING");
     EXPECT_EQ(error.ref(), "speech_synthesis");
-    EXPECT_THAT(desk.get_command_result("speech").values(),
-                UnorderedElementsAre(Pair("status", ElementsAre("TIMEOUT")),
-                                     Pair("reason", ElementsAre(testing::HasSubstr("did not start the command 'start' within 0.")))));
+    EXPECT_THAT(
+        desk.get_command_result("speech").values(),
+        UnorderedElementsAre(Pair("status", ElementsAre("TIMEOUT")),
+                             Pair("reason", ElementsAre(testing::HasSubstr("did not start the command 'start' within 0.")))));
     EXPECT_THAT(detail_of(error.text("error_id")).values(), Contains(Pair("component_ref", ElementsAre("speech_synthesis"))));
 }
 
-struct OtherFaults : testing::TestWithParam<Way> {
+struct OtherFaults : testing::TestWithParam<Transport> {
     GatewayProcess robot{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/complaining.xml", "--question-deadline", "0.2"}};
     Application desk{GetParam(), robot};
 

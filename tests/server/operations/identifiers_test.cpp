@@ -12,7 +12,7 @@ Xml identifier(std::string const& name, std::string const& code, std::string con
     return element("parameter", {{"rois:name", name}}, element("rois:data_type_ref", type) + text_element("rois:value", code));
 }
 
-struct Decision31 : testing::TestWithParam<Way> {
+struct Decision31 : testing::TestWithParam<Transport> {
     Decision31() {
         desk.connect();
         for (auto const* ref : {"reaction", "follow"}) desk.bind(ref);

@@ -39,7 +39,7 @@ struct Slow : testing::Test {
         desk.call("connect");
         for (auto const* ref : {"navigation", "speech_synthesis"}) desk.call("bind", component_ref(ref));
     }
-    ~Slow() override { desk.vanish(); }
+    ~Slow() override { desk.keep_session(); }
 };
 
 }  // namespace
@@ -125,7 +125,7 @@ TEST(AnswersBehindASlowOne, ComeBeforeAnOrderlyEnd) {
     auto const query = desk.next_document();
     EXPECT_TRUE(return_code(query) == "TIMEOUT" || std::string_view{query.name()} == "fault") << query.name();
     EXPECT_STREQ(desk.next_document().name(), "disconnect_response");
-    desk.vanish();
+    desk.keep_session();
 }
 
 TEST(AStopOfEverything, ActsAtOnceBehindASlowRequest) {

@@ -122,7 +122,7 @@ std::string play(GatewayProcess& gateway) {
                     HasSubstr("'navigation' is bound by another session, number 1"));
         other.call("bind", component_ref("move"));
         session = other.session();
-        other.vanish();
+        other.keep_session();
         WebSocketClient again{gateway};
         again.call("resume", "", {{"session", session}, {"last_sequence", "0"}});
         again.call("release", component_ref("move"));
@@ -179,7 +179,7 @@ TEST(Log, HasTheReasonWhyASessionEnded) {
     lost.session.clear();
     WebSocketClient open{gateway};
     open.call("connect");
-    open.vanish();
+    open.keep_session();
     gateway.signal(SIGTERM);
     EXPECT_THAT(gateway.wait().error, HasSubstr("session 2 ended: the gateway is shutting down\n"));
 }

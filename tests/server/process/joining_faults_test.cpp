@@ -27,7 +27,7 @@ protected:
     void expect_that_a_robot_can_join() {
         GatewayProcess const robot{{"--join", main.url(), "--join-as", "robot1", "--sim-speed", "20"}};
         main.log_with("present with");
-        Application desk{Way::websocket, main};
+        Application desk{Transport::websocket, main};
         desk.connect();
         EXPECT_THAT(desk.search(), Contains("robot1.navigation"));
     }

@@ -52,7 +52,7 @@ TEST(Joining, GivesTheMainEngineItsComponents) {
     Main main;
     auto const robot = robot_that_joins(main);
     main.gateway().log_with("present with");
-    Application desk{Way::websocket, main};
+    Application desk{Transport::websocket, main};
     desk.connect();
     EXPECT_THAT(desk.search(), Contains("robot1.speech_synthesis"));
     desk.bind("robot1.speech_synthesis");
@@ -169,7 +169,7 @@ TEST(Joining, HappensAgainAfterTheRobotHasRestarted) {
     robot->signal(SIGKILL);
     robot->wait();
     robot = robot_that_joins(main);
-    Application desk{Way::websocket, main};
+    Application desk{Transport::websocket, main};
     desk.connect();
     while (desk.bind("robot1.speech_synthesis").return_code() != "OK") {
     }

@@ -32,7 +32,7 @@ TEST(Shutdown, SendsTheLastNotificationsToAWebSocketAndCloses) {
     auto const last = client.next_document();
     EXPECT_STREQ(last.name(), "completed");
     EXPECT_STREQ(last.child("status").text().get(), "ABORT");
-    EXPECT_EQ(client.closes(), 1001);
+    EXPECT_EQ(client.await_close(), 1001);
     EXPECT_EQ(gateway.wait().exit_code, 0);
 }
 
