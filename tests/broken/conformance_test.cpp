@@ -137,8 +137,9 @@ TEST(Conformance, FindsNoBrokenRuleThroughThreeLevels) {
 TEST(Conformance, FindsNoBrokenRuleWithComponentsOfAUser) {
     kit::ProfileFolder const folder;
     auto const put = [&](std::string const& name, std::string const& adapter, std::string const& inside) {
-        auto const asked_for = R"(<gml:metaDataProperty xlink:href="urn:x-rois:def:adapter:simulation::)" + adapter + R"("/>)";
-        folder.put(name + ".xml", kit::profile_document("urn:x:" + name, inside, asked_for));
+        auto const adapter_property =
+            R"(<gml:metaDataProperty xlink:href="urn:x-rois:def:adapter:simulation::)" + adapter + R"("/>)";
+        folder.put(name + ".xml", kit::profile_document("urn:x:" + name, inside, adapter_property));
     };
     put("lists", "stand_in",
         common + R"(<rois:ParameterProfile rois:name="v" rois:default_value="1 2">)"

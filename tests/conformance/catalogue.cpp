@@ -136,7 +136,7 @@ ReadType read_type(std::string const& type) {
     return {found == shorter.end() ? item : found->second, is_list};
 }
 
-// Removes white space around a value. It is significant in texts only (XML Schema, part 2: whiteSpace).
+// Removes white space around a value. White space is significant in texts only (XML Schema, part 2: whiteSpace).
 std::string_view collapsed(std::string_view text) {
     constexpr std::string_view space = " \t\r\n";
     auto const begin = text.find_first_not_of(space);

@@ -97,7 +97,7 @@ HttpClient::~HttpClient() {
     try {
         Line line{address_};
         auto const body = request("disconnect");
-        line.send("POST /rois HTTP/1.1\r\nConnection: close\r\nContent-Type: text/xml\r\n" + always() +
+        line.send("POST /rois HTTP/1.1\r\nConnection: close\r\nContent-Type: text/xml\r\n" + common_headers() +
                   "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
         line.rest();
     } catch (std::exception const&) {
@@ -105,7 +105,7 @@ HttpClient::~HttpClient() {
     }
 }
 
-std::string HttpClient::always() const {
+std::string HttpClient::common_headers() const {
     return "Host: " + address_.authority + "\r\n" + (session.empty() ? "" : "RoIS-Session: " + session + "\r\n") +
            (address_.token.empty() ? "" : "Authorization: Bearer " + address_.token + "\r\n");
 }
@@ -172,13 +172,13 @@ void HttpClient::reopen_when_closed() {
 
 HttpReply HttpClient::get(std::string const& target, Headers const& headers, std::string const& method) {
     reopen_when_closed();
-    return say(method + " " + target + " HTTP/1.1\r\n" + always() + lines_of(headers) + "\r\n", method);
+    return say(method + " " + target + " HTTP/1.1\r\n" + common_headers() + lines_of(headers) + "\r\n", method);
 }
 
 HttpReply HttpClient::post(std::string const& body, Headers const& headers) {
     reopen_when_closed();
-    return say("POST /rois HTTP/1.1\r\n" + always() + lines_of(headers) + "Content-Length: " + std::to_string(body.size()) +
-               "\r\n\r\n" + body);
+    return say("POST /rois HTTP/1.1\r\n" + common_headers() + lines_of(headers) +
+               "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
 }
 
 HttpReply HttpClient::call(std::string const& operation, Xml const& children, Attributes const& attributes) {

@@ -69,7 +69,7 @@ public:
     std::string session;
 
 private:
-    std::string always() const;  // the header lines of every request
+    std::string common_headers() const;  // the header lines of every request
 
     std::string next_chunk();  // the next chunk of a chunked body (RFC 9112, 7.1); empty at the end
     void reopen_when_closed();

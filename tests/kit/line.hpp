@@ -35,9 +35,9 @@ public:
 
     // Returns the next `size` bytes. Throws LineEnded if they do not arrive.
     std::string take(std::size_t size);
-    // Returns the bytes up to and including the mark. Throws LineEnded if it does not arrive.
+    // Returns the bytes up to and including the mark. Throws LineEnded if the mark does not arrive.
     std::string take_until(std::string_view mark);
-    // Waits until the peer closes or sends. Returns whether it closed without another byte.
+    // Waits until the peer closes or sends. Returns whether the peer closed without another byte.
     bool ends();
     // Returns all bytes until the peer closes.
     std::string rest();

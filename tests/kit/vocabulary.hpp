@@ -88,7 +88,7 @@ Xml unit(Command const&);                                      // of a sequence
 Xml pause(int delay);                                          // a unit that only delays
 Xml branch(std::vector<Command> const&);                       // commands one after the other
 Xml command_list(Command const&);                              // a branch of the flat form
-Xml concurrent(Xml const& branches);                           // the parallel unit of the published schema; `branches`: see above
+Xml concurrent(Xml const& branches);                           // the parallel unit of the published schema
 Xml sequential_unit(Xml const& units);                         // the sequential unit of the specification of 2011
 Xml parallel_unit(Xml const& units);                           // the parallel unit of the specification of 2011
 Xml sequence(Xml const& units);                                // for execute

@@ -78,11 +78,11 @@ Breaking expires_in_the_past() {
 
 // Sends inline results with all subscriptions after the first one with inline_results.
 Breaking keeps_inline_results() {
-    auto is_asked_for = std::make_shared<bool>(false);
+    auto is_inline = std::make_shared<bool>(false);
     return edits_requests("subscribe", [=](pugi::xml_node root) {
         auto asked = root.attribute("inline_results");
-        if (asked.as_bool()) *is_asked_for = true;
-        if (*is_asked_for) asked.set_value(true);
+        if (asked.as_bool()) *is_inline = true;
+        if (*is_inline) asked.set_value(true);
     });
 }
 

@@ -26,8 +26,8 @@ Refs found(Client& client, kit::Xml const& condition) {
     return refs;
 }
 
-// Returns whether the gateway refused the condition. It must support the Minimum Standard Filter of ISO 19143 (And, Or, Not and
-// six comparisons), and may refuse all other operators.
+// Returns whether the gateway refused the condition. A gateway must support the Minimum Standard Filter of ISO 19143 (And, Or,
+// Not and six comparisons), and may refuse all other operators.
 bool is_refused(Document const& answer) {
     return answer.return_code() == "BAD_PARAMETER" || answer.return_code() == "UNSUPPORTED";
 }
@@ -222,7 +222,7 @@ public:
 
     void holds(kit::Xml const& filter) { expect(filter, true); }
     void does_not_hold(kit::Xml const& filter) { expect(filter, false); }
-    // These two check nothing if the gateway refuses the operator.
+    // Both functions check nothing if the gateway refuses the operator.
     void holds_if_supported(kit::Xml const& filter) {
         if (supports(filter)) expect(filter, true);
     }

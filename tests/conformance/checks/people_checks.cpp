@@ -151,7 +151,8 @@ std::optional<Person> same_person(std::vector<Person> const& people, Person cons
 // Returns the greatest distance between two measurements of a standing person, in mm.
 double measurement_error(Person const& person) { return noise(person.sigma) + 50; }
 
-// Returns the distance that the robot can approach a person, in mm. Throws NotObservable if it is too short to be observed.
+// Returns the distance that the robot can approach a person, in mm. Throws NotObservable if the distance is too short to be
+// observed.
 double approach_distance(Driver const& driver, Person const& person) {
     auto const way = std::min(driver.context.room(), distance(driver.home.at, person.at) - nearest);
     auto const needed = 1.4 * (measurement_error(person) + tolerance(driver.home, way));
@@ -220,12 +221,12 @@ void positions_of_people_are_independent_of_the_robot(Context& context) {
     };
     drive(target);
     auto const from_there = same_person(people_observer.people(target), person);
-    auto const stays = [&](std::optional<Person> const& observed) {
+    auto const stands_still = [&](std::optional<Person> const& observed) {
         return observed && distance(observed->at, person.at) <= measurement_error(person) + tolerance(driver.home, 0);
     };
-    if (stays(from_there)) return;
+    if (stands_still(from_there)) return;
     drive(driver.home.at);
-    if (!stays(same_person(people_observer.people(driver.home.at), person)))
+    if (!stands_still(same_person(people_observer.people(driver.home.at), person)))
         throw NotObservable{person.ref + " does not stand still"};
     throw Broken{"expected " + person.ref + " at " + text_of(person.at) + " when the robot is at " + text_of(target) + ", got " +
                  (from_there ? text_of(from_there->at) : "no position")};
@@ -273,12 +274,12 @@ void only_an_active_function_reports_events(Context& context) {
     people_observer.end("suspend");
     silent("suspend");
     people_observer.end("resume");
-    bool const goes_on = people_observer.next(context.patience()).has_value();
+    bool const continues = people_observer.next(context.patience()).has_value();
     people_observer.end("stop");
     silent("stop");
     people_observer.start();
     people_observer.time_of_some_events();
-    require(goes_on, "received no event of " + people_observer.localization.ref + " after resume, though people move");
+    require(continues, "received no event of " + people_observer.localization.ref + " after resume, though people move");
     require_ok(client.release(people_observer.localization.ref));
     people_observer.discard_received();
     std::size_t received = client.count_events(localized);
