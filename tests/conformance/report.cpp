@@ -48,7 +48,7 @@ char const* word(Outcome outcome) {
         case Outcome::broken:
             return "BROKEN         ";
         case Outcome::skipped:
-            return "skipped        ";
+            return "not played     ";
         case Outcome::not_observable:
             return "not observable ";
     }
@@ -106,7 +106,7 @@ void write_text(std::ostream& out, Report const& report) {
     }
     out << "\n";
     write_line(out, number(report.count(Outcome::holds), "check") + " held, " + std::to_string(report.count(Outcome::broken)) +
-                        " found a broken rule, " + std::to_string(report.count(Outcome::skipped)) + " skipped, " +
+                        " found a broken rule, " + std::to_string(report.count(Outcome::skipped)) + " not played, " +
                         std::to_string(report.count(Outcome::not_observable)) + " not observable.");
 }
 
