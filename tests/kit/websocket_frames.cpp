@@ -4,7 +4,7 @@ namespace rois::kit {
 
 namespace {
 
-constexpr std::string_view our_key{"\x12\x34\x56\x78"};
+constexpr std::size_t key_bytes = 4;
 constexpr unsigned mask_bit = 0x80;
 constexpr unsigned two_bytes = 126;
 constexpr unsigned eight_bytes = 127;
@@ -20,20 +20,20 @@ std::size_t length_bytes(unsigned second_byte) {
 
 }  // namespace
 
-std::string frame_bytes(unsigned first_byte, std::string_view payload, Masked masked) {
+std::string frame_bytes(unsigned first_byte, std::string_view payload, Masked masked, std::string_view key) {
     auto const length = payload.size() < two_bytes ? payload.size() : payload.size() < 65'536 ? two_bytes : eight_bytes;
     auto const second_byte = static_cast<unsigned>(length) | (masked == Masked::yes ? mask_bit : 0);
     std::string frame{static_cast<char>(first_byte), static_cast<char>(second_byte)};
     for (auto i = length_bytes(second_byte); i-- > 0;) frame.push_back(static_cast<char>(payload.size() >> (8 * i)));
     if (masked == Masked::no) return frame.append(payload);
     std::string hidden{payload};
-    mask(hidden, our_key);
-    return frame.append(our_key).append(hidden);
+    mask(hidden, key);
+    return frame.append(key).append(hidden);
 }
 
 std::size_t frame_head_size(std::string_view first_two) {
     auto const second_byte = byte(first_two, 1);
-    return 2 + length_bytes(second_byte) + ((second_byte & mask_bit) != 0 ? our_key.size() : 0);
+    return 2 + length_bytes(second_byte) + ((second_byte & mask_bit) != 0 ? key_bytes : 0);
 }
 
 std::optional<FrameHead> frame_head(std::string_view bytes) {

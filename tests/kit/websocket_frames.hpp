@@ -16,7 +16,7 @@ constexpr unsigned final_fragment = 0x80;
 enum class Masked : bool { no, yes };
 
 // Returns the bytes of a frame. `first_byte` holds FIN, the reserved bits and the opcode.
-std::string frame_bytes(unsigned first_byte, std::string_view payload, Masked);
+std::string frame_bytes(unsigned first_byte, std::string_view payload, Masked, std::string_view key = "\x12\x34\x56\x78");
 
 // Returns an unfragmented frame.
 inline std::string whole_frame(Kind kind, std::string_view payload, Masked masked) {

@@ -24,8 +24,8 @@ std::string big_endian(std::uint64_t number, int bytes) {
 }
 
 // A masked frame, as a client sends it.
-std::string frame(unsigned first_byte, std::string_view payload) {
-    return kit::frame_bytes(first_byte, payload, kit::Masked::yes);
+std::string frame(unsigned first_byte, std::string_view payload, std::string_view key = "mask") {
+    return kit::frame_bytes(first_byte, payload, kit::Masked::yes, key);
 }
 
 std::string close_frame(unsigned code, std::string const& reason = "") { return frame(0x88, big_endian(code, 2) + reason); }
