@@ -186,7 +186,7 @@ std::optional<std::string> Server::rtp_refusal(std::string_view target) const {
         return "'" + std::string{target} + "' is not an RTP target: expected rtp://HOST:PORT with a numeric address or localhost";
     if (running_->settings().rtp_targets == RtpTargets::loopback && !endpoint->address().is_loopback())
         return "the RTP target '" + std::string{target} +
-               "' is not on this machine; the key media_rtp with the value any allows all addresses";
+               "' is not a loopback address; the key media_rtp with the value any allows all addresses";
     return {};
 }
 

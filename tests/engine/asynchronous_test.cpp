@@ -27,7 +27,7 @@ TEST_F(Asynchronous, AQueryWithoutAnAnswerTimesOutAfterTheDeadline) {
     EXPECT_FALSE(asked->said);
     world.advance(50ms);
     EXPECT_EQ(code_of(*asked), ReturnCode::timeout);
-    EXPECT_THAT(reason_of(*asked), HasSubstr("in time"));
+    EXPECT_THAT(reason_of(*asked), HasSubstr("within 1 s"));
     EXPECT_THAT(desk.received(), ElementsAre("1 COMPONENT_NOT_RESPONDING robot"));
     EXPECT_EQ(desk.status_of("robot"), "ERROR");
     auto const again = query(desk);

@@ -244,7 +244,7 @@ TEST_F(Lease, EndsForAllWhenTheEngineItselfStoodStill) {
     auto const last = desk.received();
     EXPECT_THAT(last, ElementsAre("1 USER_DEFINED_ERROR navigation"));
     EXPECT_THAT(in_words(desk.detail_of(desk.last_received<ReceiveError>().error_id).results.parameters),
-                HasSubstr("the engine stood still for 10 s"));
+                HasSubstr("the engine stood still for 10.05 s"));
 }
 
 TEST_F(Lease, DoesNotDependOnTheCalendar) {
