@@ -19,7 +19,6 @@ Headers const boost{"boost/"};
 Headers const boost_geometry{"boost/geometry/"};
 Headers const boost_address{"boost/asio/ip/address.hpp"};  // a value, no socket
 Headers const boost_tcp{"boost/asio/ip/tcp.hpp"};          // for the health check
-Headers const boost_container{"boost/container/"};
 Headers const openssl{"openssl/"};
 Headers const prometheus{"prometheus/"};
 Headers const spdlog{"spdlog/"};
@@ -51,7 +50,7 @@ std::vector<Layer> const layers{
     {"server/files/", {"files/"}, {}, Time::passed_in},
     {"server/gateway/",
      {"gateway/", "engine/", "xml/", "types/"},
-     {boost_address, boost_container, openssl, prometheus, spdlog, posix},
+     {boost_address, openssl, prometheus, spdlog, posix},
      Time::read},
     {"server/net/", {"net/", "gateway/", "engine/", "xml/", "types/"}, {boost, spdlog, posix}, Time::read},
     {"server/main/",

@@ -90,7 +90,7 @@ Route route_of(std::string_view path) {
 std::optional<HttpAnswer> refusal(RequestHead const& head, Route const& route, Settings const& settings) {
     if (auto refused = refusal_of_other_sites(head, settings)) return refused;
     if (route.endpoint == Endpoint::unknown && is_known_method(head.method))
-        return answer_of({FaultCode::not_found, "there is nothing at " + quoted(head.path)});
+        return answer_of({FaultCode::not_found, "unknown path " + quoted(head.path) + ": docs/clients.md lists the paths"});
     if (!takes(route, head.method)) return method_not_allowed(route, head.method);
     if (head.content_length > settings.document.bytes) {
         auto const size = std::to_string(head.content_length), most = std::to_string(settings.document.bytes);
