@@ -74,9 +74,8 @@ public:
     std::optional<Fault> find_fault(std::string_view text, Settings const& settings) const {
         if (target_.size() > settings.max_target) return overlong_target(settings);
         if (!split_target(target_, head_)) return broken("the target is neither a path nor an http URL with a host");
-        if (head_.fields.size() > settings.max_fields) {
+        if (head_.fields.size() > settings.max_fields)
             return Fault{FaultCode::header_too_large, "more than " + std::to_string(settings.max_fields) + " header fields"};
-        }
         if (text.find("\n ") != text.npos || text.find("\n\t") != text.npos)
             return broken("a folded header line: send each header field in one line");
         if (hosts_ > 1 || (hosts_ == 0 && !head_.is_http_1_0)) return broken("expected exactly one Host header");
