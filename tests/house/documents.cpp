@@ -120,6 +120,28 @@ Complaints against_long_lines(Tree const& tree) {
     return complaints;
 }
 
+Complaints against_incomplete_image(Tree const& tree) {
+    std::vector<std::string> let_through;
+    if (auto const list = tree.find(".dockerignore"); list != tree.end())
+        for_each_line(list->second, [&](std::string const& line, std::size_t) {
+            if (line.starts_with('!')) let_through.push_back(line.substr(1));
+        });
+    auto const is_in_image = [&](std::string const& path) {
+        return std::ranges::any_of(let_through, [&](auto const& one) { return path == one || path.starts_with(one + "/"); });
+    };
+    static std::regex const named{R"(\$\{PROJECT_SOURCE_DIR\}/([A-Za-z0-9_][A-Za-z0-9_./-]*))"};
+    Complaints complaints;
+    for (auto const& [file, text] : tree) {
+        if (!file.ends_with("CMakeLists.txt") || file.starts_with("tests/") || file.starts_with("bench/")) continue;
+        for_each_line(text, [&](std::string const& line, std::size_t number) {
+            for (std::sregex_iterator each{line.begin(), line.end(), named}, end; each != end; ++each)
+                if (auto const path = (*each)[1].str(); !is_in_image(path))
+                    complaints.push_back(at(file, number) + path + " is not in the image: add it to .dockerignore");
+        });
+    }
+    return complaints;
+}
+
 Complaints against_links(Tree const& tree) {
     Complaints complaints;
     for (auto const& [file, text] : tree) {

@@ -42,6 +42,7 @@ TEST_F(House, ReadsNoClockBelowTheNetwork) { EXPECT_EQ(list(against_passed_in_ti
 TEST_F(House, HasNoBracesInAwaits) { EXPECT_EQ(list(against_braces_in_awaits(tree)), ""); }
 TEST_F(House, HasFilesOf500LinesAtMost) { EXPECT_EQ(list(against_short_files(tree)), ""); }
 TEST_F(House, HasLinesOf140CharactersAtMostInTheWebSources) { EXPECT_EQ(list(against_long_lines(tree)), ""); }
+TEST_F(House, LetsDockerSeeAllThatCMakeReads) { EXPECT_EQ(list(against_incomplete_image(tree)), ""); }
 TEST_F(House, HasNoBrokenLinks) { EXPECT_EQ(list(against_links(tree)), ""); }
 TEST_F(House, HasATestForEachConformanceClaim) { EXPECT_EQ(list(against_proof(tree)), ""); }
 TEST_F(House, UsesOnlyPublicNamesOfBoostInTheNetwork) {

@@ -39,6 +39,9 @@ Complaints against_links(Tree const&);
 // that a package.json needs. A package-lock.json names no host.
 Complaints against_named_dependencies(Tree const&);
 
+// .dockerignore lets through all files and folders that the CMakeLists.txt of the gateway and of `rois` name.
+Complaints against_incomplete_image(Tree const&);
+
 // In docs/conformance*.md, each row names existing tests and source files and has a valid state. Every table, figure, annex and
 // decision has a row. Every decision with a row that is done has a test with its number. The totals are correct.
 Complaints against_proof(Tree const&);

@@ -201,6 +201,16 @@ TEST(LongLines, MayBeRegularExpressionsButNotComments) {
     EXPECT_THAT(against_long_lines({{"web/client/src/a.ts", "  /* " + rest + ";\n"}}), SizeIs(1));
 }
 
+TEST(TheImage, HasAllThatCMakeNames) {
+    Tree const tree{{".dockerignore", "*\n!cmake\n!docker/a.json\n"},
+                    {"server/CMakeLists.txt",
+                     "x(${PROJECT_SOURCE_DIR}/cmake/b.cmake ${PROJECT_SOURCE_DIR}/docker/a.json)\n"
+                     "file(READ ${PROJECT_SOURCE_DIR}/docker/c.json text)\n"},
+                    {"tests/CMakeLists.txt", "x(${PROJECT_SOURCE_DIR}/docs)\n"}};
+    EXPECT_THAT(against_incomplete_image(tree),
+                ElementsAre("server/CMakeLists.txt:2: docker/c.json is not in the image: add it to .dockerignore"));
+}
+
 TEST(Links, LeadToFilesAndFolders) {
     Tree const tree{
         {"README.md", "[a](docs/a.md#part) [b](docs/) ![c](./docs/a.md \"c\") [d](#here) [e](https://rois.example/x)\n"},
