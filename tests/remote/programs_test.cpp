@@ -38,13 +38,6 @@ protected:
         return !exists(pid);
     }
 
-    static constexpr ProgramTimes times{.shortest_pause = 5ms, .longest_pause = 20ms, .immediately = 5s, .to_end = 50ms};
-    std::unique_ptr<Programs> programs = std::make_unique<Programs>(
-        Programs::Listener{
-            .says = [this](std::string const&, std::string const& line) { add(said_, line); },
-            .happens = [this](std::string const& name, std::string const& what) { add(happened_, name + ": " + what); }},
-        times);
-
 private:
     void add(std::vector<std::string>& lines, std::string const& line) {
         std::lock_guard const lock{mutex_};
@@ -60,6 +53,15 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     std::vector<std::string> said_, happened_;
+
+protected:
+    static constexpr ProgramTimes times{.shortest_pause = 5ms, .longest_pause = 20ms, .immediately = 5s, .to_end = 50ms};
+    // Its thread ends before the members above.
+    std::unique_ptr<Programs> programs = std::make_unique<Programs>(
+        Programs::Listener{
+            .says = [this](std::string const&, std::string const& line) { add(said_, line); },
+            .happens = [this](std::string const& name, std::string const& what) { add(happened_, name + ": " + what); }},
+        times);
 };
 
 TEST_F(TheProgram, RunsInItsFolderWithTheGatewaysAddress) {
