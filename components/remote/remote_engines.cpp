@@ -190,7 +190,7 @@ void RemoteEngines::set(std::vector<SubEngine> wanted, std::string const& own_ur
 }
 
 void RemoteEngines::accept(UniqueDescriptor socket, std::string head) {
-    auto shared = std::make_shared<UniqueDescriptor>(std::move(socket));  // std::function can be copied
+    auto shared = std::make_shared<UniqueDescriptor>(std::move(socket));  // std::function must be copyable
     links_->post([links = links_, shared, head = std::move(head)] { links->accept(std::move(*shared), head); });
 }
 

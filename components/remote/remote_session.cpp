@@ -16,8 +16,8 @@ using namespace std::chrono_literals;
 constexpr auto between_signs_of_life = 250ms;
 constexpr auto between_signs_at_rest = 1s;  // while no component there is bound: only the round trip is measured
 
-constexpr std::uint64_t between_checks = 8;  // documents, for a sub engine that reports too much
-constexpr auto until_next_look = 2ms;
+constexpr std::uint64_t between_checks = 64;  // documents, for a sub engine that reports too much
+constexpr auto until_next_look = 5ms;
 constexpr double most_notifications_a_second = 5'000;
 constexpr double most_notifications_at_once = 1'000;
 

@@ -115,8 +115,11 @@ Engine::Core::Later Engine::Core::perform(Session& session, Bind const& bind_, S
                 return refused<Bind::Reply>(ReturnCode::out_of_resources, std::move(refusal->reason));
             if (!std::holds_alternative<Done>(*answer) || shared->has_departed()) {
                 auto const* failed = std::get_if<Failed>(&*answer);
-                return refused<Bind::Reply>(ReturnCode::error, "the component " + quoted(shared->ref().code) + " is not bound: " +
-                                                                   (failed != nullptr ? failed->reason : "it has left"));
+                auto const why = failed != nullptr        ? failed->reason
+                                 : shared->has_departed() ? "it has left"
+                                                          : "it answered another question";
+                return refused<Bind::Reply>(ReturnCode::error,
+                                            "the component " + quoted(shared->ref().code) + " is not bound: " + why);
             }
             return bind(asker, *shared, when);
         };

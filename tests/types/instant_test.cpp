@@ -22,6 +22,15 @@ TEST(Instant, IsWrittenInUtcWithMilliseconds) {
     EXPECT_EQ(to_text(at(1970, 1, 1)), "1970-01-01T00:00:00.000Z");
 }
 
+TEST(Seconds, HaveAtMostThreeDecimals) {
+    using namespace std::chrono_literals;
+    EXPECT_EQ(in_seconds(30s), "30 s");
+    EXPECT_EQ(in_seconds(500ms), "0.5 s");
+    EXPECT_EQ(in_seconds(10'050ms), "10.05 s");
+    EXPECT_EQ(in_seconds(1'234'567us), "1.235 s");
+    EXPECT_EQ(in_seconds(0s), "0 s");
+}
+
 TEST(Instant, IsNeverRoundedUp) {
     EXPECT_EQ(to_text(at(2026, 12, 31, 24h - 1us)), "2026-12-31T23:59:59.999Z");
     EXPECT_EQ(to_text(at(1970, 1, 1, -1us)), "1969-12-31T23:59:59.999Z") << "also before the epoch";

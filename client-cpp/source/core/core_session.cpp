@@ -217,9 +217,11 @@ void Core::leave_session() {
     gap_ = Gap{Gap::Why::new_session, {}, {}};
 }
 
+// Shows only the beginning: a document may contain the session, which is a secret.
 void Core::give_up_misunderstood(std::string_view document) {
-    constexpr std::size_t shown = 100;
-    give_up_link("the gateway sent a document that was not expected here: " + quoted(document, shown), Failure::passing);
+    constexpr std::size_t shown = 40;
+    auto const beginning = document.substr(0, std::min(document.find_first_of(" \t\r\n/>"), shown));
+    give_up_link("unexpected document from the gateway: it begins with " + quoted(beginning), Failure::passing);
 }
 
 // See Settings::first_pause.
@@ -269,7 +271,8 @@ void Core::take_restored(Fault const& fault) {
 void Core::restored(std::string const& request_id, Outcome const& outcome, Reply const* reply) {
     auto const found = restoring_.find(request_id);
     if (found == restoring_.end()) {
-        give_up_link("the gateway answered a request that was not sent: " + quoted(request_id, 100), Failure::passing);
+        give_up_link("unexpected answer from the gateway to a request that was not sent: " + quoted(request_id, 100),
+                     Failure::passing);
         return;
     }
     constexpr std::string_view subscribe = "subscribe ";

@@ -34,7 +34,6 @@ struct Command {
     bool binding_lost = false;                       // released before the command's turn came (decision 13)
 
     State state = State::waiting;
-    std::chrono::milliseconds start_timeout{};        // of `start_deadline`
     std::optional<Deadlines::Ticket> start_deadline;  // set until the component reports `started`
     CompletedStatus status = CompletedStatus::ok;     // set at the end, like the members below
     Results results;

@@ -290,10 +290,13 @@ void Executor::run_function(SharedCommand const& command, Instant now) {
     begin(command, now);
 }
 
+std::chrono::milliseconds Executor::time_to_start(Command const& command) const {
+    auto const* message = find_message(command.component->profile(), MessageKind::command, command.type);
+    return message->timeout.value_or(settings_.start_timeout);
+}
+
 void Executor::await_start(SharedCommand const& command, Instant now) {
-    auto const* message = find_message(command->component->profile(), MessageKind::command, command->type);
-    command->start_timeout = message->timeout.value_or(settings_.start_timeout);
-    command->start_deadline = deadlines_.add(now.steady + command->start_timeout,
+    command->start_deadline = deadlines_.add(now.steady + time_to_start(*command),
                                              [this, handle = command->handle](Instant then) { start_timed_out(handle, then); });
 }
 
@@ -303,7 +306,7 @@ void Executor::start_timed_out(CommandHandle handle, Instant now) {
     auto const command = found->second;
     auto& component = *command->component;
     auto const reason = "the component " + quoted(component.ref().code) + " did not start the command " + quoted(command->type) +
-                        " within " + in_seconds(command->start_timeout);
+                        " within " + in_seconds(time_to_start(*command));
     agenda_.add({command->component, ErrorType::component_not_responding, reason});
     command->start_deadline.reset();
     bool const is_start = component.start == command;

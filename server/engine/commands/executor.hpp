@@ -130,6 +130,7 @@ private:
     void go_on(RegisteredComponent&, Instant now);
     void forget_halt(RegisteredComponent&, Instant now);
     void wait_for_halt(SharedCommand const&, Instant now);
+    std::chrono::milliseconds time_to_start(Command const&) const;
     void await_start(SharedCommand const&, Instant now);
     void start_timed_out(CommandHandle, Instant now);
     static void follow_up(RegisteredComponent&, SharedCommand const&, Afterwards);
