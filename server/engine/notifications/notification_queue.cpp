@@ -32,9 +32,11 @@ NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotifi
         ++waiting_;
         return overflowed_ ? Pushed::overflow : Pushed::held;
     }
+    bool const first = sent_ == entries_.size();
     entries_.push_back({++last_sequence_, std::move(notification)});
     ++waiting_;
-    return overflowed_ ? Pushed::overflow : Pushed::ok;
+    if (overflowed_) return Pushed::overflow;
+    return first ? Pushed::first : Pushed::behind;
 }
 
 bool NotificationQueue::is_held(Hold hold) const { return hold != 0 && std::ranges::binary_search(holds_, hold); }

@@ -55,9 +55,9 @@ public:
     // The number of an answer that must be sent before the notifications that its operation causes (decision 22). 0: none.
     using Hold = std::uint64_t;
 
-    // `held`: the notification is numbered and visible when its hold is released. `overflow`, `dropped`: too many wait, so the
-    // session must end.
-    enum class Pushed : std::uint8_t { ok, held, overflow, dropped };
+    // `behind`: a visible notification waits before it, so the readers need not be woken again. `held`: the notification is
+    // numbered and visible when its hold is released. `overflow`, `dropped`: too many wait, so the session must end.
+    enum class Pushed : std::uint8_t { first, behind, held, overflow, dropped };
 
     // Numbers and stores the notification, or holds it if `cause`, or else the current hold, is not released yet. If too many
     // wait, replaces the oldest waiting event by a `Lost`. If there is no event to replace, the queue overflows, and events are

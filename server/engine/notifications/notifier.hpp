@@ -34,7 +34,7 @@ public:
         if (pushed == NotificationQueue::Pushed::dropped) return;
         ++pushed_;
         lost_ += queue.lost() - lost;
-        if (pushed != NotificationQueue::Pushed::held) outbox_.notify(queue);
+        if (pushed == NotificationQueue::Pushed::first || pushed == NotificationQueue::Pushed::overflow) outbox_.notify(queue);
     }
 
     // Drops the session's sent notifications, and the oldest waiting events until `events` are left.
