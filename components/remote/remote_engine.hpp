@@ -14,6 +14,7 @@
 #include "engine/engine.hpp"
 #include "links/link.hpp"
 #include "remote/component_record.hpp"
+#include "remote/rate_limit.hpp"
 #include "remote/sub_engine.hpp"
 #include "remote/translation.hpp"
 #include "types/engine_state.hpp"
@@ -155,9 +156,8 @@ private:
     std::map<std::uint64_t, Unanswered> unanswered_;  // requests, by their numbers
     std::uint64_t last_request_ = 0;
     std::uint64_t last_command_ = 0;
-    double notifications_ = 0;       // received ones, less 5,000 for each second that has passed
-    Steady counted_at_{};            // the end of the last of these seconds
-    std::uint64_t documents_ = 0;    // number of received documents
+    RateLimit notifications_{1'000, 5'000};  // that it may send
+    std::uint64_t documents_ = 0;            // number of received documents
     std::uint64_t era_ = 0;          // incremented by each attempt and each lost link; a timer of an earlier era does nothing
     unsigned failures_ = 0;          // failed attempts in a row
     bool is_present_ = false;        // the profile was read, and the components have not left

@@ -11,6 +11,7 @@
 #include "core/loop.hpp"
 #include "remote/join_acceptor.hpp"
 #include "remote/joiner.hpp"
+#include "remote/rate_limit.hpp"
 #include "remote/remote_engine.hpp"
 #include "remote/times.hpp"
 #include "types/text/texts.hpp"
@@ -136,9 +137,11 @@ private:
             std::ranges::find_if(engines_, [&](auto const& each) { return each.second->settings().joins == join.name; });
         if (join.name.empty() || found == engines_.end())
             return "unknown name " + quoted(join.name) + ": expected the \"joins\" of an entry in the engines file";
-        auto& joined = joined_[join.name];
-        if (found->second->has_link() && joined != join.instance) return "another engine has joined as " + quoted(join.name);
-        joined = join.instance;
+        auto& [instance, often] = joined_[join.name];
+        if (found->second->has_link() && instance != join.instance) return "another engine has joined as " + quoted(join.name);
+        if (often.is_exceeded(now())) return quoted(join.name) + " joins too often: expected at most once a second";
+        often.count();
+        instance = join.instance;
         return found->second;
     }
 
@@ -163,7 +166,11 @@ private:
     std::map<std::string, std::shared_ptr<RemoteEngine>> engines_;
     std::map<std::string, Settings> settings_;  // of the links, which refer to them
     std::map<std::string, std::vector<std::string>> instances_;
-    std::map<std::string, std::string> joined_;  // the instance that has joined last, by name
+    struct Joined {
+        std::string instance;    // the last one
+        RateLimit often{10, 1};  // how often an engine may join
+    };
+    std::map<std::string, Joined> joined_;  // by name
     std::shared_ptr<JoinAcceptor> const acceptor_ =
         std::make_shared<JoinAcceptor>(loop_, host_.schemas, [this](xml::Join const& join) { return joining(join); });
     std::shared_ptr<Joiner> joiner_;  // null: this engine joins none

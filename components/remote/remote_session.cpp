@@ -18,8 +18,6 @@ constexpr auto between_signs_at_rest = 1s;  // while no component there is bound
 
 constexpr std::uint64_t between_checks = 64;  // documents, for a sub engine that reports too much
 constexpr auto until_next_look = 5ms;
-constexpr double most_notifications_a_second = 5'000;
-constexpr double most_notifications_at_once = 1'000;
 
 // The request_id of requests that have no number.
 constexpr std::string_view opening = "connect";
@@ -115,10 +113,7 @@ void RemoteEngine::document(std::string_view text) {
 
 // All components have one provider.
 bool RemoteEngine::is_flooded() {
-    auto const now = host_->now();
-    auto const passed = std::chrono::duration<double>{now - std::exchange(counted_at_, now)};
-    notifications_ = std::max(0.0, notifications_ - passed.count() * most_notifications_a_second);
-    if (notifications_ > most_notifications_at_once) return true;
+    if (notifications_.is_exceeded(host_->now())) return true;
     return std::ranges::any_of(records_, [](auto const& each) { return each.second->is_full(); });
 }
 
@@ -178,7 +173,7 @@ void RemoteEngine::take(xml::Answered const& answered) {
 void RemoteEngine::take(xml::NumberedNotification const& notification) {
     if (notification.sequence <= last_sequence_) return;  // it was received before
     last_sequence_ = notification.sequence;
-    ++notifications_;
+    notifications_.count();
     std::visit([this](auto const& each) { (*this)(each); }, notification.notification);
 }
 

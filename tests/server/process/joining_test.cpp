@@ -87,6 +87,19 @@ TEST(Joining, AgainReplacesTheOlderLink) {
     EXPECT_THROW(first.next_document(), kit::LineEnded);
 }
 
+TEST(Joining, IsRefusedWhenItIsTooOften) {
+    Main main;
+    constexpr int at_once = 10;
+    for (int i = 0; i < at_once; ++i) {
+        JoiningClient client{main};
+        EXPECT_STREQ(client.join("robot1", "a").attribute("return_code").value(), "OK") << i;
+    }
+    JoiningClient once_more{main};
+    auto const answer = once_more.join("robot1", "a");
+    EXPECT_STREQ(answer.attribute("return_code").value(), "BAD_PARAMETER");
+    EXPECT_STREQ(answer.child("reason").text().get(), "'robot1' joins too often: expected at most once a second");
+}
+
 TEST(Joining, AnswersOtherDocumentsWithAFault) {
     Main main;
     JoiningClient client{main};
