@@ -25,7 +25,7 @@ TEST(HttpHead, HasItsPartsAsViews) {
     auto const result = read(
         "GET /rois/notifications?after=3&wait=&after=4 HTTP/1.1\r\nHost: h\r\nAccept:  text/plain ,TEXT/Event-Stream\t\r\n\r\n");
     auto const& head = std::get<RequestHead>(result);
-    EXPECT_EQ(head.method, "GET");
+    EXPECT_EQ(head.method(), "GET");
     EXPECT_EQ(head.path, "/rois/notifications");
     EXPECT_EQ(head.parameter("after"), "3");
     EXPECT_EQ(head.parameter("wait"), "");
@@ -110,10 +110,10 @@ TEST(HttpHead, ReplacesAnEarlierHead) {
     ASSERT_FALSE(read_head("POST /rois?a HTTP/1.0\r\nHost: h\r\nContent-Length: 5\r\n\r\n", Settings{}, head));
     ASSERT_FALSE(read_head("GET /healthz HTTP/1.1\r\nHost: other\r\n\r\n", Settings{}, head));
     EXPECT_EQ(head.query, "");
-    EXPECT_FALSE(head.is_http_1_0);
+    EXPECT_FALSE(head.is_http_1_0());
     EXPECT_EQ(head.content_length, 0u);
     EXPECT_EQ(head.field("Host"), "other");
-    EXPECT_EQ(head.count("Content-Length"), 0u);
+    EXPECT_EQ(head.message.count("Content-Length"), 0u);
 }
 
 TEST(HttpHead, EndsAtAnEmptyLine) {

@@ -3,6 +3,8 @@
 #include <spdlog/spdlog.h>
 
 #include <boost/asio/post.hpp>
+#include <boost/beast/http/write.hpp>
+#include <sstream>
 #include <utility>
 
 #include "net/http/event_stream.hpp"
@@ -13,10 +15,9 @@ namespace rois::net {
 
 namespace {
 
-constexpr unsigned most_in_a_row = 4;               // pipelined requests before other connections have their turn
-constexpr std::size_t most_to_gather = 64 * 1024;   // bytes of answers to pipelined requests
-constexpr std::size_t most_to_keep = 16 * 1024;     // bytes of memory that an empty buffer of answers may keep
-constexpr std::size_t most_to_keep_of_head = 1024;  // bytes, likewise of a head between requests
+constexpr unsigned most_in_a_row = 4;              // pipelined requests before other connections have their turn
+constexpr std::size_t most_to_gather = 64 * 1024;  // bytes of answers to pipelined requests
+constexpr std::size_t most_to_keep = 16 * 1024;    // bytes of memory that an empty buffer of answers may keep
 constexpr auto longest_linger = std::chrono::seconds{2};
 constexpr auto longest_wait_without_memory = std::chrono::milliseconds{100};  // for a request while the system has no memory
 
@@ -53,8 +54,9 @@ Task<> Connection::run() {
     if (then == Then::websocket) co_await serve_websocket();
     if (then == Then::engine) {
         co_await flush();
-        auto head = std::string{head_.text.begin(), head_.text.end()}.append(wire_.text());
-        loop_.shared().settings.join(wire_.release(), std::move(head));
+        std::ostringstream head;
+        head << head_.message << wire_.text();
+        loop_.shared().settings.join(wire_.release(), head.str());
     }
     if (then == Then::linger) {
         co_await await_answers();
@@ -101,7 +103,7 @@ Task<Connection::Then> Connection::serve() {
         }
         request_due_ = idle_due_ = Steady::max();
         bool const whole = std::exchange(has_head_, false);
-        bool const is_request = head_.verb == http::verb::post && route_.endpoint == Endpoint::rois;
+        bool const is_request = head_.verb() == http::verb::post && route_.endpoint == Endpoint::rois;
         if (whole && !is_request) then = co_await serve_other();
         if (whole && is_request) {
             auto const body = wire_.text().substr(0, head_.content_length);
@@ -137,7 +139,7 @@ Connection::Then Connection::take_request() {
         if (then != Then::next) return then;
         auto const judged = judge_head();
         if (!has_head_) return judged;
-        if (wire_.received().size() < head_.content_length && !head_.is_http_1_0 && head_.lists("Expect", "100-continue"))
+        if (wire_.received().size() < head_.content_length && !head_.is_http_1_0() && head_.lists("Expect", "100-continue"))
             out_.append("HTTP/1.1 100 Continue\r\n\r\n");
     }
     if (wire_.received().size() >= head_.content_length) return Then::next;
@@ -183,7 +185,7 @@ Task<Connection::Then> Connection::receive() {
     idle_ = !has_head_ && wire_.received().empty();
     if (idle_ && loop_.draining() && waiting_.empty()) co_return Then::end;
     if (idle_) request_due_ = Steady::max();
-    if (idle_ && head_.text.capacity() > most_to_keep_of_head) head_ = {};
+    if (idle_) head_ = {};
     if (!idle_ && request_due_ == Steady::max()) request_due_ = std::chrono::steady_clock::now() + settings.request_timeout;
     auto const expected = has_head_ ? head_.content_length - wire_.received().size() : 0;
     if (idle_ && idle_due_ == Steady::max()) idle_due_ = std::chrono::steady_clock::now() + settings.idle_timeout;
@@ -251,7 +253,7 @@ HttpAnswer Connection::http_answer(Answer&& answer) {
 Task<Connection::Then> Connection::serve_other() {
     auto& shared = loop_.shared();
     wire_.use(head_.content_length);
-    bool const joins = route_.endpoint == Endpoint::engines && head_.count("Upgrade") > 0;
+    bool const joins = route_.endpoint == Endpoint::engines && head_.message.count("Upgrade") > 0;
     if (route_.endpoint == Endpoint::rois || joins) {
         co_await await_answers();
         co_return serve_upgrade();
@@ -302,7 +304,7 @@ Task<Connection::Then> Connection::serve_notifications() {
     auto wanted = std::get<NotificationsWanted>(read);
     co_await await_answers();
     co_await flush();
-    if (wanted.as == NotificationsWanted::As::stream && head_.verb == http::verb::get) {
+    if (wanted.as == NotificationsWanted::As::stream && head_.verb() == http::verb::get) {
         counted_.emplace(shared.telemetry, Telemetry::Kind::stream);
         auto const refused = co_await stream(wire_, loop_, session_, wanted);
         if (!refused) co_return Then::linger;
@@ -319,7 +321,7 @@ Connection::Then Connection::reply(HttpAnswer answer, Framed framed) {
         log(*answer.fault, request_line());
     }
     bool const close = framed == Framed::last || !head_.keep_alive() || loop_.draining();
-    auto const body = head_.verb == http::verb::head ? Framing::Body::omitted : Framing::Body::sent;
+    auto const body = head_.verb() == http::verb::head ? Framing::Body::omitted : Framing::Body::sent;
     if (waiting_.empty())
         append(out_, answer, {body, close});
     else
@@ -332,7 +334,7 @@ Connection::Then Connection::reply(HttpAnswer answer, Framed framed) {
 Connection::Then Connection::refuse(Fault const& fault) {
     loop_.shared().telemetry.faulted(fault.code);
     log(fault, has_head_ ? request_line() : wire_.text().substr(0, wire_.text().find_first_of("\r\n")));
-    bool const asks_for_head = has_head_ ? head_.verb == http::verb::head : wire_.text().starts_with("HEAD ");
+    bool const asks_for_head = has_head_ ? head_.verb() == http::verb::head : wire_.text().starts_with("HEAD ");
     waiting_.push_back({answer_of(fault), {asks_for_head ? Framing::Body::omitted : Framing::Body::sent, true}});
     take_answers();
     return Then::linger;
@@ -343,7 +345,7 @@ void Connection::log(Fault const& fault, std::string_view request) {
 }
 
 // Returns the method and the path of the current request, without its query.
-std::string Connection::request_line() const { return std::string{head_.method}.append(" ").append(head_.path); }
+std::string Connection::request_line() const { return std::string{head_.method()}.append(" ").append(head_.path); }
 
 bool Connection::flush_at_once() {
     out_.erase(0, wire_.send_now(out_));

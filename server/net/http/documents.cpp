@@ -43,7 +43,7 @@ HttpAnswer not_found(std::string reason) { return answer_of({FaultCode::not_foun
 }  // namespace
 
 HttpAnswer file_answer(WebFile const* file, RequestHead const& head) {
-    if (file == nullptr) return not_found("the console has no such file");
+    if (file == nullptr) return not_found("the console has no file " + quoted(head.path));
     bool const compressed = !file->compressed.empty() && head.takes_gzip();
     auto const etag = '"' + file->digest + (compressed ? "-gzip\"" : "\"");
     HttpAnswer answer{.body = std::string{compressed ? file->compressed : file->plain}, .content_type = file->content_type};

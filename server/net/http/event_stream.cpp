@@ -36,7 +36,7 @@ std::variant<NotificationsWanted, Fault> read_wanted(RequestHead const& head) {
     NotificationsWanted wanted;
     if (head.lists("Accept", "text/event-stream")) {
         wanted.as = NotificationsWanted::As::stream;
-        if (head.count("Last-Event-ID") == 0) return wanted;
+        if (head.message.count("Last-Event-ID") == 0) return wanted;
         auto const text = head.field("Last-Event-ID").value_or("");
         auto const last = to_number<std::uint64_t>(text);
         if (!last) return bad_number("Last-Event-ID", text);

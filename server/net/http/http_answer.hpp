@@ -13,7 +13,7 @@ namespace rois::net {
 
 namespace http = boost::beast::http;
 
-// An XML document that clients must not cache, unless the members say something else.
+// By default: status 200, an XML document, not to be cached.
 struct HttpAnswer {
     http::status status = http::status::ok;
     std::string body{};

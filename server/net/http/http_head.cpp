@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <boost/asio/buffer.hpp>
-#include <boost/beast/http/basic_parser.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/parser.hpp>
 #include <boost/none.hpp>
 #include <utility>
 
@@ -37,7 +38,7 @@ Fault overlong_target(Settings const& settings) {
 }
 
 Fault no_transfer_encoding() {
-    return {FaultCode::length_required, "send the body with a Content-Length; Transfer-Encoding is not taken"};
+    return {FaultCode::length_required, "send the body with a Content-Length; Transfer-Encoding is not supported"};
 }
 
 // Splits the target: "http://host:80/path?query" or "/path?query". Returns false if it has neither form (RFC 9112, 3.2).
@@ -55,92 +56,46 @@ bool split_target(std::string_view target, RequestHead& head) {
     head.query = target.substr(std::min(question + 1, target.size()));
     if (absolute && head.path.empty()) head.path = "/";
     if (absolute) return !head.target_authority.empty();
-    return head.path.starts_with('/') || head.path == "*" || head.verb == http::verb::connect;
+    return head.path.starts_with('/') || head.path == "*" || head.verb() == http::verb::connect;
 }
 
 // Checks the Host field, and the authority of a target: a host with an optional port.
 bool may_be_authority(std::string_view text) { return text.find_first_of(" \t,/\\@\"<>?#") == std::string_view::npos; }
 
-using boost::beast::error_code;
-using boost::beast::string_view;
-
-// Beast's parser. It stores the head as views: Beast's own `fields` copy each field. With them, a query costs 3 % more, which is
-// all that the goal leaves (docs/performance.md).
-class HeadParser : public http::basic_parser<true> {
-public:
-    explicit HeadParser(RequestHead& head) : head_{head} {}
-
-    // Returns a fault for what Beast accepts and this gateway rejects (RFC 9112, 3.2, 5.2, 6.3).
-    std::optional<Fault> find_fault(std::string_view text, Settings const& settings) const {
-        if (target_.size() > settings.max_target) return overlong_target(settings);
-        if (!split_target(target_, head_)) return broken("the target is neither a path nor an http URL with a host");
-        if (head_.fields.size() > settings.max_fields)
-            return Fault{FaultCode::header_too_large, "more than " + std::to_string(settings.max_fields) + " header fields"};
-        if (text.find("\n ") != text.npos || text.find("\n\t") != text.npos)
-            return broken("a folded header line: send each header field in one line");
-        if (hosts_ > 1 || (hosts_ == 0 && !head_.is_http_1_0)) return broken("expected exactly one Host header");
-        if (auto const host = head_.field("Host").value_or(""); !may_be_authority(host))
-            return broken("Host " + quoted(host) + " is not a name or an address with an optional port");
-        if (!may_be_authority(head_.target_authority))
-            return broken("the target's host is not a name or an address with an optional port");
-        if (is_encoded_) return no_transfer_encoding();
-        if (lengths_ > 1) return broken("two lengths in Content-Length");
-        return {};
-    }
-
-private:
-    void on_request_impl(http::verb verb, string_view method, string_view target, int version, error_code&) override {
-        head_.verb = verb;
-        head_.method = method;
-        head_.is_http_1_0 = version == 10;
-        target_ = target;
-    }
-
-    void on_field_impl(http::field field, string_view name, string_view value, error_code&) override {
-        head_.fields.push_back({name, value});
-        if (field == http::field::host) ++hosts_;
-        if (field == http::field::content_length) lengths_ += value.contains(',') ? 2 : 1;
-        if (field == http::field::transfer_encoding) is_encoded_ = true;
-    }
-
-    void on_header_impl(error_code&) override {}
-    void on_response_impl(int, string_view, int, error_code&) override {}
-    void on_body_init_impl(boost::optional<std::uint64_t> const&, error_code&) override {}
-    std::size_t on_body_impl(string_view body, error_code&) override { return body.size(); }
-    void on_chunk_header_impl(std::uint64_t, string_view, error_code&) override {}
-    std::size_t on_chunk_body_impl(std::uint64_t, string_view body, error_code&) override { return body.size(); }
-    void on_finish_impl(error_code&) override {}
-
-    RequestHead& head_;
-    std::string_view target_;
-    std::size_t hosts_ = 0;
-    std::size_t lengths_ = 0;
-    bool is_encoded_ = false;
-};
+// Returns a fault for what Beast accepts and this gateway rejects (RFC 9112, 3.2, 5.2, 6.3).
+std::optional<Fault> find_fault(std::string_view text, Settings const& settings, RequestHead const& head) {
+    auto const& fields = head.message;
+    if (static_cast<std::size_t>(std::distance(fields.begin(), fields.end())) > settings.max_fields)
+        return Fault{FaultCode::header_too_large, "more than " + std::to_string(settings.max_fields) + " header fields"};
+    if (text.find("\n ") != text.npos || text.find("\n\t") != text.npos)
+        return broken("a folded header line: send each header field in one line");
+    auto const hosts = fields.count(http::field::host);
+    if (hosts > 1 || (hosts == 0 && !head.is_http_1_0())) return broken("expected exactly one Host header");
+    if (auto const host = head.field("Host").value_or(""); !may_be_authority(host))
+        return broken("Host " + quoted(host) + " is not a name or an address with an optional port");
+    if (!may_be_authority(head.target_authority))
+        return broken("the target's host is not a name or an address with an optional port");
+    if (fields.count(http::field::transfer_encoding) > 0) return no_transfer_encoding();
+    auto const lengths = fields.count(http::field::content_length);
+    if (lengths > 1 || fields[http::field::content_length].contains(','))
+        return broken("expected one Content-Length header, with one number");
+    return {};
+}
 
 }  // namespace
 
-std::size_t RequestHead::count(std::string_view name) const {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(fields, [&](Field const& each) { return equal_ignoring_case(each.name, name); }));
-}
-
 std::optional<std::string_view> RequestHead::field(std::string_view name) const {
-    std::optional<std::string_view> found;
-    for (auto const& each : fields) {
-        if (!equal_ignoring_case(each.name, name)) continue;
-        if (found) return {};
-        found = each.value;
-    }
-    return found;
+    auto const [first, last] = message.equal_range(name);
+    if (first == last || std::next(first) != last) return {};
+    return first->value();
 }
 
 bool RequestHead::lists(std::string_view name, std::string_view member, Case letters) const {
     auto const is_meant = [&](std::string_view each) {
         return letters == Case::kept ? each == member : equal_ignoring_case(each, member);
     };
-    return std::ranges::any_of(
-        fields, [&](Field const& each) { return equal_ignoring_case(each.name, name) && any_member(each.value, is_meant); });
+    auto const [first, last] = message.equal_range(name);
+    return std::any_of(first, last, [&](auto const& field) { return any_member(field.value(), is_meant); });
 }
 
 std::optional<std::string_view> RequestHead::parameter(std::string_view name) const {
@@ -161,9 +116,9 @@ bool RequestHead::knows(std::string_view etag) const {
 bool RequestHead::takes_gzip() const {
     bool named = false;
     bool taken = false;
-    for (auto const& field : fields) {
-        if (!equal_ignoring_case(field.name, "Accept-Encoding")) continue;
-        any_member(field.value, [&](std::string_view each) {
+    auto const [first, last] = message.equal_range(http::field::accept_encoding);
+    for (auto field = first; field != last; ++field)
+        any_member(field->value(), [&](std::string_view each) {
             auto const semicolon = std::min(each.find(';'), each.size());
             auto const encoding = trimmed(each.substr(0, semicolon));
             bool const is_gzip = equal_ignoring_case(encoding, "gzip");
@@ -171,7 +126,6 @@ bool RequestHead::takes_gzip() const {
             named = named || is_gzip;
             return false;
         });
-    }
     return taken;
 }
 
@@ -190,18 +144,20 @@ std::size_t find_head(std::string_view text, std::size_t& searched) {
 }
 
 std::optional<Fault> read_head(std::string_view text, Settings const& settings, RequestHead& head) {
-    head.text.assign(text.begin(), text.end());
-    head.fields.clear();
-    HeadParser parser{head};
+    http::request_parser<http::empty_body> parser;
     parser.header_limit(static_cast<std::uint32_t>(text.size()) + 1);
     parser.body_limit(boost::none);  // the routes check the length
     boost::system::error_code error;
-    parser.put(boost::asio::buffer(head.text), error);
+    parser.put(boost::asio::buffer(text), error);
     if (error == http::error::bad_transfer_encoding) return no_transfer_encoding();
     if (error && error != http::error::need_more) return broken(error.message());
     if (!parser.is_header_done()) return broken("a line that does not end with CR LF");
     head.content_length = parser.content_length().value_or(0);
-    return parser.find_fault(text, settings);
+    head.message = std::move(parser.get().base());
+    std::string_view const target = head.message.target();
+    if (target.size() > settings.max_target) return overlong_target(settings);
+    if (!split_target(target, head)) return broken("the target is neither a path nor an http URL with a host");
+    return find_fault(text, settings, head);
 }
 
 Fault overlong_head(std::string_view text, Settings const& settings) {

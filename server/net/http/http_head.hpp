@@ -1,13 +1,13 @@
-// The head of an HTTP/1.1 request (RFC 9112): the request line and the header fields, parsed by Boost.Beast.
+// The head of an HTTP/1.1 request (RFC 9112), parsed by Boost.Beast.
 #pragma once
 
+#include <boost/beast/http/message.hpp>
 #include <boost/beast/http/verb.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "gateway/access/host_names.hpp"
 #include "net/settings.hpp"
@@ -17,29 +17,23 @@ namespace rois::net {
 
 namespace http = boost::beast::http;
 
-// All names of fields, and members of lists unless stated otherwise, are compared without regard to case. The views point into
-// `text`.
+// Names of fields, and members of lists unless stated otherwise, are compared without regard to case. The views point into
+// `message`.
 struct RequestHead {
     RequestHead() = default;
     RequestHead(RequestHead&&) = default;  // no copies: their views would point into the original
     RequestHead& operator=(RequestHead&&) = default;
 
-    struct Field {
-        std::string_view name;
-        std::string_view value;  // without white space at its ends
-    };
-
-    std::vector<char> text;  // the head as received
-    http::verb verb = http::verb::unknown;
-    std::string_view method;            // the verb as sent
+    http::request_header<> message;
     std::string_view target_authority;  // of a target in absolute form (RFC 9112, 3.2.2); else empty
     std::string_view path;              // as sent, without the query
     std::string_view query;             // the text behind '?'
-    bool is_http_1_0 = false;
-    std::vector<Field> fields;
     std::uint64_t content_length = 0;
 
-    std::size_t count(std::string_view name) const;
+    http::verb verb() const { return message.method(); }
+    std::string_view method() const { return message.method_string(); }
+    bool is_http_1_0() const { return message.version() == 10; }
+
     // Returns the value of the field. Returns nothing if the field is missing or occurs twice.
     std::optional<std::string_view> field(std::string_view name) const;
     // Returns whether the comma-separated lists in all fields of this name contain the member.
@@ -56,7 +50,7 @@ struct RequestHead {
     // The authority, for use in texts.
     std::string_view host() const { return harmless_host(authority()); }
     // Returns whether another request may follow on this connection.
-    bool keep_alive() const { return !is_http_1_0 && !lists("Connection", "close"); }
+    bool keep_alive() const { return !is_http_1_0() && !lists("Connection", "close"); }
 };
 
 // Returns the size of the head at the front of `text`, or 0 if it is incomplete. `searched` keeps the position between calls with

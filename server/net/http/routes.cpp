@@ -60,7 +60,7 @@ std::optional<HttpAnswer> refusal_of_other_sites(RequestHead const& head, Settin
         answer.status = http::status::misdirected_request;
         return answer;
     }
-    if (head.count("Origin") == 0) return {};
+    if (head.message.count("Origin") == 0) return {};
     auto const origin = head.field("Origin").value_or("");  // empty, which is never allowed, if there are two
     if (auto const refused = refusal_of_origin(origin, head.authority(), settings.allowed_origins)) return answer_of(*refused);
     return {};
@@ -89,15 +89,15 @@ Route route_of(std::string_view path) {
 
 std::optional<HttpAnswer> refusal(RequestHead const& head, Route const& route, Settings const& settings) {
     if (auto refused = refusal_of_other_sites(head, settings)) return refused;
-    if (route.endpoint == Endpoint::unknown && is_known_method(head.method))
+    if (route.endpoint == Endpoint::unknown && is_known_method(head.method()))
         return answer_of({FaultCode::not_found, "unknown path " + quoted(head.path) + ": docs/clients.md lists the paths"});
-    if (!takes(route, head.method)) return method_not_allowed(route, head.method);
+    if (!takes(route, head.method())) return method_not_allowed(route, head.method());
     if (head.content_length > settings.document.bytes) {
         auto const size = std::to_string(head.content_length), most = std::to_string(settings.document.bytes);
         return answer_of({FaultCode::too_large, "the body has " + size + " bytes: expected at most " + most});
     }
     auto const type = head.field("Content-Type").value_or("");
-    bool const has_document = head.verb == http::verb::post && route.endpoint == Endpoint::rois;
+    bool const has_document = head.verb() == http::verb::post && route.endpoint == Endpoint::rois;
     if (!has_document || xml::is_xml_media_type(type)) return {};
     auto const reason = "Content-Type is " + quoted(type) + ": expected application/xml, in UTF-8";
     return answer_of({FaultCode::unsupported_media_type, reason});
