@@ -20,7 +20,7 @@ namespace rois::psm {
 
 void set_reason(std::string);
 
-// Returns the condition, in XML, that the component has this type of the specification.
+// Returns a condition, in XML, for components of this type of the specification.
 std::string condition_on_type(std::string const& type);
 
 // Thread-safe. Every function that returns a return code sets the calling thread's reason and throws nothing.

@@ -189,8 +189,8 @@ public:
     bool everything_is_stopped() const;
     // Returns the refs of the components that have not confirmed a halt (decision 35).
     std::vector<std::string> not_halted() const;
-    // Returns the components of not_halted() that make the engine report "not ready": those whose halt has failed, or is their
-    // first one since the start; all of them while everything is stopped.
+    // Returns the components of not_halted() that make the engine report "not ready". While everything is stopped, these are all
+    // of them. Otherwise those whose halt has failed, and those that are halted for the first time since the start.
     std::vector<std::string> not_ready() const;
 
     // Ends every session. Later operations are refused.

@@ -96,8 +96,8 @@ public:
     // The parameters for `start`: the stored ones, and its arguments or their defaults.
     ParameterList for_start(ParameterList stored, ParameterList const& arrived) const;
 
-    // For conditions: whether the component has the parameter (also a read-only one), whether its events or queries have the
-    // result, and its position (nullopt if it is unknown or the component failed).
+    // For conditions. Read-only parameters count, too; a result may be that of an event or of a query. The position is nullopt
+    // if it is unknown or the component failed.
     bool has_parameter(std::string_view name) const;
     bool has_result(std::string_view name) const;
     std::optional<Located> const& location() const { return state_.location; }

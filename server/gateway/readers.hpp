@@ -50,7 +50,8 @@ private:
 // The engine's outbox: wakes the readers of a session. Guarded by the gateway's mutex, as the engine is.
 //
 // `notify` queues the readers, and `flush` then wakes each of their loops once. If `notify` woke a loop, the loop would often
-// serve that one reader while the engine notifies the next one, and be woken again for each of a thousand subscribers.
+// serve that one reader while the engine notifies the next one, and be woken again for each subscriber. The row of `./dev bench`
+// with the events of a sub engine then had 105,000 context switches instead of 6,000.
 class Readers : public Outbox {
 public:
     // When the reader leaves: a long poll leaves when it is answered.

@@ -5,16 +5,20 @@
 #include <utility>
 
 #include "gateway/readers.hpp"
-#include "types/prefetch.hpp"
 
 namespace rois {
 
 namespace {
 
-constexpr std::size_t most_at_once = 32;        // some 200 us of work
-constexpr std::size_t most_in_a_row = 128;      // some 0.8 ms
-constexpr std::size_t turns_ahead = 2;          // readers between a prefetch and its use
-constexpr std::size_t bytes_of_a_reader = 256;  // that serving it reads first
+constexpr std::size_t most_at_once = 32;    // some 200 us of work
+constexpr std::size_t most_in_a_row = 128;  // some 0.8 ms
+constexpr std::size_t turns_ahead = 2;      // readers between a prefetch and its use
+
+// Loads what serving a reader reads first into the cache. Must be inlined: g++ removes calls of functions that only prefetch.
+[[gnu::always_inline]] inline void prefetch(Reader const* reader) {
+    constexpr std::size_t bytes = 256, cache_line = 64;
+    for (std::size_t i = 0; i < bytes; i += cache_line) __builtin_prefetch(reinterpret_cast<char const*>(reader) + i);
+}
 
 }  // namespace
 
@@ -62,8 +66,8 @@ void Wakes::serve() {
     auto const end = std::min(served_ + most_at_once, serving_.size());
     in_a_row_ += end - served_;
     for (; served_ < end; ++served_) {
-        // With many sessions, each reader is a cache miss: 1.14 times the cost without this (docs/performance.md).
-        if (served_ + turns_ahead < serving_.size()) prefetch(serving_[served_ + turns_ahead].get(), bytes_of_a_reader);
+        // With many sessions, each reader is a cache miss: without this, 8 waiting notifications cost 1.14 times as much.
+        if (served_ + turns_ahead < serving_.size()) prefetch(serving_[served_ + turns_ahead].get());
         try {
             std::exchange(serving_[served_], {})->serve();
         } catch (...) {

@@ -1,4 +1,4 @@
-// The types of Boost.Asio with the executor of an io_context, instead of the slower any_io_executor.
+// The types of Boost.Asio with the executor of an io_context.
 #pragma once
 
 #include <boost/asio/awaitable.hpp>

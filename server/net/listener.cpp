@@ -90,8 +90,8 @@ Task<> Listener::accept() {
     }
 }
 
-// Waits for a connection, and accepts those that wait behind it: under a flood, a client that wants to stop the robot does not
-// wait until each connection before it has been served. Returns false if the system cannot accept a connection now.
+// Waits for a connection, and accepts all that wait behind it at once. So under a flood, a client that wants to stop the robot
+// is accepted before the others are served. Returns false if the system cannot accept a connection now.
 Task<bool> Listener::accept_waiting() {
     boost::system::error_code error;
     auto socket = co_await acceptor_.async_accept(into(error));

@@ -38,7 +38,7 @@ Loop::Loop(Shared& shared)
 
 void Loop::run_forever(Troubles::Where where, std::function<Task<>()> make) { background_.push_back({where, std::move(make)}); }
 
-// Stops the loop when the task ends or fails: then `run` starts it again.
+// Runs the task. When it ends or fails, stops the loop: `run()` then starts a failed task again.
 Task<> Loop::run(Background& task) {
     struct End {
         Loop& loop;

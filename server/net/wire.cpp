@@ -142,7 +142,7 @@ Task<> Wire::linger(Steady until) {
 void Wire::sweep(Steady now) {
     probe(watching_ && watching_->is_proof(now));
     if (now >= output_due_) {
-        spdlog::warn("connection cut: the client has not read for {} s (write_timeout)",
+        spdlog::warn("the connection of {} was cut: the client has not read for {} s (write_timeout)", peer(),
                      std::chrono::duration<double>(write_timeout_).count());
         telemetry_.cut();
         cut();

@@ -343,8 +343,8 @@ class Service:
         self.reply("query", request, content=self.ref(component) + content)
 
     async def on_get_command_result(self, request):
-        known = request.findtext(M + "command_id") in self.performed
-        self.reply("get_command_result", request, "OK" if known else "BAD_PARAMETER", "<results/>", "there is no such command")
+        known = (command := request.findtext(M + "command_id")) in self.performed
+        self.reply("get_command_result", request, "OK" if known else "BAD_PARAMETER", "<results/>", f"there is no command {command!r}")
 
     async def on_execute(self, request):
         sequence = request.find(R + "CommandUnitSequence")

@@ -86,7 +86,7 @@ private:
         port_->report(std::move(report));
     }
 
-    // The faults at the time when a command begins decide, not those when it was prepared.
+    // A command has the faults of the moment when it begins.
     void change(ComponentAnswer& answer) {
         if (auto* rows = std::get_if<std::vector<Results>>(&answer)) *rows = with_status(std::move(*rows));
         auto* begin = std::get_if<Begin>(&answer);

@@ -271,7 +271,7 @@ Ticket Executor::ask_to_confirm(SharedCommand const& command, Suspended afterwar
         attempts([&] {
             if (confirmed) return end(command, CompletedStatus::ok, {}, when);
             if (answer) return end(command, CompletedStatus::error, "the component failed", when);
-            end(command, CompletedStatus::timeout, "the component did not confirm it", when);
+            end(command, CompletedStatus::timeout, "the component did not confirm the suspend or resume in time", when);
         });
         attempts([&] { run_ready(when); });
         attempts.rethrow();

@@ -75,7 +75,7 @@ private:
 std::optional<Pair> pair_of(FilterCompiler& compiler, std::vector<Expression> const& operands) {
     auto const own = compiler.vocabulary().own_position();
     if (operands.size() < 2 && own.empty())
-        return compiler.refuse("the condition has a spatial operator with one operand; expected are two");
+        return compiler.refuse("the condition has a spatial operator with one operand: expected two");
     auto const reference = Expression{ValueReference{std::string{own}}};
     return compiler.related(operands.size() < 2 ? reference : operands.front(), operands.back());
 }

@@ -145,7 +145,7 @@ std::optional<TemporalOperand> temporal_operand(FilterCompiler& compiler, Expres
 PredicatePtr FilterCompiler::operator()(TemporalComparison const& comparison) {
     auto const own = vocabulary_.own_time();
     if (comparison.operands.size() < 2 && own.empty()) {
-        refuse("the condition has a temporal operator with one operand; expected are two");
+        refuse("the condition has a temporal operator with one operand: expected two");
         return nullptr;
     }
     auto const reference = Expression{ValueReference{std::string{own}}};

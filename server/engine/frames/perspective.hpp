@@ -35,9 +35,8 @@ public:
 
     // Returns whether a group condition was matched against a component.
     bool knows_groups() const { return !verdicts_.empty(); }
-    // Restricts each group to the components of one robot, among those in `found`. Prefers robots from which the asker can get
-    // all components of the group; then those of which the asker has bound the most components of the group; then the first in
-    // `found`.
+    // Restricts each group to the components of one robot, among those in `found`: a robot from which the asker can get all
+    // components of the group. Among several, the one of which the asker has bound the most; then the first in `found`.
     void keep_one_robot(std::vector<RegisteredComponent*> const& found);
     // Removes from each group the robots from which the asker cannot get all components, because another session has bound one.
     // Returns the name of such a component, or nullopt.

@@ -33,8 +33,8 @@ std::string name_of(Command const& command) {
     return session + ": the command " + quoted(command.id.text) + ", " + command.type + " of " + command.component->ref().code;
 }
 
-// Prepares a reason for a line of the log. A reason may quote the text of a client; if it is cut inside of such a quotation, the
-// quotation mark at its end keeps the log from counting that text as a cause of its own.
+// Prepares a reason for a line of the log. Cutting a long reason may remove the end of a quotation: the mark that then ends it
+// keeps the log from taking a client's text for a new cause.
 std::string clean(std::string_view reason) {
     constexpr std::size_t longest = 200;
     auto const with_quotes = quoted(reason, longest);

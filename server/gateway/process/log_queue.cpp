@@ -85,7 +85,7 @@ void LogQueue::log(spdlog::details::log_msg const& message) {
     news_.notify_one();
 }
 
-// Returns the cause's own place, or an expired one near by. Otherwise it shares a place with another cause.
+// Returns the place of this cause, else an expired place near it, else one that another cause uses, too.
 LogQueue::Cause& LogQueue::place_of(std::uint64_t hash, Steady now) {
     constexpr std::size_t near_by = 4;
     auto const begin = hash % (causes_.size() - near_by);

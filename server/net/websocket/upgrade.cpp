@@ -37,11 +37,11 @@ bool is_websocket_key(std::string_view text) {
 }  // namespace
 
 HttpAnswer upgrade(RequestHead const& head) {
-    if (head.verb != http::verb::get || head.is_http_1_0 || !head.lists("Upgrade", "websocket") ||
+    if (head.verb() != http::verb::get || head.is_http_1_0() || !head.lists("Upgrade", "websocket") ||
         !head.lists("Connection", "upgrade")) {
         return wants_upgrade("POST a request document here, or open a WebSocket");
     }
-    if (head.count("Sec-WebSocket-Version") != 1) return broken("expected exactly one Sec-WebSocket-Version header");
+    if (head.message.count("Sec-WebSocket-Version") != 1) return broken("expected exactly one Sec-WebSocket-Version header");
     if (auto const version = head.field("Sec-WebSocket-Version").value_or(""); version != "13")
         return wants_upgrade("unsupported Sec-WebSocket-Version " + quoted(version) + ": expected 13");
     auto const key = head.field("Sec-WebSocket-Key");

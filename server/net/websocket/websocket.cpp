@@ -237,7 +237,7 @@ void WebSocket::close(Ending ending) {
     ending_ = ending;
 }
 
-void WebSocket::taken_over() { close({CloseCode::policy_violation, "the session goes on elsewhere"}); }
+void WebSocket::taken_over() { close({CloseCode::policy_violation, "another WebSocket has taken over the session"}); }
 
 void WebSocket::sweep(Steady at) {
     if (std::exchange(has_received_, false)) {

@@ -139,9 +139,9 @@ Received MessageReader::next(std::span<char> bytes, std::size_t& used) {
 // Checks the head alone, before its payload has arrived.
 std::optional<Received> MessageReader::rejected(Head const& head) const {
     if (head.is_control()) return {};
-    if (head.opcode == Opcode::binary) return violation(CloseCode::unsupported_data, "messages are text");
-    if (head.opcode == Opcode::continuation && fragments_ == 0) return protocol_error("a continuation without a beginning");
-    if (head.opcode == Opcode::text && fragments_ > 0) return protocol_error("a new message inside another one");
+    if (head.opcode == Opcode::binary) return violation(CloseCode::unsupported_data, "a binary message: expected text");
+    if (head.opcode == Opcode::continuation && fragments_ == 0) return protocol_error("a continuation frame without a message to continue");
+    if (head.opcode == Opcode::text && fragments_ > 0) return protocol_error("a new message before the last fragment of another one");
     if (head.payload > max_message_ - parts_.size())
         return violation(CloseCode::message_too_big, "the message is longer than max_body allows");
     if (!head.last && fragments_ >= max_fragments_)
@@ -153,10 +153,10 @@ Received MessageReader::take_control(Head const& head, std::string_view payload)
     if (head.opcode == Opcode::ping) return {Received::Kind::ping, payload};
     if (head.opcode == Opcode::pong) return {Received::Kind::pong, payload};
     if (payload.empty()) return {Received::Kind::close, {}, CloseCode::normal};
-    if (payload.size() == 1) return protocol_error("a close code of one byte");
+    if (payload.size() == 1) return protocol_error("a close frame with one byte: expected none, or a code of two bytes");
     auto const code = static_cast<unsigned>(static_cast<unsigned char>(payload[0]) << 8 | static_cast<unsigned char>(payload[1]));
     if (!may_be_sent(code)) return protocol_error("this close code must not be sent");
-    if (!is_utf8(payload.substr(2))) return violation(CloseCode::invalid_payload, "not UTF-8");
+    if (!is_utf8(payload.substr(2))) return violation(CloseCode::invalid_payload, "the reason of the close frame is not UTF-8");
     return {Received::Kind::close, {}, static_cast<CloseCode>(code)};
 }
 
@@ -172,7 +172,7 @@ Received MessageReader::take_part(Head const& head, std::string_view payload) {
         whole_.append(payload);
         payload = whole_;
     }
-    if (!is_utf8(payload)) return violation(CloseCode::invalid_payload, "not UTF-8");
+    if (!is_utf8(payload)) return violation(CloseCode::invalid_payload, "the message is not UTF-8");
     return {Received::Kind::text, payload};
 }
 

@@ -155,7 +155,7 @@ bool ValueType::accepts(std::string_view text) const {
 
 bool ValueType::accepts_text(std::string_view text) const {
     if (takes_any_text()) return true;
-    // Such a character is one byte, and normalising white space does not change it.
+    // Each printable ASCII character is one byte, and normalising white space does not change it.
     auto const plain = [](char c) { return c > ' ' && c < 0x7F && c != '&' && c != ']'; };
     if (has_length() && (text.size() < least || text.size() > most || !std::ranges::all_of(text, plain))) return false;
     if (enumeration.empty()) return true;

@@ -10,7 +10,7 @@ namespace {
 using namespace std::chrono_literals;
 using kit::component_ref;
 
-// Has a component that answers no queries, and waits for it for so long.
+// One component answers no queries. The gateway waits for it for `question_deadline`.
 struct SlowGateway : GatewayProcess {
     explicit SlowGateway(std::string const& question_deadline)
         : GatewayProcess{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/silent.xml", "--sim-speed", "20",

@@ -30,7 +30,7 @@ export interface ParallelCommandUnit {
   delay_time?: number;
 }
 
-/** Waits. */
+/** Only a delay. */
 export interface DelayOnly {
   kind: 'delay';
   delay_time: number;

@@ -56,7 +56,7 @@ const shown_for = 30_000; // ms, after it is gone
 // Neither the end of a sound nor a face that turns away is reported. A face is shown as long as a person is there.
 const echo = 6000; // ms that a sound or face is shown after its last report
 const head = 500; // mm
-const surely_sensed = 2000; // ms after its last report in which a thing counts as watched, even if no sensor is bound
+const surely_sensed = 2000; // ms for which a thing counts as watched after its last report, even if no sensor is bound
 
 export function scene_of({ robots, entities, map, now, is_live, senses }: SceneInput): Scene {
   const scene: Scene = { shown: [], lost: [] };

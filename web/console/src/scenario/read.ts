@@ -144,29 +144,12 @@ class ScenarioReader {
   private announce(node: Node): void {
     const own = name(node, 'name');
     if (this.states.has(own)) this.complain(node, () => texts.duplicate('state', own));
-    this.states.set(own, {
-      name: own,
-      steps: [],
-      commands: [],
-      triggers: [],
-      leaving: [],
-      is_end: node.name === 'end',
-      failed: false,
-      node,
-    });
+    this.states.set(own, empty_state(node));
   }
 
   private state(node: Node): State {
-    const state: State = {
-      name: name(node, 'name'),
-      steps: [],
-      commands: [],
-      triggers: [],
-      leaving: [],
-      is_end: node.name === 'end',
-      failed: is_true(attribute(node, 'failed')),
-      node,
-    };
+    const state = empty_state(node);
+    state.failed = is_true(attribute(node, 'failed'));
     for (const child of node.children) {
       if (child.name === 'command') state.commands.push(this.command(child));
       else if (child.name === 'query') state.query = { type: name(child, 'type'), component: this.known_component(child), node: child };
@@ -296,6 +279,10 @@ class ScenarioReader {
 
 function attribute(node: Node, of: string): string {
   return node.element.attribute(of) ?? '';
+}
+
+function empty_state(node: Node): State {
+  return { name: name(node, 'name'), steps: [], commands: [], triggers: [], leaving: [], is_end: node.name === 'end', failed: false, node };
 }
 
 function name(node: Node, of: string): string {

@@ -10,6 +10,18 @@ import { type CommandStep, found, type ParallelStep, type Step, with_branch, wit
 import type { SequenceStore } from './store';
 import * as texts from './texts';
 
+interface MillisecondsProps {
+  label: string;
+  value: string;
+  change: (to: string) => void;
+  error: string | undefined;
+  placeholder?: string;
+}
+
+function Milliseconds({ placeholder = '', ...field }: MillisecondsProps) {
+  return <TextField {...field} unit="ms" input={{ inputMode: 'numeric', placeholder }} />;
+}
+
 export function Inspector({ store }: { store: SequenceStore }) {
   const step = found(store.root.value, store.chosen.value)?.step;
   if (!step) return <EmptyState icon="sequence" title={texts.choose_step()}>{texts.keys()}</EmptyState>;
@@ -22,14 +34,7 @@ export function Inspector({ store }: { store: SequenceStore }) {
       {step.kind === 'command' && <CommandForm step={step} problem={shown} all={problem} change={change} />}
       {step.kind === 'wait' && (
         <div class="sequence-fields">
-          <TextField
-            label={texts.wait_time()}
-            unit="ms"
-            value={step.time}
-            change={(time) => change({ time })}
-            error={shown && texts.no_time()}
-            input={{ inputMode: 'numeric' }}
-          />
+          <Milliseconds label={texts.wait_time()} value={step.time} change={(time) => change({ time })} error={shown && texts.no_time()} />
         </div>
       )}
       {step.kind === 'parallel' && <BranchesForm store={store} step={step} problem={shown} change={change} />}
@@ -151,13 +156,12 @@ function BranchesForm({
   return (
     <>
       <div class="sequence-fields">
-        <TextField
+        <Milliseconds
           label={texts.delay()}
-          unit="ms"
           value={step.delay}
           change={(delay) => change({ delay })}
           error={problem?.what === 'no_time' ? texts.no_time() : undefined}
-          input={{ inputMode: 'numeric', placeholder: '0' }}
+          placeholder="0"
         />
       </div>
       {problem?.what === 'no_branches' && <p class="field-error">{texts.no_branches()}</p>}

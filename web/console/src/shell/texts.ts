@@ -57,7 +57,7 @@ export const bound = text_of((n: number) => [`${n} bound`, `バインド ${n}`])
 export const bound_title = text('Components that this console has bound', 'このコンソールがバインドしたコンポーネント');
 export const release = text('Release', '解放');
 export const release_all = text('Release all', 'すべて解放');
-export const release_hint = text("Releasing stops this console's commands there.", '解放すると、そこで実行中のものは停止します。');
+export const release_hint = text("Releasing a component stops this console's commands on it.", '解放すると、そこで実行中のものは停止します。');
 export const none_bound = text('None. A component is bound when you first send it a command.', 'ありません。最初のコマンドを送るときにバインドします。');
 export const token_title = text('This gateway requires a token', 'このゲートウェイにはトークンが必要です');
 export const token_wrong = text('The gateway did not accept this token.', 'このトークンは受け入れられませんでした。');
