@@ -44,7 +44,8 @@ describe('the link', () => {
   });
 
   test('shows a gap after a resumed link', async () => {
-    stage = await Stage.set(...still_hall, '--max-waiting-notifications', '16');
+    // Few enough for the list to show the gap, too.
+    stage = await Stage.set(...still_hall, '--max-waiting-notifications', '4');
     const hall = await Hall.of(stage);
     const other = await connect(stage.gateway.url);
     stage.path = '/#messages';
