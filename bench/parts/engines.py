@@ -15,6 +15,7 @@ ONE_REMOTE = "query 0.6 kB, sub engine, 1 connection"
 
 SUBSCRIBERS = 64  # as many as requests in flight
 BURST = 100  # events of one command, so that the command hardly counts
+RATE = 40  # commands a second: 4,000 events, below the limit of 5,000 for one sub engine
 EVENT_LOCAL = f"event to {SUBSCRIBERS} subscribers, own component"
 EVENT_MAIN = f"event to {SUBSCRIBERS} subscribers, sub engine: CPU of the main engine"
 EVENT_BOTH = f"event to {SUBSCRIBERS} subscribers, sub engine: CPU of both engines"
@@ -55,7 +56,7 @@ def above(hall):
 
 
 def send_events(keep, row, server, suffix, settings):
-    options = {"via": "websocket", "connect": "yes", "connections": SUBSCRIBERS, "setup": document("subscribe"), "burst": BURST}
+    options = {"via": "websocket", "connect": "yes", "connections": SUBSCRIBERS, "setup": document("subscribe"), "burst": BURST, "rate": RATE}
     folder = WORK / "documents" / "micro"
     firing = {"fire_setup": folder / f"bind-probe0{suffix}.xml", "fire": folder / f"fire-{BURST}{suffix}.xml"}
     measured = load("fanout", server, seconds=settings.seconds, **options, **firing)
