@@ -104,6 +104,17 @@ TEST_F(ALyingSubEngine, IsRefusedWithTooManyComponents) {
     EXPECT_EQ(reported(), "it has more than 1000 components");
 }
 
+TEST_F(ALyingSubEngine, IsRefusedWithAComponentOfTooManyParameters) {
+    auto const many = [](auto& reply) {
+        auto changed = *reply.components[1].profile;
+        auto const one = changed.parameters.at(0);
+        for (int i = 0; i < 500; ++i) changed.parameters.emplace_back(one).name = "p" + std::to_string(i);
+        reply.components[1].profile = std::make_shared<ComponentProfile const>(changed);
+    };
+    EXPECT_THAT(after(many), IsEmpty());
+    EXPECT_THAT(reported(), HasSubstr("messages, arguments, results and parameters: expected at most 500"));
+}
+
 TEST_F(ALyingSubEngine, IsRefusedWithALongDocument) {
     after([](auto& reply) {
         auto changed = *reply.components[0].profile;

@@ -28,6 +28,11 @@ TEST(Place, CountsCharactersAndLines) {
     EXPECT_EQ(at("c"), "3:1");
     EXPECT_EQ(at("d"), "5:1");
     EXPECT_EQ(place_of(text, 1'000).line, 5u);
+    Places places{text};
+    for (auto const offset : {text.size(), std::size_t{0}, text.size() / 2, text.size()}) {
+        EXPECT_EQ(places.of(offset).line, place_of(text, offset).line);
+        EXPECT_EQ(places.of(offset).column, place_of(text, offset).column);
+    }
 }
 
 TEST(Place, IsFoundFromTheColumnsOfAParser) {

@@ -48,14 +48,15 @@ private:
         auto* const reply = answered != nullptr ? std::get_if<GetProfile::Reply>(&answered->reply) : nullptr;
         if (reply == nullptr || reply->return_code != ReturnCode::ok) return true;
         try {
+            Places places{document};
             auto entry = reply->components.begin();
             for (auto const element : tree_.document_element().children()) {
                 auto const name = local_name(element);
                 if (name == "HRIEngineProfile") {
-                    auto read = decode_profile(element, "get_profile", document).profile;
+                    auto read = decode_profile(element, "get_profile", places).profile;
                     reply->profile = std::make_shared<EngineProfile const>(std::get<EngineProfile>(std::move(read)));
                 } else if (name == "HRIComponentProfile" && entry != reply->components.end()) {
-                    auto read = decode_profile(element, "get_profile", document).profile;
+                    auto read = decode_profile(element, "get_profile", places).profile;
                     entry++->profile = std::make_shared<ComponentProfile const>(std::get<ComponentProfile>(std::move(read)));
                 }
             }

@@ -20,17 +20,21 @@ std::size_t start_of(std::string_view document) { return document.starts_with(by
 
 }  // namespace
 
-Place place_of(std::string_view document, std::size_t offset) {
-    Place place;
-    for (auto i = start_of(document); i < offset && i < document.size(); ++i) {
-        if (ends_line(document, i)) {
-            ++place.line;
-            place.column = 1;
-        } else if (!continues_character(document[i]) && document[i] != '\r') {
-            ++place.column;
+Place place_of(std::string_view document, std::size_t offset) { return Places{document}.of(offset); }
+
+Places::Places(std::string_view document) : document_{document}, at_{start_of(document)} {}
+
+Place Places::of(std::size_t offset) {
+    if (offset < at_) *this = Places{document_};
+    for (; at_ < offset && at_ < document_.size(); ++at_) {
+        if (ends_line(document_, at_)) {
+            ++here_.line;
+            here_.column = 1;
+        } else if (!continues_character(document_[at_]) && document_[at_] != '\r') {
+            ++here_.column;
         }
     }
-    return place;
+    return here_;
 }
 
 std::size_t offset_of(std::string_view document, Place in_utf16) {

@@ -12,6 +12,18 @@ namespace rois::xml {
 // counted.
 Place place_of(std::string_view document, std::size_t offset);
 
+// The same for many offsets. Fast if they ascend: each search begins where the last one ended.
+class Places {
+public:
+    explicit Places(std::string_view document);
+    Place of(std::size_t offset);
+
+private:
+    std::string_view document_;
+    std::size_t at_;
+    Place here_;
+};
+
 // Returns the byte offset of a place whose column counts UTF-16 units, as xerces-c does; the end if there is no such place.
 std::size_t offset_of(std::string_view document, Place in_utf16);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "types/data_type.hpp"
@@ -26,7 +27,7 @@ Identifier identifier(pugi::xml_node node) {
 // Decodes a profile from a valid tree, and collects warnings.
 class ProfileDecoder {
 public:
-    ProfileDecoder(std::string const& name, std::string_view text) : name_{name}, text_{text} {}
+    ProfileDecoder(std::string const& name, Places& places) : name_{name}, places_{places} {}
 
     ProfileDocument decode(pugi::xml_node root) {
         if (local_name(root) == "HRIEngineProfile") {
@@ -41,15 +42,15 @@ public:
     }
 
 private:
-    std::string place(pugi::xml_node element) const { return at(name_, place_of(text_, offset_of(element))); }
+    std::string place(pugi::xml_node element) { return at(name_, places_.of(offset_of(element))); }
 
     // Returns an empty text if there is no such child.
-    std::string place_of_child(pugi::xml_node element, std::string_view name) const {
+    std::string place_of_child(pugi::xml_node element, std::string_view name) {
         auto const found = child(element, name);
         return found ? place(found) : std::string{};
     }
 
-    BadDocument complain(pugi::xml_node element, std::string const& reason) const {
+    BadDocument complain(pugi::xml_node element, std::string const& reason) {
         return BadDocument{place(element) + ": " + reason};
     }
 
@@ -98,7 +99,7 @@ private:
     }
 
     // A parameter that a document defines in several places must have the same type and default value in all of them.
-    void reject_contradictions(pugi::xml_node root, ComponentProfile const& profile) const {
+    void reject_contradictions(pugi::xml_node root, ComponentProfile const& profile) {
         auto const* const set = find_message(profile, MessageKind::command, "set_parameter");
         auto const* const get = find_message(profile, MessageKind::query, "get_parameter");
         if (set != nullptr) compare(root, "ParameterProfile", profile.parameters, set->arguments);
@@ -112,7 +113,7 @@ private:
 
     // `list` was decoded from the children of `parent` with this name. Throws BadDocument if `others` contradict it.
     void compare(pugi::xml_node parent, std::string_view name, std::vector<ParameterProfile> const& list,
-                 std::vector<ParameterProfile> const& others) const {
+                 std::vector<ParameterProfile> const& others) {
         auto each = list.begin();
         for (auto const element : parent.children()) {
             if (local_name(element) != name || each == list.end()) continue;
@@ -141,10 +142,11 @@ private:
 
     std::vector<ParameterProfile> parameters(pugi::xml_node parent, std::string_view name) {
         std::vector<ParameterProfile> list;
+        std::set<std::string> names;
         for (auto const element : parent.children()) {
             if (local_name(element) != name) continue;
             auto read = parameter(element);
-            if (find_parameter(list, read.name) != nullptr) throw complain(element, "duplicate name " + quoted(read.name));
+            if (!names.insert(read.name).second) throw complain(element, "duplicate name " + quoted(read.name));
             list.push_back(std::move(read));
         }
         return list;
@@ -197,7 +199,7 @@ private:
         return read;
     }
 
-    MessageKind kind_of(pugi::xml_node message) const {
+    MessageKind kind_of(pugi::xml_node message) {
         auto const type = xsi_type(message);
         auto const name = type ? type->local_name : std::string_view{};
         if (name == "CommandMessageProfileType") return MessageKind::command;
@@ -209,7 +211,7 @@ private:
     }
 
     // A timeout is the number of milliseconds within which a command must have started (decision 16).
-    std::optional<std::chrono::milliseconds> timeout(pugi::xml_node message) const {
+    std::optional<std::chrono::milliseconds> timeout(pugi::xml_node message) {
         auto const written = attribute(message, "timeout");
         if (!written) return std::nullopt;
         auto const milliseconds = decode_integer(written.value());
@@ -221,7 +223,7 @@ private:
     }
 
     std::string const& name_;
-    std::string_view text_;
+    Places& places_;
     ProfileDocument document_;
 };
 
@@ -231,8 +233,8 @@ std::string at(std::string const& name, Place place) {
     return name + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
 }
 
-ProfileDocument decode_profile(pugi::xml_node root, std::string const& name, std::string_view text) {
-    return ProfileDecoder{name, text}.decode(root);
+ProfileDocument decode_profile(pugi::xml_node root, std::string const& name, Places& places) {
+    return ProfileDecoder{name, places}.decode(root);
 }
 
 }  // namespace rois::xml

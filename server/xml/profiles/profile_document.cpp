@@ -60,10 +60,11 @@ ProfileDocument read_profile_document(std::shared_ptr<Schemas const> const& sche
                                       std::string const& text) {
     CheckedReader reader{schemas, {}};
     auto const fault = reader.read(text);
-    if (!fault) return decode_profile(reader.root(), name, text);
+    Places places{text};
+    if (!fault) return decode_profile(reader.root(), name, places);
     if (fault->code != FaultCode::invalid) throw refusal(name, *fault);
     RepairedTree const repaired{schemas, name, text, *fault};
-    auto document = decode_profile(repaired.root(), name, text);
+    auto document = decode_profile(repaired.root(), name, places);
     auto warnings = repaired.warnings(name, text);
     document.warnings.insert(document.warnings.begin(), warnings.begin(), warnings.end());
     return document;
