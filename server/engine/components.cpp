@@ -73,6 +73,10 @@ void unlist(EngineProfile& engine, std::set<std::string_view> const& refs) {
                   [](EngineProfile const& sub) { return sub.components.empty() && sub.sub_profiles.empty(); });
 }
 
+Provider::Runs runs(bool returns_at_once) {
+    return returns_at_once ? Provider::Runs::on_callers_thread : Provider::Runs::on_own_thread;
+}
+
 }  // namespace
 
 Engine::Core::SharedComponent Engine::Core::made(std::unique_ptr<Component> component,
@@ -83,8 +87,8 @@ Engine::Core::SharedComponent Engine::Core::made(std::unique_ptr<Component> comp
         throw std::runtime_error("the ref " + quoted(description.ref.code) + " begins or ends with white space");
     auto whole = flattened(*description.profile, known);
     auto engine = description.engine.empty() ? profile_.object.name : description.engine;
-    auto const runs = description.returns_at_once ? Provider::Runs::on_callers_thread : Provider::Runs::on_own_thread;
-    auto hosted = std::make_shared<HostedComponent>(std::move(component), provider(description.provider, runs));
+    auto hosted = std::make_shared<HostedComponent>(std::move(component),
+                                                    provider(description.provider, runs(description.returns_at_once)));
     return std::make_shared<RegisteredComponent>(description, std::move(hosted), std::move(whole), std::move(engine), agenda_,
                                                  places_.frames);
 }
@@ -101,10 +105,10 @@ std::shared_ptr<Provider> Engine::Core::provider(std::string const& name, Provid
     return made;
 }
 
-void Engine::Core::add(std::shared_ptr<Device> device, std::string const& name) {
+void Engine::Core::add(std::shared_ptr<Device> device, std::string const& name, bool returns_at_once) {
     auto state = std::make_shared<DeviceState>();
     state->device = std::move(device);
-    state->provider = provider(name, Provider::Runs::on_callers_thread);
+    state->provider = provider(name, runs(returns_at_once));
     expect_providers(registry_.all().size() + devices_.size() + 1);
     devices_.push_back(std::move(state));
 }
@@ -200,7 +204,7 @@ void Engine::Core::change(ComponentChange change, Instant now) {
     std::swap(belongings_, belongings);
     std::swap(places_, places);
     shared_profile_.reset();
-    if (going.empty() && coming.empty()) return;
+    if (going.empty() && coming.empty() && profile == profile_) return;
     Attempts attempts;
     for (auto const& component : going) attempts([&] { leave(component, now); });
     for (auto const& component : coming) attempts([&] { component->hosted().attach(); });

@@ -42,7 +42,7 @@ public:
     void add(std::unique_ptr<Component>);
     void change(ComponentChange, Instant now);
     ~Core();
-    void add(std::shared_ptr<Device>, std::string const& provider);
+    void add(std::shared_ptr<Device>, std::string const& provider, bool returns_at_once);
     void describe(Places places) { own_places_ = places_ = std::move(places); }
 
     void on_report(std::function<void()> wake) { inbox_->on_arrival(std::move(wake)); }

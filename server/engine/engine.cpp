@@ -394,7 +394,9 @@ void Engine::report_to(Journal& journal) { core_->report_to(journal); }
 void Engine::keep_within(MemoryBudget& memory) { core_->keep_within(memory); }
 void Engine::add(std::unique_ptr<Component> component) { core_->add(std::move(component)); }
 void Engine::change(ComponentChange change, Instant now) { core_->change(std::move(change), now); }
-void Engine::add(std::shared_ptr<Device> device, std::string const& provider) { core_->add(std::move(device), provider); }
+void Engine::add(std::shared_ptr<Device> device, std::string const& provider, bool returns_at_once) {
+    core_->add(std::move(device), provider, returns_at_once);
+}
 void Engine::on_report(std::function<void()> wake) { core_->on_report(std::move(wake)); }
 void Engine::describe(Places places) { core_->describe(std::move(places)); }
 

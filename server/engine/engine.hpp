@@ -138,8 +138,8 @@ public:
     // Call before the first session. Adds a component. Throws std::runtime_error if its ref is taken or the profile of a sub
     // component is unknown.
     void add(std::unique_ptr<Component>);
-    // Adds a device of this provider (ComponentDescription::provider). Its calls must return at once.
-    void add(std::shared_ptr<Device>, std::string const& provider);
+    // Adds a device of this provider. Its components have the same provider and `returns_at_once` (ComponentDescription).
+    void add(std::shared_ptr<Device>, std::string const& provider, bool returns_at_once = true);
 
     // Removes and adds components, at any time. Throws std::runtime_error or std::invalid_argument, and changes nothing, if a ref
     // is taken or unknown, a sub component profile is unknown, or a frame or place is invalid or known already. Commands that run

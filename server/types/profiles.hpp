@@ -61,6 +61,8 @@ struct EngineProfile {
     std::vector<EngineProfile> sub_profiles;
     std::vector<std::string> components;
     std::vector<ParameterProfile> parameters;
+
+    bool operator==(EngineProfile const&) const = default;
 };
 
 // The codebooks of one parameter of type RoISIdentifier (decision 31).

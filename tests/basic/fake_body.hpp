@@ -131,7 +131,7 @@ public:
     explicit FakeBody(std::string name = "fake") : name_{std::move(name)} {}
 
     std::string const& name() const override { return name_; }
-    bool returns_at_once() const override { return true; }
+    bool returns_at_once() const override { return !may_block; }
     EntityId self() const override { return EntityId{1}; }
     std::string const& crs() const override { return crs_; }
     bool uses_engines_frame() const override { return true; }
@@ -156,6 +156,7 @@ public:
     }
     std::size_t observers() const { return observers_.size(); }
 
+    bool may_block = false;
     FakeBase wheels;
     FakeSpeech voice;
     FakePerception senses;

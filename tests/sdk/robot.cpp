@@ -1,4 +1,4 @@
-// A program with a robot of plain fakes. Each of its motions arrives after three ticks.
+// A program with a robot of plain fakes that may block, like most robots. Each of its motions arrives after three ticks.
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -36,6 +36,7 @@ private:
 int main(int argc, char** argv) {
     return rois::sdk::serve_robot(argc, argv, "robots", [] {
         auto const body = std::make_shared<FakeBody>("tiny");
+        body->may_block = true;
         return rois::sdk::Robot{body, std::make_shared<Clock>(body)};
     });
 }

@@ -34,10 +34,11 @@ using Profiles = std::vector<ComponentProfile>;
 
 // What a program adds to its engine.
 struct Parts {
-    Components components;
-    std::shared_ptr<Device> device;  // null: none
-    std::string provider;            // of the device
-    std::string crs;                 // the engine's frame; empty: none
+    Components components{};
+    std::shared_ptr<Device> device{};  // null: none
+    std::string provider{};            // of the device
+    bool returns_at_once = true;       // the device and its components
+    std::string crs{};                 // the engine's frame; empty: none
 };
 using Make = std::function<Parts(Profiles const& built_in)>;
 
@@ -66,7 +67,7 @@ bool serve(std::string const& url, std::string const& name, Make const& make) {
     auto parts = make(profiles);
     Engine engine{profile_of_program(name, instance, parts.crs), profiles, {}, readers, fresh_secret};
     if (!parts.crs.empty()) engine.describe({.frames = {parts.crs}, .all = {}});
-    if (parts.device) engine.add(parts.device, parts.provider);
+    if (parts.device) engine.add(parts.device, parts.provider, parts.returns_at_once);
     for (auto& component : parts.components) engine.add(std::move(component));
     Telemetry telemetry;
     Gateway gateway{engine, readers, telemetry};
@@ -109,14 +110,17 @@ ComponentDescription describe(std::string ref, std::string const& profile) {
 }
 
 int serve(int argc, char const* const* argv, std::string name, std::function<Components()> const& make) {
-    return serve(argc, argv, std::move(name), Make{[&](Profiles const&) { return Parts{make(), {}, {}, {}}; }});
+    return serve(argc, argv, std::move(name), Make{[&](Profiles const&) { return Parts{.components = make()}; }});
 }
 
 int serve_robot(int argc, char const* const* argv, std::string name, std::function<Robot()> const& make) {
     return serve(argc, argv, std::move(name), Make{[&](Profiles const& built_in) {
                      auto const [body, device] = make();
-                     return Parts{basic::robot_components({.bodies = {body}, .media = nullptr}, built_in), device,
-                                  body->provider(), body->crs()};
+                     return Parts{.components = basic::robot_components({.bodies = {body}, .media = nullptr}, built_in),
+                                  .device = device,
+                                  .provider = body->provider(),
+                                  .returns_at_once = body->returns_at_once(),
+                                  .crs = body->crs()};
                  }});
 }
 
