@@ -2,7 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,6 +15,7 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <cstring>
 #include <exception>
@@ -62,13 +63,33 @@ Words environment(Programs::Wanted const& wanted) {
     return Words{std::move(all)};
 }
 
-// Executes the program in the child process. Calls only functions that take no lock: other threads may have held locks at the
-// fork.
-[[noreturn]] void become(char const* folder, char* const* command, char* const* environment, int output, pid_t gateway) {
-    ::setpgid(0, 0);                     // what it starts itself ends with it
-    ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // when the gateway ends, also by SIGKILL
-    if (::getppid() != gateway) ::_exit(1);
+// The functions that run in child processes call only functions that take no lock: other threads may have held locks at the fork.
+
+// Starts a process that ends this group when the gateway has ended, also by SIGKILL: its input has a line if the group has ended
+// before. It is no child of the program, and a shell, because a copy of the gateway would take memory.
+void start_watcher(int input) {
+    std::array<char, 16> group{};
+    std::to_chars(group.begin(), group.end() - 1, ::getpid());
+    constexpr auto script = "read -r line || { kill -s TERM -- -$1; sleep 2; kill -s KILL -- -$1; }";
+    auto const parent = ::fork();
+    if (parent > 0) ::waitpid(parent, nullptr, 0);
+    if (parent != 0) return;
+    if (::fork() != 0) ::_exit(0);
+    ::setsid();
+    ::dup2(input, STDIN_FILENO);
+    auto const nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    ::dup2(nowhere, STDOUT_FILENO);
+    ::dup2(nowhere, STDERR_FILENO);
+    ::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
+    ::execl("/bin/sh", "sh", "-c", script, "sh", group.data(), nullptr);
+    ::_exit(127);
+}
+
+// Executes the program in the child process.
+[[noreturn]] void become(char const* folder, char* const* command, char* const* environment, int output, int gateway) {
+    ::setpgid(0, 0);  // what it starts itself ends with it
     ::signal(SIGPIPE, SIG_DFL);
+    start_watcher(gateway);
     ::dup2(::open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
     ::dup2(output, STDOUT_FILENO);
     ::dup2(output, STDERR_FILENO);
@@ -78,6 +99,20 @@ Words environment(Programs::Wanted const& wanted) {
     for (auto const* text : {"it cannot be run: ", problem, "\n"})
         if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) break;
     ::_exit(127);
+}
+
+std::pair<UniqueDescriptor, UniqueDescriptor> new_pipe() {
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::system_error{errno, std::system_category(), "pipe"};
+    return {UniqueDescriptor{ends[0]}, UniqueDescriptor{ends[1]}};
+}
+
+// Unlike a pipe, it can be written to without the danger of SIGPIPE.
+std::pair<UniqueDescriptor, UniqueDescriptor> new_socket_pair() {
+    std::array<int, 2> ends{};
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+        throw std::system_error{errno, std::system_category(), "socketpair"};
+    return {UniqueDescriptor{ends[0]}, UniqueDescriptor{ends[1]}};
 }
 
 std::string seconds(std::chrono::milliseconds time) {
@@ -124,6 +159,7 @@ private:
         } catch (std::exception const& problem) {
             close();
             if (pid_ != 0) kill_and_wait(std::exchange(pid_, 0));
+            dismiss_watcher();
             return start_again(std::string{"its program cannot be started: "} + problem.what());
         }
         read();
@@ -131,18 +167,17 @@ private:
     }
 
     void launch() {
-        std::array<int, 2> pipe{};
-        if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw std::system_error{errno, std::system_category(), "pipe"};
-        UniqueDescriptor ours{pipe[0]}, its{pipe[1]};
+        auto [ours, its] = new_pipe();
+        auto [watched, alive] = new_socket_pair();
         Words const command{wanted_->command}, variables{environment(*wanted_)};
-        auto const gateway = ::getpid();
         auto const pid = ::fork();
-        if (pid == 0) become(wanted_->folder.c_str(), command.data(), variables.data(), its.get(), gateway);
+        if (pid == 0) become(wanted_->folder.c_str(), command.data(), variables.data(), its.get(), watched.get());
         if (pid < 0) throw std::system_error{errno, std::system_category(), "a new process"};
         pid_ = pid;
         ::setpgid(pid_, pid_);  // as the program does: from now on its group can be ended
         UniqueDescriptor end{static_cast<int>(::syscall(SYS_pidfd_open, pid, 0))};
         if (end.get() < 0) throw std::system_error{errno, std::system_category(), "a new process"};
+        alive_ = std::move(alive);
         output_.assign(ours.get());
         ours.release();
         end_.assign(end.get());
@@ -194,6 +229,7 @@ private:
         close();
         timer_.cancel();
         auto const status = kill_and_wait(std::exchange(pid_, 0));
+        dismiss_watcher();
         if (is_replaced_ && wanted_)
             start();
         else if (wanted_)
@@ -219,6 +255,11 @@ private:
         return status;
     }
 
+    void dismiss_watcher() {
+        ::send(alive_.get(), "\n", 1, MSG_NOSIGNAL);  // it may be dead already
+        alive_ = {};
+    }
+
     void start_again(std::string const& what) {
         auto const ran = std::chrono::steady_clock::now() - begun_;
         immediate_ends_ = ran < times_.immediately ? immediate_ends_ + 1 : 0;
@@ -236,6 +277,7 @@ private:
     std::shared_ptr<Programs::Listener const> const listener_;
     ProgramTimes const times_;
     std::optional<Programs::Wanted> wanted_;  // nothing: it ends, or has ended
+    UniqueDescriptor alive_;                  // its watcher reads from it until the gateway ends
     Descriptor output_;
     Descriptor end_;  // readable when the program has ended
     asio::steady_timer timer_;

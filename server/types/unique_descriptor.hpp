@@ -10,7 +10,10 @@ public:
     UniqueDescriptor() = default;
     explicit UniqueDescriptor(int number) : number_{number} {}
     UniqueDescriptor(UniqueDescriptor&& other) noexcept : number_{other.release()} {}
-    UniqueDescriptor& operator=(UniqueDescriptor&&) = delete;
+    UniqueDescriptor& operator=(UniqueDescriptor&& other) noexcept {
+        std::swap(number_, other.number_);
+        return *this;
+    }
     ~UniqueDescriptor();  // closes it
 
     int get() const { return number_; }  // negative: none

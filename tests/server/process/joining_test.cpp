@@ -153,11 +153,12 @@ TEST(Engines, AreListedWithTheirStates) {
     EXPECT_EQ(HttpClient{}.get("/rois/engines").body, R"(<engines xmlns="urn:x-rois:psm:xml:message:1"/>)");
 }
 
-// A gateway with a program that says its process id.
+// The program ignores SIGTERM, as does the process that it has started and whose id it says.
 TEST(Programs, EndWithTheGateway) {
     for (auto const end : {SIGTERM, SIGKILL}) {
         kit::ProfileFolder folder;
-        folder.put("engines.json", R"({"engines": [{"name": "p", "command": ["sh", "-c", "echo pid $$; exec sleep 600"]}]})");
+        folder.put("engines.json",
+                   R"({"engines": [{"name": "p", "command": ["sh", "-c", "trap '' TERM; sleep 600 & echo pid $!; wait"]}]})");
         GatewayProcess gateway{{"--robots", "none", "--engines", folder.name() + "/engines.json"}};
         std::string const mark = "program p: pid ";
         auto const log = gateway.log_with(mark);
