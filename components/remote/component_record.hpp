@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,14 +26,30 @@ public:
     bool is_held = false;  // the sub engine has accepted `bind`
     int binds_asked = 0;   // `bind` requests that are not answered yet
 
-    std::vector<Ticket> halts;                        // halts that wait for the end of the same `stop`
+    ParameterList stored;  // by `set_parameter` in the sub engine, for the application that has bound the component
+
+    // Whether the component may act for this engine: from the beginning of a command until the sub engine says that nothing is
+    // active, or that it has stopped or released the component, or has ended the session.
+    bool may_act = false;
+    int running = 0;             // commands that have not completed
+    std::optional<Ticket> halt;  // the newest halt that is not confirmed yet
+    bool is_stopping = false;    // a `stop` has not ended yet
+
     int begins_asked = 0;                             // `execute` requests that are not answered yet
     std::vector<std::function<void()>> after_begins;  // `suspend` or `resume`: sent once these are answered, to keep the order
 
     void forget_questions() {
         binds_asked = begins_asked = 0;
-        halts.clear();
+        is_stopping = false;
         after_begins.clear();
+    }
+
+    void stands_still() {
+        if (auto const ticket = std::exchange(halt, {})) report(HaltConfirmed{*ticket});
+    }
+    void acts_no_more() {
+        may_act = is_stopping = false;
+        stands_still();
     }
 
     // Thread-safe. Reports are dropped unless there is a port.

@@ -49,6 +49,7 @@ private:
         if (!response) return of_.give_up("unexpected answer to join: expected join_response, not " + quoted(text, 200));
         if (response->return_code != ReturnCode::ok) return of_.give_up("it refuses: " + response->reason);
         of_.has_joined_ = true;
+        of_.window_ = response->window;
         of_.failures_ = 0;
         of_.note("joined as " + quoted(of_.joining_.name));
     }
@@ -87,14 +88,16 @@ void Joiner::attempt() {
 void Joiner::give_up(std::string const& reason) {
     auto const self = shared_from_this();
     ++era_;
-    has_joined_ = false;
+    auto const now = std::chrono::steady_clock::now();
+    if (std::exchange(has_joined_, false)) may_resume_until_ = now + window_;
     auto const main_engine = std::exchange(main_engine_, nullptr);
     auto const own_gateway = std::exchange(own_gateway_, nullptr);
     if (main_engine) main_engine->cut();
     if (own_gateway) own_gateway->cut();
     if (is_over_) return;
     note(reason);
-    loop_.at(client::from_now(pause_after(failures_++)), [self, main_engine, own_gateway, era = era_] {
+    auto const pause = now < may_resume_until_ ? pause_within_window : pause_after(failures_++);
+    loop_.at(client::from_now(pause), [self, main_engine, own_gateway, era = era_] {
         if (self->era_ == era) self->attempt();
     });
 }

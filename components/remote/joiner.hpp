@@ -10,6 +10,7 @@
 #include "core/loop.hpp"
 #include "links/link.hpp"
 #include "remote/sub_engine.hpp"
+#include "types/instant.hpp"
 
 namespace rois::remote {
 
@@ -41,8 +42,10 @@ private:
     std::shared_ptr<Side> own_gateway_;  // null between attempts
     std::shared_ptr<Side> main_engine_;  // null until the own gateway is connected
     std::string last_note_;
-    std::uint64_t era_ = 0;  // counts attempts and lost links
-    unsigned failures_ = 0;  // failed attempts in a row
+    std::uint64_t era_ = 0;                // counts attempts and lost links
+    unsigned failures_ = 0;                // failed attempts in a row, since the session can no longer be resumed
+    std::chrono::milliseconds window_{0};  // within which the main engine may resume its session after a loss
+    Steady may_resume_until_{};
     bool has_joined_ = false;
     bool is_over_ = false;
 };

@@ -14,21 +14,36 @@ namespace rois::remote {
 namespace {
 
 constexpr int deepest = 8;  // levels of engines
+// Names that a component's profile declares. The engine compares them with one another, while all applications wait.
+constexpr std::size_t most_names = 500;
+constexpr auto is_lost = "its engine is lost";
 
-void collect(EngineProfile const& profile, int level, std::vector<std::string>& instances) {
+// The robots of an engine have its instance and no sub engines. They do not count as a level.
+void collect(EngineProfile const& profile, int level, std::string const& instance_above, std::vector<std::string>& instances) {
+    auto const* parameter = find_parameter(profile.parameters, "instance");
+    auto const instance = parameter == nullptr ? std::string{} : parameter->default_value.value_or("");
+    bool const is_robot = instance == instance_above && profile.sub_profiles.empty();
+    if (!is_robot) ++level;
     if (level > deepest) throw std::runtime_error("its engines have more than " + std::to_string(deepest) + " levels");
-    auto const* instance = find_parameter(profile.parameters, "instance");
-    if (instance != nullptr && instance->default_value) instances.push_back(*instance->default_value);
-    for (auto const& sub : profile.sub_profiles) collect(sub, level + 1, instances);
+    if (!instance.empty()) instances.push_back(instance);
+    for (auto const& sub : profile.sub_profiles) collect(sub, level, instance, instances);
 }
 
-// Adds the `instance` of the sub engine and of its own sub engines, so that engines above this one can find loops.
+// Adds `instance` and `crs` of the sub engine and of its own sub engines: engines above this one find loops by the instances.
 void add_engines(EngineProfile const& profile, Translation const& translation,
                  std::map<std::string, std::vector<ParameterProfile>>& engines) {
     auto& parameters = engines[translation.engine_here(profile.object.name)];
-    for (auto const& each : profile.parameters)
-        if (each.name == "instance") parameters.push_back(each);
+    for (auto each : profile.parameters) {
+        if (each.name == "crs" && each.default_value) translation.to_here(*each.default_value);
+        if (each.name == "crs" || each.name == "instance") parameters.push_back(std::move(each));
+    }
     for (auto const& sub : profile.sub_profiles) add_engines(sub, translation, engines);
+}
+
+std::size_t count_names(ComponentProfile const& profile) {
+    auto count = profile.parameters.size() + profile.messages.size();
+    for (auto const& message : profile.messages) count += message.arguments.size() + message.results.size();
+    return count;
 }
 
 // Throws std::runtime_error if this engine cannot have such a component. A ref with a dot must begin with the name of the
@@ -49,6 +64,9 @@ void check(ComponentEntry const& entry, std::string const& name) {
         refuse("has a name of " + std::to_string(ref.size()) + " characters: expected at most " +
                std::to_string(longest_identifier - name.size() - 1));
     if (!entry.profile || !entry.traits) refuse("lacks its profile or its traits (decision 41)");
+    if (auto const names = count_names(*entry.profile); names > most_names)
+        refuse("has " + std::to_string(names) + " messages, arguments, results and parameters: expected at most " +
+               std::to_string(most_names));
 }
 
 // Removes the place from a sub engine's reason: this engine adds the place in its own sequence.
@@ -105,7 +123,7 @@ void RemoteEngine::take_profile(GetProfile::Reply const& reply) {
         if (reply.return_code != ReturnCode::ok || !reply.profile)
             throw std::runtime_error("get_profile failed: " + reply.reason);
         std::vector<std::string> instances;
-        collect(*reply.profile, 2, instances);
+        collect(*reply.profile, 1, {}, instances);
         if (auto const why = host_->why_loop(settings_.name, instances)) throw std::runtime_error(*why);
         enter(reply);
     } catch (std::exception const& problem) {
@@ -167,13 +185,14 @@ void RemoteEngine::enter(GetProfile::Reply const& reply) {
     auto const before = std::exchange(records_, std::move(records));
     bool const changes = !change.going.empty() || !change.coming.empty();
     try {
-        if (changes || before.empty()) host_->change(std::move(change));
+        if (changes || before.empty() || profile != profile_) host_->change(std::move(change));
     } catch (...) {
         records_ = before;
         throw;
     }
     for (auto const& [ref, record] : before)
         if (record_of(ref) != record && record->is_held) ask(Release{{.code = ref}}, [](Reply const*) {});
+    profile_ = profile;
     if (changes)
         host_->report(settings_.name,
                       "present with " + std::to_string(records_.size()) + (records_.size() == 1 ? " component" : " components"));
@@ -211,11 +230,17 @@ void RemoteEngine::subscribe() {
     }
 }
 
-// The components that applications here have bound are bound again: in a new session, and after each change of the profile,
-// because a component may have left and returned.
+// The components that applications here have bound are bound again, with their parameters: in a new session, and after each
+// change of the profile, because a component may have left and returned.
 void RemoteEngine::restore() {
-    for (auto const& [ref, record] : records_)
-        if (record->is_wanted) bind_there(record, [](Reply const*) {});
+    for (auto const& [ref, record] : records_) {
+        if (!record->is_wanted) continue;
+        bind_there(record, [self = shared_from_this(), record](Reply const*) {
+            if (record->is_held && !record->stored.empty())
+                self->command(record, "set_parameter", self->translation_.to_there(record->stored),
+                              [](CompletedStatus, std::string const&) {});
+        });
+    }
 }
 
 std::shared_ptr<ComponentRecord> RemoteEngine::record_of(std::string_view ref) const {
@@ -275,10 +300,11 @@ void RemoteEngine::attach(std::shared_ptr<ComponentRecord> const& record) {
 }
 
 void RemoteEngine::bind(std::shared_ptr<ComponentRecord> const& record, Ticket ticket) {
+    if (!is_open_) return record->answer(ticket, Failed{is_lost});
     record->is_wanted = true;
     if (record->is_held && record->binds_asked == 0) return record->answer(ticket, Done{});
     bind_there(record, [record, ticket](Reply const* reply) {
-        if (reply == nullptr) return record->answer(ticket, Failed{"its engine is lost"});
+        if (reply == nullptr) return record->answer(ticket, Failed{is_lost});
         auto const outcome = outcome_of(*reply);
         if (outcome.return_code == ReturnCode::ok) return record->answer(ticket, Done{});
         if (outcome.return_code == ReturnCode::out_of_resources) return record->answer(ticket, Refused{outcome.reason});
@@ -298,22 +324,27 @@ void RemoteEngine::bind_there(std::shared_ptr<ComponentRecord> const& record, Th
 
 void RemoteEngine::released(std::shared_ptr<ComponentRecord> const& record) {
     record->is_wanted = false;
+    record->stored.clear();
     release_unwanted(record);
 }
 
-// An answer may be late, and the binding then not wanted any more.
+// An answer may be late, and the binding then not wanted any more. The binding is kept until the component stands still: without
+// it, a `stop` that failed could not be repeated.
 void RemoteEngine::release_unwanted(std::shared_ptr<ComponentRecord> const& record) {
-    if (record->is_wanted || record->binds_asked > 0 || !std::exchange(record->is_held, false)) return;
-    ask(Release{{.code = record->entry.ref}}, [](Reply const*) {});
+    if (record->is_wanted || record->binds_asked > 0 || record->halt || !std::exchange(record->is_held, false)) return;
+    ask(Release{{.code = record->entry.ref}}, [record](Reply const* reply) {
+        if (reply != nullptr && !record->is_held && record->binds_asked == 0) record->acts_no_more();
+    });
 }
 
 // `start` takes the stored parameters as arguments: they may have been stored while the sub engine was lost.
 void RemoteEngine::prepare(std::shared_ptr<ComponentRecord> const& record, Ticket ticket, std::string const& command_type,
                            ParameterList const& parameters) {
+    if (!is_open_) return record->answer(ticket, Failed{is_lost});
     auto unit = unit_of(record->entry.ref, command_type, {}, translation_.to_there(parameters));
     Execute check{.command_unit_list = {{std::move(unit)}}, .check_only = true};
     ask(std::move(check), [self = shared_from_this(), record, ticket, command_type, parameters](Reply const* reply) {
-        if (reply == nullptr) return record->answer(ticket, Failed{"its engine is lost"});
+        if (reply == nullptr) return record->answer(ticket, Failed{is_lost});
         auto const outcome = outcome_of(*reply);
         if (outcome.return_code == ReturnCode::bad_parameter)
             return record->answer(ticket, Refused{without_place(outcome.reason)});
@@ -334,15 +365,20 @@ void RemoteEngine::prepare(std::shared_ptr<ComponentRecord> const& record, Ticke
 void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, CommandHandle command, std::string const& command_type,
                          ParameterList const& parameters) {
     auto const id = "c" + std::to_string(++last_command_);
-    auto end = [self = shared_from_this(), record, command](Completed const& completed) {
+    auto end = [self = shared_from_this(), record, command, command_type, parameters](Completed const& completed) {
         CommandEnded ended{
             .command = command, .status = completed.status, .results = {}, .afterwards = {}, .reason = completed.reason};
         if (completed.results) ended.results = *completed.results;
         self->translation_.to_here(ended.results);
+        --record->running;
+        if (record->running == 0 && completed.active == false) record->acts_no_more();
+        if (command_type == "set_parameter" && completed.status == CompletedStatus::ok) record->stored = parameters;
         if (completed.active) ended.afterwards = *completed.active ? Afterwards::active : Afterwards::idle;
         record->report(std::move(ended));
     };
     commands_.emplace(id, std::move(end));
+    record->may_act = true;
+    ++record->running;
     auto unit = unit_of(record->entry.ref, command_type, id, translation_.to_there(parameters));
     ++record->begins_asked;
     ask(Execute{{{std::move(unit)}}},
@@ -354,21 +390,26 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
             if (known == self->commands_.end()) return;  // it has completed
             if (is_accepted) return record->report(CommandStarted{command});
             self->commands_.erase(known);
+            --record->running;
             auto const status = reply == nullptr ? CompletedStatus::abort : status_of_refusal(outcome_of(*reply).return_code);
-            auto const reason = reply == nullptr ? "its engine is lost" : outcome_of(*reply).reason;
+            auto const reason = reply == nullptr ? is_lost : outcome_of(*reply).reason;
             record->report(CommandEnded{.command = command, .status = status, .results = {}, .afterwards = {}, .reason = reason});
         },
         {id});
 }
 
-// Without a binding there, nothing runs for this engine.
+// Confirmed by the end of `stop`, by the answer to a `release` that was sent before, or by the end of the session there: only the
+// sub engine knows whether its component stands still.
 void RemoteEngine::halt(std::shared_ptr<ComponentRecord> const& record, Ticket ticket) {
-    if (!record->is_held || session_.text.empty() || is_given_up_) return record->report(HaltConfirmed{ticket});
-    record->halts.push_back(ticket);
-    if (record->halts.size() > 1) return;
-    command(record, "stop", [record](CompletedStatus status, std::string const&) {
-        auto const tickets = std::exchange(record->halts, {});
-        if (status == CompletedStatus::ok && !tickets.empty()) record->report(HaltConfirmed{tickets.back()});
+    record->halt = ticket;
+    if (!record->may_act) return record->stands_still();
+    if (!record->is_held || record->is_stopping || is_given_up_) return;
+    record->is_stopping = true;
+    command(record, "stop", {}, [self = shared_from_this(), record](CompletedStatus status, std::string const&) {
+        record->is_stopping = false;
+        if (status != CompletedStatus::ok) return;
+        record->stands_still();
+        self->release_unwanted(record);
     });
 }
 
@@ -377,7 +418,7 @@ void RemoteEngine::pause(std::shared_ptr<ComponentRecord> const& record, Ticket 
         record->after_begins.emplace_back([=, self = shared_from_this()] { self->pause(record, ticket, command_type); });
         return;
     }
-    command(record, command_type, [record, ticket, command_type](CompletedStatus status, std::string const& reason) {
+    command(record, command_type, {}, [record, ticket, command_type](CompletedStatus status, std::string const& reason) {
         if (status == CompletedStatus::ok)
             record->answer(ticket, Done{});
         else
@@ -385,21 +426,22 @@ void RemoteEngine::pause(std::shared_ptr<ComponentRecord> const& record, Ticket 
     });
 }
 
-// Runs a command without arguments. Calls `then` once, with the end.
+// Runs a command. Calls `then` once, with the end.
 void RemoteEngine::command(std::shared_ptr<ComponentRecord> const& record, std::string const& command_type,
-                           std::function<void(CompletedStatus, std::string const& reason)> const& then) {
+                           ParameterList arguments, std::function<void(CompletedStatus, std::string const& reason)> const& then) {
     auto const id = "c" + std::to_string(++last_command_);
     commands_.emplace(id, [then](Completed const& completed) { then(completed.status, completed.reason); });
-    ask(Execute{{{unit_of(record->entry.ref, command_type, id, {})}}},
+    ask(Execute{{{unit_of(record->entry.ref, command_type, id, std::move(arguments))}}},
         [self = shared_from_this(), then, id](Reply const* reply) {
             if (reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok) return;
             if (self->commands_.erase(id) > 0)
-                then(CompletedStatus::error, reply == nullptr ? "its engine is lost" : without_place(outcome_of(*reply).reason));
+                then(CompletedStatus::error, reply == nullptr ? is_lost : without_place(outcome_of(*reply).reason));
         },
         {id});
 }
 
 void RemoteEngine::query(std::shared_ptr<ComponentRecord> const& record, Ticket ticket, std::string const& query_type) {
+    if (!is_open_) return record->answer(ticket, std::vector<Results>{});
     Query asked{.query_type = query_type, .condition = {}};
     asked.condition.filter = only(record->entry.ref);
     ask(std::move(asked), [self = shared_from_this(), record, ticket](Reply const* reply) {

@@ -107,6 +107,7 @@ private:
     void opened(Connect::Reply const&);
     void resumed(ReturnCode);
     void session_ended();
+    void forget_session();
     void reject(std::string const& problem);
     void send_again();
     void give_up_link(std::string const& reason);
@@ -116,12 +117,14 @@ private:
     void await_next_attempt();
     void give_signs_of_life(std::uint64_t era);
     void show();
+    // Whether there is a session. Requests wait while it has no link.
+    bool can_ask() const { return !session_.text.empty() && !is_given_up_ && !is_over_; }
     void ask(Operation, Then, CommandId once = {});
 
     // --- remote_engine.cpp: its profile and components ---
     using Records = std::map<std::string, std::shared_ptr<ComponentRecord>, std::less<>>;  // by their refs in the sub engine
     void report_state(ComponentRecord&, ComponentChanged const&) const;
-    void command(std::shared_ptr<ComponentRecord> const&, std::string const& command_type,
+    void command(std::shared_ptr<ComponentRecord> const&, std::string const& command_type, ParameterList arguments,
                  std::function<void(CompletedStatus, std::string const& reason)> const& then);
     void ask_profile();
     void take_profile(GetProfile::Reply const&);
@@ -143,6 +146,7 @@ private:
     std::shared_ptr<RemoteEngineHost> host_;
     std::string last_error_;
     Translation translation_;
+    EngineProfile profile_;  // as the sub engine has sent it last
     xml::AnswerReader reader_;
     Records records_;
     std::map<std::string, ComponentChanged, std::less<>> states_;  // by refs in the sub engine; some have no record yet

@@ -154,7 +154,7 @@ void RemoteEngine::take(xml::Answered const& answered) {
     }
     if (is_given_up_) {
         if (!std::holds_alternative<Disconnect::Reply>(reply)) return;
-        session_ = {};
+        forget_session();
         is_open_ = false;
         return connected();
     }
@@ -191,9 +191,15 @@ void RemoteEngine::opened(Connect::Reply const& reply) {
 
 void RemoteEngine::session_ended() {
     give_up("its session has ended");
-    session_ = {};
+    forget_session();
     failures_ = 0;  // it answers
     give_up_link("its session has ended");
+}
+
+// The sub engine has ended the session, so nothing there acts for this engine any more.
+void RemoteEngine::forget_session() {
+    session_ = {};
+    for (auto const& [ref, record] : records_) record->acts_no_more();
 }
 
 // Gives up the session: if it were resumed, it would receive the same document again. Until the session is ended there, ignores
@@ -229,7 +235,7 @@ void RemoteEngine::send_again() {
 }
 
 void RemoteEngine::ask(Operation operation, Then then, CommandId once) {
-    if (session_.text.empty() || is_given_up_ || is_over_) return then(nullptr);
+    if (!can_ask()) return then(nullptr);
     auto const number = ++last_request_;
     auto const document = client::document_of({std::move(operation), std::to_string(number)});
     unanswered_.emplace(number, Unanswered{document, std::move(then), std::move(once)});
@@ -342,9 +348,11 @@ void RemoteEngine::end() {
 }
 
 void RemoteEngine::await_next_attempt() {
-    host_->at(host_->now() + pause_after(failures_++), [self = shared_from_this(), era = era_] {
-        if (self->era_ == era) self->attempt();
-    });
+    bool const may_resume = lost_at_ && host_->now() < *lost_at_ + settings_.window;
+    host_->at(host_->now() + (may_resume ? pause_within_window : pause_after(failures_++)),
+              [self = shared_from_this(), era = era_] {
+                  if (self->era_ == era) self->attempt();
+              });
 }
 
 }  // namespace rois::remote

@@ -26,6 +26,7 @@ public:
     // Change the frame's name, and the robot names in the result `robot_ref`, which are engine names.
     void to_here(Results&) const;
     void to_here(Located&) const;
+    void to_here(std::string& crs) const { change_frame(crs, crs_there_, crs_here_); }
     void to_here(ParameterProfile&) const;
     void to_here(ComponentProfile&) const;
     ParameterList to_there(ParameterList) const;

@@ -41,7 +41,11 @@ std::optional<Objection> why_not_prepared(Preparation& command, std::optional<Co
     if (!answer) return objection(ReturnCode::timeout, did_not_answer(component, deadline) + "; no command has begun");
     if (auto const* refused = std::get_if<Refused>(&*answer)) return objection(ReturnCode::bad_parameter, refused->reason);
     auto* begin = std::get_if<Begin>(&*answer);
-    if (begin == nullptr) return objection(ReturnCode::error, "the component " + quoted(component.ref().code) + " failed");
+    if (begin == nullptr) {
+        auto const* failed = std::get_if<Failed>(&*answer);
+        auto const why = failed == nullptr || failed->reason.empty() ? std::string{} : ": " + failed->reason;
+        return objection(ReturnCode::error, "the component " + quoted(component.ref().code) + " failed" + why);
+    }
     command.begin = std::move(*begin);
     if (component.bound_to != &session) return objection(ReturnCode::error, not_bound(component.ref().code));
     if (begins_action(command.command_type) && component.halts != command.halts)

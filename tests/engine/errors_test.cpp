@@ -168,7 +168,7 @@ TEST_F(Errors, BeforeAnythingRunsAreTheAnswer) {
     robot.throws_in = {"prepare"};
     auto const executed = desk.execute(go(""));
     EXPECT_EQ(executed.return_code, ReturnCode::error);
-    EXPECT_EQ(executed.reason, "command_unit_list[1]: the component 'navigation' failed");
+    EXPECT_EQ(executed.reason, "command_unit_list[1]: the component 'navigation' failed: prepare went wrong");
     EXPECT_EQ(desk.set_parameter("navigation", {}).return_code, ReturnCode::error);
     EXPECT_THAT(robot.calls, IsEmpty());
     EXPECT_EQ(in_words(desk.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time");

@@ -149,14 +149,101 @@ TEST_F(SubEngines, ShowTheirState) {
 
 TEST_F(SubEngines, LoseNothingIfTheLinkReturnsWithinTheWindow) {
     engines.bind(desk, "hall.navigation");
-    engines.execute(desk, go("go", "hall.navigation"));
+    for (auto const missing : {1000ms, 1800ms, 2700ms}) {
+        engines.execute(desk, go("go " + std::to_string(missing.count()), "hall.navigation"));
+        engines.cut();
+        engines.advance(missing);
+        robot().finishes();
+        engines.repair();
+        engines.advance(1s);
+        EXPECT_THAT(desk.received(), testing::Contains(HasSubstr(" " + std::to_string(missing.count()) + " OK")));
+        EXPECT_EQ(desk.status_of("hall.navigation"), "READY");
+    }
+}
+
+TEST_F(SubEngines, RefuseOperationsAtOnceWhileTheyAreLost) {
+    engines.bind(desk, "hall.navigation");
     engines.cut();
-    engines.advance(1s);
-    robot().finishes();
+    EXPECT_EQ(engines.bind(desk, "hall.speech"), ReturnCode::error);
+    auto const refused = engines.execute(desk, go("go", "hall.navigation"));
+    EXPECT_EQ(refused.return_code, ReturnCode::error);
+    EXPECT_THAT(refused.reason, HasSubstr("its engine is lost"));
+    EXPECT_EQ(engines.ask(desk, Query{"route", {}}).return_code, ReturnCode::error);
     engines.repair();
     engines.advance(1s);
-    EXPECT_THAT(desk.received(), testing::Contains(HasSubstr("completed go OK")));
-    EXPECT_EQ(desk.status_of("hall.navigation"), "READY");
+    EXPECT_EQ(engines.execute(desk, go("later", "hall.navigation")).return_code, ReturnCode::ok);
+}
+
+TEST_F(SubEngines, AloneConfirmThatTheirComponentsStandStill) {
+    engines.bind(desk, "hall.navigation");
+    engines.execute(desk, go("go", "hall.navigation"));
+    engines.hold_back(true);
+    desk.release("hall.navigation");
+    engines.advance(2s);
+    EXPECT_THAT(engines.main.engine->not_halted(), ElementsAre("hall.navigation"));
+    EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::error);
+    engines.hold_back(false);
+    engines.advance(500ms);
+    EXPECT_THAT(engines.main.engine->not_halted(), IsEmpty());
+    EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::ok);
+}
+
+TEST_F(SubEngines, ThatAreLostConfirmNoHalt) {
+    engines.bind(desk, "hall.navigation");
+    engines.execute(desk, go("go", "hall.navigation"));
+    engines.cut();
+    engines.advance(4s);
+    engines.execute(desk, named("stop", stop("hall.navigation")));
+    engines.advance(1s);
+    EXPECT_THAT(desk.received(), testing::Contains(HasSubstr("completed stop TIMEOUT")));
+    engines.repair();
+    engines.advance(5s);
+    EXPECT_THAT(engines.main.engine->not_halted(), IsEmpty());
+}
+
+TEST_F(SubEngines, NeedNoHaltIfNothingRuns) {
+    engines.bind(desk, "hall.navigation");
+    engines.execute(desk, go("go", "hall.navigation"));
+    robot().finishes(CompletedStatus::ok, {}, Afterwards::idle);
+    engines.settle();
+    engines.cut();
+    desk.release("hall.navigation");
+    engines.advance(1s);
+    EXPECT_THAT(engines.main.engine->not_halted(), IsEmpty());
+}
+
+TEST_F(SubEngines, HaveTheirParametersRestoredWhenTheyReturn) {
+    engines.bind(desk, "hall.navigation");
+    engines.execute(desk, command("set_parameter", "hall.navigation", {value("time_limit", "int", {"7000"})}));
+    engines.cut();
+    engines.advance(4s);
+    robot().changed_to.clear();
+    engines.repair();
+    engines.advance(5s);
+    ASSERT_NE(find(robot().changed_to, "time_limit"), nullptr);
+    EXPECT_THAT(find(robot().changed_to, "time_limit")->values, ElementsAre("7000"));
+}
+
+// Engines above this one find loops by the instances.
+TEST_F(SubEngines, ShowTheirNewInstanceWhenTheyReturn) {
+    auto const instance = [&] {
+        auto const profile = desk.ask(GetProfile{}).profile;
+        return find_parameter(profile->sub_profiles.at(0).parameters, "instance")->default_value.value();
+    };
+    EXPECT_EQ(instance(), "instance1");
+    engines.falsify = [](Reply& reply) {
+        auto* const answer = std::get_if<GetProfile::Reply>(&reply);
+        if (answer == nullptr) return;
+        auto profile = *answer->profile;
+        for (auto& parameter : profile.parameters)
+            if (parameter.name == "instance") parameter.default_value = "another";
+        answer->profile = std::make_shared<EngineProfile const>(std::move(profile));
+    };
+    desk.received();
+    engines.restart_hall();
+    engines.advance(6s);
+    EXPECT_EQ(instance(), "another");
+    EXPECT_THAT(desk.received(), testing::Contains(HasSubstr("profile_changed")));
 }
 
 TEST_F(SubEngines, AreGivenUpAfterTheWindow) {

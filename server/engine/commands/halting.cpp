@@ -49,7 +49,7 @@ void Executor::await_confirmation(RegisteredComponent& component, Instant now) {
             auto const late = weak.lock();
             if (!late || !late->halting || late->halting->failed) return;
             std::string const reason = "the component did not confirm that it stands still";
-            agenda_.add({late, ErrorType::component_not_responding, reason});
+            late->report(ErrorType::component_not_responding, reason, Report::each);
             halt_failed(*late, CompletedStatus::timeout, reason, then);
             run_ready(then);
         });
