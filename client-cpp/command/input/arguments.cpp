@@ -50,6 +50,7 @@ ParameterList read_arguments(ComponentProfile const& profile, std::string_view c
         }
         auto const there = std::ranges::find(arguments, declared->name, &Parameter::name);
         auto& argument = there != arguments.end() ? *there : arguments.emplace_back(declared->name, declared->data_type_ref);
+        argument.data_type_ref.codebook_ref.clear();  // positions are in the engine's frame, as in the answers to queries
         add_value(argument, DataType::of(declared->data_type_ref), text.substr(sign + 1));
     }
     for (auto const& argument : arguments) {
