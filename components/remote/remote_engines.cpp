@@ -172,7 +172,12 @@ private:
     };
     std::map<std::string, Joined> joined_;  // by name
     std::shared_ptr<JoinAcceptor> const acceptor_ =
-        std::make_shared<JoinAcceptor>(loop_, host_.schemas, [this](xml::Join const& join) { return joining(join); });
+        std::make_shared<JoinAcceptor>(loop_, host_.schemas, [this](xml::Join const& join) {
+            auto found = joining(join);
+            if (auto const* reason = std::get_if<std::string>(&found))
+                host_.report("an engine that joins", "refused: " + *reason);
+            return found;
+        });
     std::shared_ptr<Joiner> joiner_;  // null: this engine joins none
 };
 

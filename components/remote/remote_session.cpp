@@ -256,7 +256,10 @@ void RemoteEngine::give_signs_of_life(std::uint64_t era) {
     host_->at(now + between_signs_of_life, [self = shared_from_this(), era] { self->give_signs_of_life(era); });
 }
 
-void RemoteEngine::failed(std::string const& reason, client::Failure) { give_up_link(reason); }
+void RemoteEngine::failed(std::string const& reason, client::Failure failure) {
+    if (failure == client::Failure::invalid) give_up(reason);  // resumed, the session would receive the same again
+    give_up_link(reason);
+}
 
 // The session goes on if the link returns within the window. The sub engine counts the same time.
 void RemoteEngine::give_up_link(std::string const& reason) {

@@ -46,6 +46,15 @@ TEST_F(ALyingSubEngine, UnrequestedAnswersAreIgnored) {
     EXPECT_THAT(engines.hall["navigation"].calls, testing::Contains("start"));
 }
 
+TEST_F(ALyingSubEngine, IsLeftAtOnceIfItSendsNoMessage) {
+    engines.cut(client::Failure::invalid);
+    engines.advance(50ms);
+    EXPECT_EQ(desk.status_of("hall.navigation"), "ERROR");
+    engines.repair();
+    engines.advance(2s);
+    EXPECT_EQ(desk.status_of("hall.navigation"), "READY");
+}
+
 TEST_F(ALyingSubEngine, EndsEachCommandOnce) {
     engines.bind(desk, "hall.navigation");
     engines.execute(desk, go("go", "hall.navigation"));

@@ -42,9 +42,9 @@ public:
         engines_.on_links([&] { listener_->document(document); });
     }
     std::uint64_t next_sequence() { return after_ + 1'000'000 + ++injected_; }
-    void broke() {
+    void broke(client::Failure failure) {
         close();
-        engines_.on_links([&] { fail("the link broke", client::Failure::passing); });
+        engines_.on_links([&] { fail("the link broke", failure); });
     }
     bool is_dead() const { return listener_ == nullptr; }
 
@@ -263,9 +263,9 @@ void TwoEngines::inject(Notification const& notification) {
            xml::notification_tail(notification));
 }
 
-void TwoEngines::cut() {
+void TwoEngines::cut(client::Failure failure) {
     is_broken_ = true;
-    if (wire_ && !wire_->is_dead()) wire_->broke();
+    if (wire_ && !wire_->is_dead()) wire_->broke(failure);
 }
 
 void TwoEngines::restart_hall() {

@@ -53,7 +53,7 @@ public:
     }
 
     // Breaks the link. It cannot be opened before `repair`.
-    void cut();
+    void cut(client::Failure = client::Failure::passing);
     void repair() { is_broken_ = false; }
     // The hall's process is killed, and begins again.
     void restart_hall();

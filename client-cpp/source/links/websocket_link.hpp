@@ -177,7 +177,8 @@ private:
     void broke(error_code error) {
         auto const& closed = stream_.reason();
         if (!closed) {
-            fail("the link broke: " + error.message(), Failure::passing);
+            bool const invalid = error == websocket::error::bad_frame_payload;
+            fail("the link broke: " + error.message(), invalid ? Failure::invalid : Failure::passing);
             return;
         }
         fail("the gateway closed the link: " + std::string{closed.reason.c_str()},
