@@ -5,9 +5,11 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "kit/profile_folder.hpp"
@@ -17,6 +19,7 @@
 namespace rois::test {
 namespace {
 
+using namespace std::string_literals;
 using testing::Contains;
 using testing::Each;
 using testing::HasSubstr;
@@ -151,6 +154,33 @@ TEST(Engines, AreListedWithTheirStates) {
     }
     EXPECT_THAT(list(), HasSubstr("<last_error>"));
     EXPECT_EQ(HttpClient{}.get("/rois/engines").body, R"(<engines xmlns="urn:x-rois:psm:xml:message:1"/>)");
+}
+
+// An engine above these sub engines: names and URLs.
+class Above {
+public:
+    explicit Above(std::vector<std::pair<std::string, std::string>> const& engines) {
+        std::string entries;
+        for (auto const& [name, url] : engines)
+            entries += (entries.empty() ? "" : ", ") + R"({"name": ")"s + name + R"(", "url": ")" + url + R"("})";
+        folder_.put("engines.json", R"({"engines": [)" + entries + "]}");
+        gateway_.emplace(std::vector<std::string>{"--robots", "none", "--engines", folder_.name() + "/engines.json"});
+    }
+    GatewayProcess& gateway() { return *gateway_; }
+
+private:
+    kit::ProfileFolder folder_;
+    std::optional<GatewayProcess> gateway_;
+};
+
+std::string websocket_url(GatewayProcess const& gateway) { return "ws" + gateway.url().substr(std::string_view{"http"}.size()); }
+
+TEST(Engines, ThatAreReachedOnTwoPathsAreRefused) {
+    GatewayProcess hall;
+    Above middle{{{"hall", websocket_url(hall)}}};
+    middle.gateway().log_with("present with");
+    Above top{{{"direct", websocket_url(hall)}, {"via", websocket_url(middle.gateway())}}};
+    EXPECT_THAT(top.gateway().log_with("is the same engine, or has it"), HasSubstr("is the same engine, or has it"));
 }
 
 // The program ignores SIGTERM, as does the process that it has started and whose id it says.
