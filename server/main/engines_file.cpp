@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -12,11 +13,13 @@
 #include <sstream>
 
 #include "engine/frames/frames.hpp"
+#include "gateway/access/host_names.hpp"
 #include "main/configuration_file.hpp"
 #include "main/json_file.hpp"
 #include "main/settings.hpp"
 #include "types/text/listing.hpp"
 #include "types/text/texts.hpp"
+#include "types/text/to_number.hpp"
 
 namespace rois {
 
@@ -26,26 +29,7 @@ using nlohmann::json;
 using remote::SubEngine;
 
 constexpr std::size_t longest_name = 64;
-
-// Returns where the text of each entry of the list begins: in this file, the objects inside of the first list.
-std::vector<std::size_t> begins_of_entries(std::string const& text) {
-    std::vector<std::size_t> begins;
-    int depth = 0;
-    for (std::size_t at = 0; at < text.size(); ++at) {
-        if (text.compare(at, 2, "//") == 0) {
-            at = std::min(text.find('\n', at), text.size());
-        } else if (text[at] == '"') {
-            for (++at; at < text.size() && text[at] != '"'; ++at)
-                if (text[at] == '\\') ++at;
-        } else if (text[at] == '{') {
-            ++depth;
-            if (depth == 2) begins.push_back(at);
-        } else if (text[at] == '}') {
-            --depth;
-        }
-    }
-    return begins;
-}
+constexpr std::array<std::string_view, 4> schemes{"ws", "wss", "http", "https"};
 
 // Thrown for a wrong value: the expected one.
 struct Expected {
@@ -69,14 +53,12 @@ std::string url_of(json const& value) {
 }
 
 std::vector<std::string> refs_of(json const& value) {
-    std::vector<std::string> refs;
-    bool fits = value.is_array() && !value.empty();
-    for (auto const& each : value) {
-        fits = fits && each.is_string();
-        if (fits) refs.push_back(each.get<std::string>());
+    auto const is_ref = [](json const& each) { return each.is_string() && !each.get_ref<std::string const&>().empty(); };
+    if (value.is_array() && !value.empty() && std::ranges::all_of(value, is_ref)) {
+        auto refs = value.get<std::vector<std::string>>();
+        if (std::set<std::string>{refs.begin(), refs.end()}.size() == refs.size()) return refs;
     }
-    if (!fits) throw Expected{R"(a list of refs of components, such as ["navigation", "speech"])"};
-    return refs;
+    throw Expected{R"(a list of different refs of components, none of them empty, such as ["navigation", "speech"])"};
 }
 
 std::vector<std::string> command_of(json const& value) {
@@ -160,9 +142,10 @@ std::vector<Property> const& properties() {
              placement(engine).covariance =
                  numbers_of(value, {9, 36}, "9 numbers (x, y, yaw) or 36 (x, y, z, roll, pitch, yaw), in mm and degrees");
          }},
-        {"window", [](SubEngine& engine, json const& value) { engine.window = seconds_of(value, 1, 60); }},
+        // A gateway with default settings refuses other windows and leases.
+        {"window", [](SubEngine& engine, json const& value) { engine.window = seconds_of(value, 1, 30); }},
         {"resume_window", [](SubEngine& engine, json const& value) { engine.resume_window = seconds_of(value, 1, 86'400); }},
-        {"motion_lease", [](SubEngine& engine, json const& value) { engine.motion_lease = seconds_of(value, 0.5, 3'600); }},
+        {"motion_lease", [](SubEngine& engine, json const& value) { engine.motion_lease = seconds_of(value, 1, 2); }},
         {"most_components", [](SubEngine& engine, json const& value) { engine.most_components = number_of(value, 1, 100'000); }},
         {"longest_document", [](SubEngine& engine, json const& value) {
              engine.longest_document = number_of(value, 100'000, remote::largest_document);
@@ -225,12 +208,23 @@ SubEngine read(json const& entry, std::filesystem::path const& folder,
 
 }  // namespace
 
+// Follows the rules of client::read_url, which this layer may not use.
 bool is_gateway_url(std::string_view text) {
-    return std::ranges::any_of(std::array<std::string_view, 4>{"ws://", "wss://", "http://", "https://"},
-                               [&](auto scheme) { return text.starts_with(scheme) && text.size() > scheme.size(); });
+    auto const mark = text.find("://");
+    auto const scheme = lower_case(text.substr(0, mark));
+    if (mark == text.npos || std::ranges::find(schemes, scheme) == schemes.end()) return false;
+    auto const rest = text.substr(mark + 3);
+    auto const authority = rest.substr(0, rest.find_first_of("/?#"));
+    if (rest.substr(authority.size()).find_first_of("?# \t\r\n") != rest.npos) return false;
+    auto const after_address = authority.starts_with('[') ? authority.find(']') + 1 : 0;  // npos + 1 is 0
+    auto const colon = std::min(authority.find(':', after_address), authority.size());
+    auto const host = authority.substr(0, colon);
+    if (colon < authority.size() && to_number<std::uint16_t>(authority.substr(colon + 1)).value_or(0) == 0) return false;
+    // Each IP address is an own host.
+    return after_address > 0 ? is_own_host(host, {}) : host_name(host).has_value();
 }
 
-std::vector<SubEngine> read_engines_file(std::string const& file) {
+std::vector<SubEngine> read_engines_file(std::string const& file, TakenNames const& taken) {
     auto const text = text_of_file(file);
     auto const object = parse_json(file, text);
     for (auto const& [name, value] : object.items())
@@ -240,16 +234,21 @@ std::vector<SubEngine> read_engines_file(std::string const& file) {
     if (!object.contains("engines")) throw BadSettings{file + ":1:1: expected \"engines\": [ ... ], a list of sub engines"};
     std::vector<SubEngine> engines;
     std::set<std::string> names, joining;
-    auto const begins = begins_of_entries(text);
+    auto entries = objects_in(text);
+    std::erase_if(entries, [](ObjectInText const& each) { return each.depth != 2; });
     auto const folder = std::filesystem::absolute(file).parent_path();
     for (auto const& entry : object["engines"]) {
         if (!entry.is_object())
             throw BadSettings{file + ":" + place_of_key(text, "engines") + ": each sub engine must be an object, { ... }"};
-        auto const begin = begins[engines.size()];
-        auto const where = [&](std::string const& key) {
-            return file + ":" + place_of_key(text, key, Which::first, begin) + ": ";
-        };
+        auto const& in_text = entries[engines.size()];
+        auto const where = [&](std::string const& key) { return file + ":" + place_of_key(text, in_text, key) + ": "; };
+        if (auto const* twice = in_text.repeated())
+            throw BadSettings{file + ":" + place_of(text, twice->at) + ": " + rois::quoted(twice->name) +
+                              " is given twice in this sub engine"};
         auto& engine = engines.emplace_back(read(entry, folder, where));
+        if (auto const other = taken.find(engine.name); other != taken.end())
+            throw BadSettings{where("name") + "sub engine " + rois::quoted(engine.name) + ": name is already the name of " +
+                              other->second};
         if (!names.insert(engine.name).second)
             throw BadSettings{where("name") + "there are two sub engines with the name " + rois::quoted(engine.name)};
         if (!engine.joins.empty() && !joining.insert(engine.joins).second)

@@ -15,13 +15,18 @@ using nlohmann::json;
 
 namespace {
 
-// "LINE:COLUMN", both from 1; columns count characters.
-std::string place_of(std::string_view text, std::size_t position) {
-    auto const before = text.substr(0, position);
-    auto const line = 1 + std::ranges::count(before, '\n');
-    auto const begin = before.rfind('\n') + 1;  // npos + 1 is 0
-    auto const column = 1 + std::ranges::count_if(before.substr(begin), std::not_fn(continues_character));
-    return std::to_string(line) + ":" + std::to_string(column);
+// Returns the place after the comment that begins here.
+std::size_t end_of_comment(std::string_view text, std::size_t begin) {
+    std::string_view const end = text.substr(begin, 2) == "//" ? "\n" : "*/";
+    auto const at = text.find(end, begin + 2);
+    return at == text.npos ? text.size() : at + end.size();
+}
+
+// Returns the place after the string that begins here.
+std::size_t end_of_string(std::string_view text, std::size_t begin) {
+    auto at = begin + 1;
+    while (at < text.size() && text[at] != '"') at += text[at] == '\\' ? 2 : 1;
+    return std::min(at + 1, text.size());
 }
 
 // Returns where the number, word or string that ends at this position begins. The library reports only the end.
@@ -65,33 +70,62 @@ std::string place_of_number(std::string const& text, json::out_of_range const& e
 
 }  // namespace
 
-std::string place_of_key(std::string const& text, std::string const& key, Which which, std::size_t from) {
-    auto const quoted_key = json(key).dump();
-    auto found = from;
-    for (auto at = text.find(quoted_key, from); at != std::string::npos; at = text.find(quoted_key, at + 1)) {
-        auto const begin = text.rfind('\n', at) + 1;
-        bool const comment = trimmed(std::string_view{text}.substr(begin, at - begin)).starts_with("//");
-        auto const next = text.find_first_not_of(" \t\r\n", at + quoted_key.size());
-        if (comment || next == std::string::npos || text[next] != ':') continue;
-        found = at;
-        if (which == Which::first) break;
+ObjectInText::Key const* ObjectInText::repeated() const {
+    std::set<std::string_view> seen;
+    for (auto const& key : keys)
+        if (!seen.insert(key.name).second) return &key;
+    return nullptr;
+}
+
+std::vector<ObjectInText> objects_in(std::string_view text) {
+    std::vector<ObjectInText> objects;
+    std::vector<std::size_t> open;  // indices of the objects around the position
+    ObjectInText::Key last;         // string: a key if a colon follows
+    for (std::size_t at = 0; at < text.size();) {
+        auto const begin = at++;
+        if (text[begin] == '/') {
+            at = end_of_comment(text, begin);
+        } else if (text[begin] == '"') {
+            at = end_of_string(text, begin);
+            last = {json::parse(text.substr(begin, at - begin)).get<std::string>(), begin};
+        } else if (text[begin] == ':') {
+            objects[open.back()].keys.push_back(last);
+        } else if (text[begin] == '{') {
+            open.push_back(objects.size());
+            objects.push_back({.begin = begin, .depth = open.size(), .keys = {}});
+        } else if (text[begin] == '}') {
+            open.pop_back();
+        }
     }
-    return place_of(text, found);
+    return objects;
+}
+
+std::string place_of(std::string_view text, std::size_t position) {
+    auto const before = text.substr(0, position);
+    auto const line = 1 + std::ranges::count(before, '\n');
+    auto const begin = before.rfind('\n') + 1;  // npos + 1 is 0
+    auto const column = 1 + std::ranges::count_if(before.substr(begin), std::not_fn(continues_character));
+    return std::to_string(line) + ":" + std::to_string(column);
+}
+
+std::string place_of_key(std::string_view text, ObjectInText const& object, std::string_view key) {
+    auto const found = std::ranges::find(object.keys, key, &ObjectInText::Key::name);
+    return place_of(text, found == object.keys.end() ? object.begin : found->at);
+}
+
+std::string place_of_key(std::string_view text, std::string_view key) {
+    return place_of_key(text, objects_in(text).front(), key);
 }
 
 json parse_json(std::string const& file, std::string const& text) {
-    std::set<std::string> seen;
-    std::string twice;
-    auto const note = [&](int depth, json::parse_event_t event, json const& key) {
-        if (depth == 1 && event == json::parse_event_t::key && !seen.insert(key.get<std::string>()).second) twice = key;
-        return true;
-    };
     try {
-        auto parsed = json::parse(text, note, true, true);
-        if (!twice.empty())
-            throw BadSettings{file + ":" + place_of_key(text, twice, Which::last) + ": " + rois::quoted(twice) +
-                              " is given twice"};
-        if (parsed.is_object()) return parsed;
+        auto parsed = json::parse(text, nullptr, true, true);
+        if (parsed.is_object()) {
+            auto const outermost = objects_in(text).front();
+            if (auto const* twice = outermost.repeated())
+                throw BadSettings{file + ":" + place_of(text, twice->at) + ": " + rois::quoted(twice->name) + " is given twice"};
+            return parsed;
+        }
     } catch (json::parse_error const& error) {
         auto position = std::min(error.byte - std::min<std::size_t>(error.byte, 1), text.size());
         auto const cause = cause_of(error);

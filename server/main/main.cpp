@@ -187,11 +187,20 @@ EngineProfile engine_profile(GatewaySettings const& settings, simulation::FloorP
     return profile;
 }
 
+// Returns the names of this engine and its robots: a profile with two engines of the same name is invalid.
+TakenNames names_of_engines(GatewaySettings const& settings, simulation::FloorPlan const& plan) {
+    TakenNames taken{{settings.engine_name, "this engine (engine_name); choose another name"}};
+    if (settings.robots == Robots::simulated)
+        for (auto const& robot : simulation::robot_names(plan))
+            taken.emplace(robot, "a simulated robot; choose another name, or set robots to none");
+    return taken;
+}
+
 // Reads the file of sub engines again. If that fails, logs why and changes nothing.
-void read_again(std::string const& file, remote::RemoteEngines& engines, std::string const& own_url) {
+void read_again(std::string const& file, TakenNames const& taken, remote::RemoteEngines& engines, std::string const& own_url) {
     try {
         spdlog::info("engines: reading {} again after SIGHUP", file);
-        engines.set(read_engines_file(file), own_url);
+        engines.set(read_engines_file(file, taken), own_url);
     } catch (std::exception const& error) {
         spdlog::warn("engines: nothing was changed: {}", error.what());
     }
@@ -214,7 +223,9 @@ int serve(CommandLine const& command) {
     auto const schemas = std::make_shared<xml::Schemas const>(files::schemas());
     auto const profiles = xml::read_component_profiles(schemas, files::profiles());
     auto const simulation = make_simulation(schemas, settings, profiles);
-    auto const sub_engines = settings.engines.empty() ? std::vector<remote::SubEngine>{} : read_engines_file(settings.engines);
+    auto const taken = names_of_engines(settings, simulation->hall().plan());
+    auto const sub_engines =
+        settings.engines.empty() ? std::vector<remote::SubEngine>{} : read_engines_file(settings.engines, taken);
     if (command.wish == CommandLine::Wish::check_config) {
         for (auto const& warning : command.warnings) std::fprintf(stderr, "rois-gateway: warning: %s\n", warning.c_str());
         std::puts("configuration ok");
@@ -272,7 +283,7 @@ int serve(CommandLine const& command) {
     if (!settings.profiles.empty() || !settings.engines.empty())
         server.on_hang_up([&] {
             if (!settings.profiles.empty()) read_again(user_components, gateway);
-            if (!settings.engines.empty()) read_again(settings.engines, *remote_engines, server.url());
+            if (!settings.engines.empty()) read_again(settings.engines, taken, *remote_engines, server.url());
         });
     if (!settings.engines.empty()) remote_engines->set(sub_engines, server.url());
     if (!settings.join.empty()) {
