@@ -20,7 +20,9 @@ struct Group {
 };
 
 Group joining_checks();
-Group checks_of(ComponentEntry const&);  // for one component
+Group checks_of(ComponentEntry const&);  // for one component, with the next two
+Check activity_check_of(ComponentEntry const&);
+std::vector<Check> halting_checks_of(ComponentEntry const&);
 Group link_checks();
 Group ending_checks();
 

@@ -67,6 +67,13 @@ std::optional<std::string> Link::next(Clock::time_point until) {
     return message;
 }
 
+bool Link::ping(std::string const& payload, Clock::time_point until) {
+    socket_.send(kit::whole_frame(kit::Kind::ping, payload, kit::Masked::no));
+    std::unique_lock lock{mutex_};
+    news_.wait_until(lock, until, [&] { return ended_ || pongs_.contains(payload); });
+    return pongs_.contains(payload);
+}
+
 bool Link::has_ended() const {
     std::lock_guard const lock{mutex_};
     return ended_ && messages_.empty();
@@ -88,6 +95,11 @@ void Link::read() {
         kit::mask(*payload, std::string_view{head_bytes}.substr(head_size - 4));
         if (head->kind() == kit::Kind::close) break;
         if (head->kind() == kit::Kind::ping) socket_.send(kit::whole_frame(kit::Kind::pong, *payload, kit::Masked::no));
+        if (head->kind() == kit::Kind::pong) {
+            std::lock_guard const lock{mutex_};
+            pongs_.insert(*payload);
+            news_.notify_all();
+        }
         if (head->kind() != kit::Kind::text && head->kind() != kit::Kind::continuation) continue;
         message += *payload;
         if ((head->first_byte & kit::final_fragment) != 0) take(std::exchange(message, {}));

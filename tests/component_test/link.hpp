@@ -6,6 +6,7 @@
 #include <deque>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -27,6 +28,8 @@ public:
     void send(std::string_view document);
     // Returns the next text message, or nothing if none arrives before the deadline or the link has ended.
     std::optional<std::string> next(Clock::time_point until);
+    // Sends a ping with this payload. Returns whether its pong arrives before the deadline.
+    bool ping(std::string const& payload, Clock::time_point until);
     bool has_ended() const;
     // Ends the connection without a close frame.
     void cut();
@@ -39,6 +42,7 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable news_;
     std::deque<std::string> messages_;
+    std::set<std::string> pongs_;  // payloads
     bool ended_ = false;
     std::thread reader_;
 };

@@ -107,6 +107,9 @@ private:
         } catch (conformance::Skipped const& why) {
             finding.outcome = Outcome::skipped;
             finding.text = why.what();
+        } catch (conformance::NotObservable const& why) {
+            finding.outcome = Outcome::not_observable;
+            finding.text = why.what();
         } catch (std::exception const& why) {
             finding.outcome = Outcome::broken;
             finding.text = why.what();

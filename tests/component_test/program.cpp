@@ -73,8 +73,9 @@ xml::Join Program::await_join() {
     link_.reset();
     pollfd waiting{listener_.descriptor(), POLLIN, 0};
     // The program may pause before it connects again.
-    if (::poll(&waiting, 1, static_cast<int>(3 * patience_.count())) <= 0)
-        fail("the program did not connect to /rois/engines within " + std::to_string(3 * patience_.count()) + " ms");
+    auto const longest = 3 * patience_;
+    if (::poll(&waiting, 1, static_cast<int>(longest.count())) <= 0)
+        fail("the program did not connect to /rois/engines within " + std::to_string(longest.count()) + " ms");
     link_ = std::make_unique<Link>(listener_.accept().value());
     auto const document = link_->next(Clock::now() + patience_);
     if (!document) fail("the program did not send join within " + std::to_string(patience_.count()) + " ms");
@@ -95,7 +96,7 @@ Connect::Reply Program::connect() {
     completed_.clear();
     subscribed_.clear();
     states_.clear();
-    auto reply = ask(Connect{.motion_lease = 1'000ms,
+    auto reply = ask(Connect{.motion_lease = motion_lease,
                              .motion_lease_http = {},
                              .motion_proof = MotionProof::request,
                              .is_engine = true,
@@ -103,6 +104,18 @@ Connect::Reply Program::connect() {
     if (reply.return_code != ReturnCode::ok) fail("connect: " + reply.reason);
     session_ = reply.session;
     return reply;
+}
+
+void Program::disconnect() {
+    auto const reply = ask(Disconnect{});
+    if (reply.return_code != ReturnCode::ok) fail("disconnect: expected OK, got a refusal: " + reply.reason);
+    session_ = {};
+}
+
+void Program::ping() {
+    auto const payload = "ping " + std::to_string(++last_request_);
+    if (!link_ || !link_->ping(payload, Clock::now() + patience_))
+        fail("ping: expected a pong with its payload within " + std::to_string(patience_.count()) + " ms, got none");
 }
 
 void Program::cut() {
@@ -119,21 +132,30 @@ void Program::send(std::string const& document) {
     link_->send(document);
 }
 
-xml::EngineMessage Program::answer_to(Operation operation) {
-    auto const id = std::to_string(++last_request_);
-    auto const* subscribe = std::get_if<Subscribe>(&operation);
-    if (subscribe != nullptr) subscribed_.insert(subscribe->event_type);
-    send(xml::encode(Request{std::move(operation), id}));
+xml::EngineMessage Program::answer_to(Operation operation) { return answers_to({std::move(operation)}).front(); }
+
+std::vector<xml::EngineMessage> Program::answers_to(std::vector<Operation> operations) {
+    auto next = last_request_ + 1;  // the request whose answer must come first
+    for (auto& each : operations) {
+        if (auto const* subscribe = std::get_if<Subscribe>(&each)) subscribed_.insert(subscribe->event_type);
+        send(xml::encode(Request{std::move(each), std::to_string(++last_request_)}));
+    }
+    std::vector<xml::EngineMessage> answers;
+    while (answers.size() < operations.size()) answers.push_back(next_answer(std::to_string(next++)));
+    return answers;
+}
+
+xml::EngineMessage Program::next_answer(std::string const& id) {
     auto const until = Clock::now() + patience_;
     while (Clock::now() < until) {
-        auto const answer = take(until);
+        auto answer = take(until);
         if (!answer && link_has_ended()) fail("the program closed the link before it answered");
         if (!answer) continue;
         auto const* fault = std::get_if<Fault>(&*answer);
         if (fault != nullptr && fault->request_id.empty()) continue;  // answers an earlier, malformed document
         auto const& given = fault != nullptr ? fault->request_id : std::get<xml::Answered>(*answer).request_id;
         if (given != id) fail("expected the answer with request_id " + quoted(id) + ", got " + quoted(given));
-        return *answer;
+        return std::move(*answer);
     }
     fail("the program did not answer within " + std::to_string(patience_.count()) + " ms");
 }
@@ -184,6 +206,7 @@ void Program::check_notification(xml::NumberedNotification const& numbered) {
         fail("expected a notification with sequence " + std::to_string(last_sequence_ + 1) + ", got " +
              std::to_string(numbered.sequence));
     last_sequence_ = numbered.sequence;
+    if (session_.text.empty()) fail("unexpected notification: there is no session");
     std::visit([this](auto const& each) { check_notification(each); }, numbered.notification);
 }
 
@@ -194,6 +217,7 @@ void Program::check_notification(Completed const& completed) {
     auto const& [ref, name] = command->second;
     if (!completed_.emplace(id, completed).second) fail("unexpected second `completed` of " + quoted(name));
     auto const* message = find_message(profile_of(ref), MessageKind::command, name);
+    if (!completed.active) fail("`completed` of " + quoted(name) + ": expected active=\"true\" or active=\"false\"");
     if (!completed.results) fail("`completed` of " + quoted(name) + ": expected an element results");
     if (auto const why = why_not(*completed.results, message == nullptr ? std::vector<ParameterProfile>{} : message->results);
         !why.empty())
@@ -205,8 +229,17 @@ void Program::check_notification(ReceiveEvent const& event) {
     auto const* message = find_message(profile_of(event.component_ref.code), MessageKind::event, type);
     if (message == nullptr) fail("the profile lacks the event " + quoted(type));
     if (!subscribed_.contains(type)) fail("unexpected event " + quoted(type) + " without a subscription");
+    if (!reported_.insert(event.event_id.text).second)
+        fail("event " + quoted(type) + ": expected a new event_id, got " + quoted(event.event_id.text) + " again");
+    ++events_[event.component_ref.code];
     if (!event.results) fail("event " + quoted(type) + ": expected inline results");
     if (auto const why = why_not(*event.results, message->results); !why.empty()) fail("event " + quoted(type) + ": " + why);
+}
+
+void Program::check_notification(ReceiveError const& error) {
+    if (!reported_.insert(error.error_id.text).second)
+        fail("error: expected a new error_id, got " + quoted(error.error_id.text) + " again");
+    if (error.component_ref) ++errors_[error.component_ref->code];
 }
 
 void Program::check_notification(ComponentChanged const& changed) {

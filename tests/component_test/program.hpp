@@ -20,6 +20,7 @@ namespace rois::component_test {
 
 constexpr std::chrono::milliseconds window{1'000};
 constexpr std::chrono::milliseconds longest_halt{500};
+constexpr std::chrono::milliseconds motion_lease{1'000};
 
 // All functions throw Broken if the program violates docs/component-programs.md.
 class Program {
@@ -36,6 +37,10 @@ public:
     xml::Join await_join();
     // Sends `connect`, which opens a session on a new link.
     Connect::Reply connect();
+    // Sends `disconnect`, which ends the session. The link stays.
+    void disconnect();
+    // Sends a ping, and waits for its pong.
+    void ping();
     void cut();
     // Ends the session and the link after a broken rule, so that the next check begins with new ones.
     void abandon_link();
@@ -53,6 +58,8 @@ public:
     }
     // Sends the request, and returns its answer or fault.
     xml::EngineMessage answer_to(Operation);
+    // Sends the requests without a pause between them, and waits for their answers in this order.
+    std::vector<xml::EngineMessage> answers_to(std::vector<Operation>);
     void send(std::string const& document);
 
     // Executes one command. If the program refuses it, the reply has the reason.
@@ -64,6 +71,12 @@ public:
                     bool check_only = false);
     // Waits until a command completes.
     Completed completed(std::string const& id, std::chrono::milliseconds within);
+    bool has_completed(std::string const& id) const { return completed_.contains(id); }
+    // The number of events and errors of a component until now.
+    std::size_t events_of(std::string const& ref) const { return number(events_, ref); }
+    std::size_t errors_of(std::string const& ref) const { return number(errors_, ref); }
+    // By the ref of each component: whether it reports no events while nothing runs, if a check has measured it.
+    std::map<std::string, bool>& quiet() { return quiet_; }
     bool has_subscribed(std::string const& event_type) const { return subscribed_.contains(event_type); }
 
     // Reads notifications for this time. Throws Broken if an answer arrives: no request is open.
@@ -83,12 +96,17 @@ public:
     [[noreturn]] static void fail(std::string const& what);
 
 private:
+    using Numbers = std::map<std::string, std::size_t>;  // by the ref of the component
+
+    static std::size_t number(Numbers const& of, std::string const& ref) { return of.contains(ref) ? of.at(ref) : 0; }
     // Reads one message. Returns an answer or a fault. Returns nothing after a notification, or if no message arrives before the
     // deadline.
     std::optional<xml::EngineMessage> take(Clock::time_point until);
+    // Waits for an answer, which must be that of this request.
+    xml::EngineMessage next_answer(std::string const& id);
     void check_notification(xml::NumberedNotification const&);
     void check_notification(ReceiveEvent const&);
-    void check_notification(ReceiveError const&) {}
+    void check_notification(ReceiveError const&);
     void check_notification(Completed const&);
     void check_notification(Lost const&) {}
     void check_notification(ProfileChanged const&) {}
@@ -111,6 +129,9 @@ private:
     std::vector<ComponentEntry> components_;
     std::map<std::string, std::pair<std::string, std::string>> commands_;  // id -> component and command
     std::map<std::string, Completed> completed_;
+    std::set<std::string> reported_;  // ids of events and errors
+    Numbers events_, errors_;
+    std::map<std::string, bool> quiet_;
     std::set<std::string> subscribed_;
     std::set<std::string> states_;
 };

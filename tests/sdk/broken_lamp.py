@@ -25,10 +25,10 @@ def replace(owner, name):
 
 if variant == "answers_twice":
 
-    @replace(Service, "reply")
-    def reply(old, self, *arguments, **named):
-        old(self, *arguments, **named)
-        old(self, *arguments, **named)
+    @replace(Service, "answer")
+    def answer(old, self, request, document):
+        old(self, request, document)
+        self.socket.send(document.encode())
 
 elif variant == "answers_without_request_id":
 
@@ -156,6 +156,96 @@ elif variant == "ignores_the_end":
         asyncio.get_running_loop().remove_signal_handler(signal.SIGTERM)
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
         await old(service, url)
+
+elif variant == "keeps_its_session_after_disconnect":
+
+    @replace(Service, "on_disconnect")
+    async def on_disconnect(old, self, request):
+        self.reply("disconnect", request)
+
+elif variant == "goes_on_after_its_session":
+
+    @replace(Service, "end_session")
+    async def end_session(old, self):
+        self.session = ""
+        self.subscribed.clear()
+
+elif variant == "goes_on_after_release":
+
+    @replace(Service, "on_release")
+    async def on_release(old, self, request):
+        self.reply("release", request)
+
+elif variant == "goes_on_after_stop":
+
+    @replace(Lamp, "blink")
+    async def blink(old, self, arguments):
+        await asyncio.shield(asyncio.ensure_future(old(self, arguments)))
+
+elif variant == "stays_on_after_stop":
+
+    @replace(Lamp, "halt")
+    async def halt(old, self):
+        pass
+
+elif variant == "reports_no_active_function":
+    Lamp.continuous = False
+
+elif variant == "switches_on_when_it_checks":
+
+    @replace(Lamp, "check")
+    def check(old, self, command, arguments):
+        old(self, command, arguments)
+        self.switch(True)
+
+elif variant == "accepts_a_fraction":
+
+    @replace(rois, "read_value")
+    def read_value(old, what, code, texts, is_default=False):
+        return int(float(texts[0])) if code == "int" else old(what, code, texts, is_default)
+
+elif variant == "answers_a_query_late":
+
+    @replace(Service, "on_query")
+    async def on_query(old, self, request):
+        self.answers.pop(request)  # later answers do not wait
+
+        async def later():
+            await asyncio.sleep(0.3)
+            self.answers[request] = None
+            await old(self, request)
+
+        asyncio.ensure_future(later())
+
+elif variant == "reports_each_event_twice":
+
+    @replace(Service, "notify")
+    def notify(old, self, element, *arguments, **named):
+        for _ in range(2 if element == "receive_event" else 1):
+            old(self, element, *arguments, **named)
+
+elif variant == "ignores_pings":
+
+    @replace(rois.WebSocket, "send")
+    def send(old, self, payload, opcode=1):
+        if opcode != 10:
+            old(self, payload, opcode)
+
+elif variant == "moves":
+    Lamp.moves = True  # breaks no rule
+
+elif variant == "moves_without_signs_of_life":
+
+    @replace(Service, "on_connect")
+    async def on_connect(old, self, request):
+        await old(self, request)
+        Lamp.moves = False
+
+    @replace(Service, "on_get_profile")
+    async def on_get_profile(old, self, request):
+        Lamp.moves = True
+        await old(self, request)
+        Lamp.moves = False
 
 else:
     sys.exit(f"unknown variant {variant}")

@@ -50,14 +50,31 @@ breaks never_ends_its_session ends_its_session_after_the_window
 breaks keeps_its_session_for_a_new_engine opens_a_new_session_for_a_restarted_engine
 breaks sends_an_invalid_document keeps_its_session_after_a_second_connect
 breaks ignores_the_end ends_on_sigterm
+breaks keeps_its_session_after_disconnect ends_its_session_on_disconnect
+breaks goes_on_after_its_session disconnect_ends_blink
+breaks goes_on_after_release release_ends_blink
+breaks goes_on_after_stop stop_ends_blink
+breaks reports_no_active_function reports_in_active_whether_start_began_a_function
+breaks switches_on_when_it_checks does_not_run_blink_with_check_only
+breaks accepts_a_fraction refuses_an_invalid_times_of_blink
+breaks answers_a_query_late answers_requests_behind_the_query_light_in_order
+breaks reports_each_event_twice completes_start_once
+breaks ignores_pings answers_a_ping
+breaks moves_without_signs_of_life is_halted_without_signs_of_life
+judge session_end --only ends_its_session_after_the_window python3 -B "$here/broken_lamp.py" goes_on_after_its_session
+judge stays_on --only reports_in_active python3 -B "$here/broken_lamp.py" stays_on_after_stop
+judge moving --only is_halted python3 -B "$here/broken_lamp.py" moves
 wait
 
 for lamp in python cpp; do
     [[ $(<"$work/$lamp.status") == 0 ]] || fail "the lamp in $lamp: exit code $(<"$work/$lamp.status")" "$work/$lamp"
-    grep -q ' 0 found a broken rule, 0 not played' "$work/$lamp" || fail "the lamp in $lamp" "$work/$lamp"
+    grep -q ' 0 found a broken rule, 0 not played, 0 not observable' "$work/$lamp" || fail "the lamp in $lamp" "$work/$lamp"
     grep -q '<testsuite name="Component lamp"' "$work/$lamp.xml" || fail "no JUnit report" "$work/$lamp.xml"
 done
 grep -q ' checks held, 0 found a broken rule' "$work/robot" || fail "the robot" "$work/robot"
+grep -q 'BROKEN *ends_its_session_after_the_window ' "$work/session_end" || fail "goes_on_after_its_session" "$work/session_end"
+grep -q 'not observable *reports_in_active_whether_start_began_a_function ' "$work/stays_on" || fail "stays_on_after_stop" "$work/stays_on"
+grep -q 'holds *is_halted_without_signs_of_life ' "$work/moving" || fail "moves" "$work/moving"
 for each in "${checks[@]}"; do
     read -r variant check <<<"$each"
     grep -q "BROKEN *$check " "$work/$variant" || fail "$variant: expected a broken $check" "$work/$variant"
