@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Plays the sections of README.md with a second robot and a component in Python, word for word, but on free ports.
+# Plays the sections of README.md with a second robot and a component in Python, word for word, but on free ports. Each section runs
+# in a shell of its own, with the PATH of the system, in a folder like a fresh clone whose build is up to date.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 work=$(mktemp -d)
@@ -7,25 +8,39 @@ trap 'rm -rf "$work"' EXIT
 
 free_ports() { python3 -c 'import socket; all = [socket.socket() for _ in range(2)]; [one.bind(("127.0.0.1", 0)) for one in all]; print(*(one.getsockname()[1] for one in all))'; }
 
-# play SECTION EXPECTED...: the lines of the section print these texts.
+# Makes a folder with the files of the project. Its build folder is that of this test.
+make_clone() {
+    local each
+    rm -rf "$work/clone"
+    mkdir -p "$work/clone/build"
+    for each in "$root"/*; do
+        case ${each##*/} in build | engines.json) ;; *) ln -s "$each" "$work/clone/" ;; esac
+    done
+    ln -s "$ROIS_BINARY_DIR" "$work/clone/build/release"
+}
+
+# play SECTION EXPECTED...: the lines of the section print these texts, and end all that they have started.
 play() {
-    local section=$1 first second
+    local section=$1 first second status=0
     shift
     read -r first second < <(free_ports)
-    awk -v title="## $section" '/^## / { here = $0 == title } here && /^```/ { block = !block; next } here && block' "$root/README.md" |
-        sed "s|build/release/|$ROIS_BINARY_DIR/|
-            s|^./dev run|$ROIS_BINARY_DIR/bin/rois-gateway --listen 127.0.0.1:8080 --media ''|
-            s|components/|$root/components/|; s|lamp.py|& --url ws://127.0.0.1:8080|; s/8080/$first/g; s/8081/$second/g" >"$work/session.sh"
-    [ "$(wc -l <"$work/session.sh")" -ge 5 ] || { echo "README.md has no lines in '$section'" >&2; exit 1; }
+    make_clone
+    {
+        echo "trap 'kill \$(jobs -p) 2>/dev/null' EXIT"
+        awk -v title="## $section" '/^## / { here = $0 == title } here && /^```/ { block = !block; next } here && block' "$root/README.md" |
+            sed "s/8080/$first/g; s/8081/$second/g"
+        echo wait
+    } >"$work/session.sh"
+    [ "$(wc -l <"$work/session.sh")" -ge 7 ] || { echo "README.md has no lines in '$section'" >&2; exit 1; }
     (
-        cd "$work"
-        export PATH=$ROIS_BINARY_DIR/bin:$PATH ROIS_URL=http://127.0.0.1:$first
-        echo "trap 'kill \$(jobs -p)' EXIT" | cat - session.sh >ending.sh
-        timeout 60 bash ending.sh >printed 2>&1 || true
-    )
+        cd "$work/clone"
+        env -i HOME="$work" PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
+            ROIS_LISTEN="127.0.0.1:$first" ROIS_URL="http://127.0.0.1:$first" timeout 120 bash "$work/session.sh" >"$work/printed" 2>&1
+    ) || status=$?
     for expected in "$@"; do
         grep -qF "$expected" "$work/printed" || { echo "'$section' did not print '$expected', but:" >&2; cat "$work/printed" >&2; exit 1; }
     done
+    [ "$status" = 0 ] || { echo "'$section': exit code $status, after:" >&2; cat "$work/printed" >&2; exit 1; }
 }
 play "A second robot" "start robot2.speech_synthesis  OK"
 play "Your own component in Python" "blink lamps.lamp  OK" "is_on  bool  false"
