@@ -85,6 +85,13 @@ TEST(Arguments, HaveTheTypesOfTheProfile) {
     EXPECT_TRUE(read_arguments(profile(), "start", {"places="})[0].values.empty());
 }
 
+// Otherwise "1, 2, 3" would be in the frame of the component's own engine, while answers to queries are in this engine's.
+TEST(Arguments, NameNoFrame) {
+    auto placed = profile();
+    placed.parameters[0].data_type_ref.codebook_ref = "urn:x-rois:def:crs:map::hall";
+    EXPECT_EQ(read_arguments(placed, "start", {"places=1, 2, 3"})[0].data_type_ref.codebook_ref, "");
+}
+
 void expect_refused(std::vector<std::string> const& given, std::string const& says) {
     try {
         read_arguments(profile(), "start", given);
