@@ -1,0 +1,481 @@
+"""Tests of components/sdk/python/rois_component.py with an engine that the test plays."""
+import asyncio
+import logging
+import pathlib
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from fake_engine import Engine, patience, rois
+
+TYPES = {"flag": "bool", "moment": "DateTime", "day": "Date", "clock": "Time", "count": "int", "size": "double", "text": "string", "counts": "int[]"}
+
+
+def message(kind, name, parameters="", element="Arguments"):
+    inner = "".join(f'<rois:{element} rois:name="{key}"><rois:data_type_ref rois:code="{code}"/></rois:{element}>' for key, code in parameters)
+    return f'<rois:MessageProfile xsi:type="rois:{kind}MessageProfileType" rois:name="{name}">{inner}</rois:MessageProfile>'
+
+
+class Machine(rois.Component):
+    """A component whose functions the test replaces."""
+
+    profile = (
+        f'<rois:HRIComponentProfile xmlns:rois="{rois.R[1:-1]}" xmlns:gml="{rois.GML[1:-1]}" xmlns:xsi="{rois.XSI[1:-1]}" gml:id="profile.machine">'
+        "<gml:identifier>urn:x-example:def:component:Machine</gml:identifier><gml:name>machine</gml:name>"
+        "<rois:SubComponentProfile>urn:x-rois:def:component:OMG::RoISCommon</rois:SubComponentProfile>"
+        + message("Command", "take", TYPES.items())
+        + message("Command", "set_parameter", [("level", "int")])
+        + message("Query", "state", [("is_on", "bool")], "Results")
+        + message("Query", "numbers", [("all", "int[]")], "Results")
+        + message("Event", "switched", [("number", "int")], "Results")
+        + '<rois:ParameterProfile rois:name="level" rois:default_value="1"><rois:data_type_ref rois:code="int"/></rois:ParameterProfile>'
+        "</rois:HRIComponentProfile>"
+    )
+    continuous = True
+
+    def __init__(self, ref):
+        super().__init__(ref)
+        self.taken, self.halts, self.levels = [], 0, []
+
+    async def take(self, arguments):
+        self.taken.append(arguments)
+
+    async def set_parameter(self, arguments):
+        self.levels.append(arguments["level"])
+
+    async def halt(self):
+        self.halts += 1
+
+    def state(self):
+        return {"is_on": True}
+
+    def numbers(self):
+        return {"all": [1, 2, 3]}
+
+
+def fail_with(problem):
+    async def fail(*arguments):
+        raise problem
+
+    return fail
+
+
+def wait_for(seconds):
+    async def wait(*arguments):
+        await asyncio.sleep(seconds)
+
+    return wait
+
+
+async def until(condition):
+    for _ in range(patience * 100):
+        if condition():
+            return
+        await asyncio.sleep(0.01)
+    raise AssertionError("the condition did not become true")
+
+
+class ModuleTest(unittest.IsolatedAsyncioTestCase):
+    async def asyncSetUp(self):
+        logging.disable(logging.CRITICAL)
+        self.engine = await Engine().open()
+        self.a, self.b = Machine("a"), Machine("b")
+        self.service = rois.Service("machines", [self.a, self.b])
+        self.program = asyncio.ensure_future(rois.keep_joined(self.service, self.engine.url))
+        self.link = await self.engine.link()
+
+    async def asyncTearDown(self):
+        self.a.halt = self.b.halt = wait_for(0)
+        self.program.cancel()
+        await asyncio.wait([self.program])
+        self.engine.close()
+
+    async def completed(self, id, status):
+        return await self.link.report("completed", command_id=id, status=status)
+
+    def assert_ok(self, answer):
+        self.assertEqual(answer.get("return_code"), "OK", rois.ElementTree.tostring(answer))
+
+
+class Failures(ModuleTest):
+    async def test_an_exception_in_check_answers_with_error_and_its_text(self):
+        await self.link.connect()
+
+        def check(command, arguments):
+            raise KeyError("oops")
+
+        self.a.check = check
+        answer = await self.link.execute("a", "take")
+        self.assertEqual(answer.get("return_code"), "ERROR")
+        self.assertIn("oops", answer.findtext(rois.M + "reason"))
+        self.assert_ok(await self.link.execute("b", "take"))
+
+    async def test_check_cannot_refuse_a_stop(self):
+        await self.link.connect()
+
+        def check(command, arguments):
+            raise rois.Refused("never")
+
+        self.a.check = check
+        self.assert_ok(await self.link.execute("a", "stop"))
+        await self.completed("stop", "OK")
+
+    async def test_an_exception_in_halt_is_reported_and_ends_stop_with_error(self):
+        await self.link.connect()
+        self.a.halt = fail_with(RuntimeError("motor"))
+        self.assert_ok(await self.link.execute("a", "stop"))
+        end = await self.completed("stop", "ERROR")
+        self.assertIn("motor", end.findtext(rois.M + "reason"))
+        error = await self.link.report("receive_error", error_type="COMPONENT_INTERNAL_ERROR")
+        self.assertIn("motor", error.findtext(rois.M + "text"))
+
+    async def test_an_oserror_of_a_component_does_not_end_the_link(self):
+        session = await self.link.connect()
+        self.a.start = self.a.halt = self.a.take = fail_with(ConnectionResetError("serial port"))
+        self.a.check = lambda command, arguments: open("/missing/file") if command == "take" else None
+        self.a.state = lambda: open("/missing/file")
+        self.assert_ok(await self.link.execute("a", "start"))
+        await self.completed("start", "ERROR")
+        self.assert_ok(await self.link.execute("a", "stop"))
+        await self.completed("stop", "ERROR")
+        self.assertEqual((await self.link.execute("a", "take")).get("return_code"), "ERROR")
+        self.assertEqual((await self.link.query("a", "state")).get("return_code"), "ERROR")
+        self.assertEqual(await self.link.connect(), session)
+
+    async def test_all_components_are_halted_when_the_halt_of_one_fails_or_hangs(self):
+        await self.link.connect()
+        for ref in "ab":
+            await self.link.execute(ref, "start")
+        self.a.halt = fail_with(OSError("motor"))
+        self.link.cut()
+        await until(lambda: self.b.halts == 1)
+        self.link = await self.engine.link()
+        await self.link.connect()
+        self.a.halt = wait_for(1)
+        for ref in "ab":
+            await self.link.execute(ref, "start")
+        self.link.cut()
+        await until(lambda: self.b.halts == 2)
+
+    async def test_missing_signs_of_life_halt_the_others_when_one_halt_fails(self):
+        self.a.moves = self.b.moves = True
+        await self.link.connect(window=3_000, lease=100)
+        for ref in "ab":
+            await self.link.execute(ref, "start")
+        self.a.halt = fail_with(OSError("motor"))
+        await until(lambda: self.b.halts == 1)
+        self.assertFalse(self.program.done())
+
+    async def test_a_cancelled_halt_is_an_error(self):
+        await self.link.connect()
+        self.a.halt = fail_with(asyncio.CancelledError())
+        await self.link.execute("a", "stop")
+        await self.completed("stop", "ERROR")
+
+    async def test_texts_with_control_characters_are_sent_as_valid_xml(self):
+        await self.link.connect()
+        self.a.take = fail_with(RuntimeError("\x1b[31m"))
+        await self.link.execute("a", "take")
+        await self.completed("take", "ERROR")
+
+    async def test_an_exception_of_the_module_ends_the_program_with_an_exit_code(self):
+        program = (
+            "import sys; sys.path[:0] = sys.argv.pop().split(':'); import module_test, fake_engine; rois = fake_engine.rois\n"
+            "async def watch(self): raise RuntimeError('a mistake in the module')\n"
+            "rois.Service.watch = watch\n"
+            "rois.run('ws://127.0.0.1:9', 'machines', [module_test.Machine('a')])"
+        )
+        here = str(pathlib.Path(__file__).resolve().parent)
+        ended = subprocess.run([sys.executable, "-B", "-c", program, here], capture_output=True, timeout=patience)
+        self.assertEqual(ended.returncode, 1, ended.stderr)
+
+    async def test_sigterm_ends_a_program_whose_query_hangs(self):
+        program = (
+            "import sys; sys.path[:0] = sys.argv.pop().split(':'); import module_test, fake_engine, time\n"
+            "module_test.Machine.state = lambda self: time.sleep(60)\n"
+            f"fake_engine.rois.run('{self.engine.url}', 'machines', [module_test.Machine('a')])"
+        )
+        here = str(pathlib.Path(__file__).resolve().parent)
+        process = subprocess.Popen([sys.executable, "-B", "-c", program, here], stderr=subprocess.DEVNULL)
+        link = await self.engine.link()
+        await link.connect()
+        link.query("a", "state")
+        await asyncio.sleep(0.1)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(await asyncio.get_running_loop().run_in_executor(None, process.wait, patience), 0)
+
+
+class Waiting(ModuleTest):
+    async def test_a_slow_query_delays_neither_pongs_nor_a_stop(self):
+        await self.link.connect()
+        self.a.state = lambda: time.sleep(0.6) or {"is_on": True}
+        began = time.monotonic()
+        answer = self.link.query("a", "state")
+        self.link.send(b"", 9)
+        self.link.execute("b", "stop")
+        await self.completed("stop", "OK")
+        await until(lambda: self.link.pongs == 1)
+        self.assertLess(time.monotonic() - began, 0.5)
+        self.assert_ok(await answer)
+
+    async def test_a_query_may_be_a_coroutine(self):
+        await self.link.connect()
+
+        async def state():
+            await asyncio.sleep(0.01)
+            return {"is_on": False}
+
+        self.a.state = state
+        self.assertEqual(next((await self.link.query("a", "state")).iter(rois.R + "value")).text, "false")
+
+    async def test_answers_keep_the_order_of_their_requests(self):
+        await self.link.connect()
+        self.link.answered.clear()
+        self.a.state = lambda: time.sleep(0.2) or {"is_on": True}
+        await asyncio.gather(self.link.query("a", "state"), self.link.query("b", "state"), self.link.execute("b", "take"))
+        self.assertEqual(self.link.answered, sorted(self.link.answered, key=int))
+        self.assertEqual(len(self.b.taken), 1)
+
+    async def test_a_query_that_hangs_is_answered_with_error(self):
+        await self.link.connect()
+        self.addCleanup(setattr, rois, "longest_query", rois.longest_query)
+        rois.longest_query = 0.1
+        self.a.state = lambda: time.sleep(1)
+        self.assertEqual((await self.link.query("a", "state")).get("return_code"), "ERROR")
+
+    async def test_halts_of_several_components_run_at_once(self):
+        await self.link.connect()
+        self.a.halt = self.b.halt = wait_for(0.3)
+        began = time.monotonic()
+        for ref in "ab":
+            self.link.execute(ref, "stop", id=ref)
+        for ref in "ab":
+            await self.completed(ref, "OK")
+        self.assertLess(time.monotonic() - began, 0.5)
+
+    async def test_a_disconnect_waits_for_halts_at_most_half_a_second(self):
+        await self.link.connect()
+        for ref in "ab":
+            await self.link.execute(ref, "start")
+        self.a.halt, self.b.halt = wait_for(0.1), wait_for(1)
+        began = time.monotonic()
+        self.assert_ok(await self.link.ask("disconnect"))
+        self.assertLess(time.monotonic() - began, 0.9)
+
+    async def test_a_command_begins_after_the_halt_before_it(self):
+        await self.link.connect()
+        order = []
+
+        async def halt():
+            await asyncio.sleep(0.1)
+            order.append("halt")
+
+        async def start(arguments):
+            order.append("start")
+
+        self.a.halt, self.a.start = halt, start
+        self.link.execute("a", "stop")
+        self.link.execute("a", "start")
+        await self.completed("start", "OK")
+        self.assertEqual(order, ["halt", "start"])
+
+    async def test_a_start_and_a_stop_in_one_packet_both_complete(self):
+        await self.link.connect()
+        self.a.start = wait_for(patience)
+        self.link.execute("a", "start")
+        self.link.execute("a", "stop")
+        await self.completed("stop", "OK")
+        await self.completed("start", "ABORT")
+
+
+class Sessions(ModuleTest):
+    async def test_connect_after_disconnect_opens_a_new_session_on_the_same_link(self):
+        first = await self.link.connect()
+        self.assert_ok(await self.link.ask("disconnect"))
+        self.link.reports.clear()
+        second = await self.link.connect()
+        self.assertNotIn(second, (None, "", first))
+        await self.link.report("component_changed")
+        await self.link.execute("a", "take")
+        await self.completed("take", "OK")
+
+    async def test_a_closed_link_ends_the_session_one_window_later(self):
+        await self.link.connect(window=300)
+        await self.link.execute("a", "start")
+        self.link.cut()
+        cut = time.monotonic()
+        await until(lambda: self.a.halts == 1)
+        self.assertGreater(time.monotonic() - cut, 0.25)
+        self.assertLess(time.monotonic() - cut, 1)
+        self.assertEqual(self.service.session, "")
+
+    async def test_a_silent_link_ends_two_seconds_and_one_window_after_the_last_byte(self):
+        await self.link.connect(window=300)
+        await self.link.execute("a", "start")
+        self.service.socket.last_received -= 2
+        await asyncio.sleep(0.15)
+        self.assertEqual(self.a.halts, 0)
+        await until(lambda: self.a.halts == 1)
+        await self.engine.link()  # the program joins again
+
+    async def test_a_link_that_returns_within_the_window_brings_what_was_reported(self):
+        session = await self.link.connect(window=1_000)
+        await self.link.subscribe("switched")
+        self.link.cut()
+        await until(lambda: self.service.socket is None)
+        for number in (1, 2):
+            self.a.event("switched", {"number": number})
+        self.link = await self.engine.link()
+        await until(lambda: self.service.socket)
+        self.a.event("switched", {"number": 3})  # before resume: it must not overtake the others
+        self.assert_ok(await self.link.ask("resume", attributes=f'session="{session}" last_sequence="2"'))
+        await until(lambda: self.link.values("switched") == ["1", "2", "3"])
+
+
+class Parameters(ModuleTest):
+    async def test_release_restores_the_defaults(self):
+        await self.link.connect()
+        self.assertEqual(self.a.parameters, {"level": 1})
+        await self.link.execute("a", "set_parameter", level=("int", "7"))
+        await self.completed("set_parameter", "OK")
+        self.assertEqual(self.a.parameters, {"level": 7})
+        self.assert_ok(await self.link.release("a"))
+        self.assertEqual(self.a.parameters, {"level": 1})
+        self.assertEqual(self.a.levels, [7, 1])
+        self.assert_ok(await self.link.release("a"))
+        self.assertEqual(self.a.levels, [7, 1])
+
+    async def test_the_end_of_the_session_restores_the_defaults(self):
+        await self.link.connect()
+        await self.link.execute("a", "start", level=("int", "5"))
+        await self.completed("start", "OK")
+        self.assertEqual(self.a.parameters, {"level": 5})
+        self.link.cut()
+        await until(lambda: self.a.parameters == {"level": 1})
+
+    async def test_a_set_parameter_that_fails_changes_nothing(self):
+        await self.link.connect()
+        self.a.set_parameter = fail_with(OSError("motor"))
+        await self.link.execute("a", "set_parameter", level=("int", "7"))
+        await self.completed("set_parameter", "ERROR")
+        self.assertEqual(self.a.parameters, {"level": 1})
+
+
+class Values(ModuleTest):
+    valid = {
+        "flag": {"true": True, "false": False, " 1 ": True, "0": False},
+        "moment": {"2024-02-29T23:59:59.123Z": "2024-02-29T23:59:59.123Z", "2026-01-01T00:00:00+14:00": "2026-01-01T00:00:00+14:00"},
+        "day": {"2026-11-20": "2026-11-20", "2026-11-20Z": "2026-11-20Z"},
+        "clock": {"12:00:00": "12:00:00", "23:59:59.5-09:30": "23:59:59.5-09:30"},
+        "count": {"-5": -5, "+5": 5, "007": 7, "2147483647": 2147483647},
+        "size": {"1e3": 1000.0, ".5": 0.5, "-1.": -1.0, "INF": float("inf"), "-INF": -float("inf")},
+        "text": {" x ": " x ", "": ""},
+        "counts": {"1 2  3": [1, 2, 3], "": []},
+    }
+    invalid = {
+        "flag": ["no value", "", "True", "yes", "2"],
+        "moment": ["no value", "2026-01-01", "2026-01-01T00:00:00", "2026-13-01T00:00:00Z", "2026-02-29T00:00:00Z", "2026-01-01T24:00:00Z"],
+        "day": ["no value", "2026-02-30", "2026-1-1", "20260101", "2026-01-01T00:00:00Z"],
+        "clock": ["no value", "24:00:00", "12:00", "12:60:00", "12:00:00+15:00"],
+        "count": ["no value", "", "1.5", "1_000", "0x10", "\u0661", "2147483648", "+-1", "1 2"],
+        "size": ["no value", "", "nan", "inf", "1_0", "1e", "1e999", "0x1p3", "infinity"],
+        "counts": ["1 x", "1,2", "1.5"],
+    }
+
+    async def test_valid_values_of_each_type_are_read(self):
+        await self.link.connect()
+        for name, texts in self.valid.items():
+            for text, value in texts.items():
+                self.assert_ok(await self.link.execute("a", "take", **{name: (TYPES[name], text)}))
+                await until(lambda: self.a.taken)
+                self.assertEqual(repr(self.a.taken.pop()[name]), repr(value), text)
+
+    async def test_invalid_values_of_each_type_are_refused(self):
+        await self.link.connect()
+        for name, texts in self.invalid.items():
+            for text in texts:
+                answer = await self.link.execute("a", "take", check_only=True, **{name: (TYPES[name], text)})
+                self.assertEqual(answer.get("return_code"), "BAD_PARAMETER", f"{name}: {text!r}")
+                self.assertIn(TYPES[name], answer.findtext(rois.M + "reason"))
+
+    async def test_other_names_of_types_have_their_ranges(self):
+        for code, lowest, highest in (("xsd:byte", -128, 127), ("unsignedInt", 0, 2**32 - 1), ("urn:x-rois:def:DataType:ATR::Integer", -(2**31), 2**31 - 1)):
+            for number in (lowest, highest):
+                self.assertEqual(rois.read_value("x", code, [str(number)]), number)
+            for number in (lowest - 1, highest + 1):
+                self.assertRaises(rois.Refused, rois.read_value, "x", code, [str(number)])
+        self.assertEqual(rois.read_value("x", "Component_Status", ["READY"]), "READY")
+        self.assertRaises(rois.Refused, rois.read_value, "x", "Component_Status", ["ready"])
+        self.assertRaises(rois.Refused, rois.read_value, "x", "RoISIdentifier", [" "])
+        self.assertEqual(rois.read_value("x", "Set<string>", ["a b", "c"]), ["a b", "c"])
+
+    async def test_a_list_of_numbers_is_one_value(self):
+        await self.link.connect()
+        self.assertEqual([each.text for each in (await self.link.query("a", "numbers")).iter(rois.R + "value")], ["1 2 3"])
+
+
+class Unsent(ModuleTest):
+    async def restart(self):
+        """The next link, to an engine that opens a new session."""
+        self.link = await self.engine.link()
+        await self.link.connect()
+
+    async def test_events_of_the_time_without_a_link_reach_a_restarted_engine(self):
+        await self.link.connect(window=patience * 1_000)
+        await self.link.subscribe("switched")
+        self.a.event("switched", {"number": 1})
+        await until(lambda: self.link.values("switched") == ["1"])
+        self.link.cut()
+        await until(lambda: self.service.socket is None)
+        self.a.event("switched", {"number": 2})
+        await self.restart()
+        self.a.event("switched", {"number": 3})
+        await self.link.subscribe("switched")
+        self.a.event("switched", {"number": 4})
+        await until(lambda: self.link.values("switched") == ["2", "3", "4"])
+        self.assertEqual({each.findtext(rois.M + "subscribe_id") for each in self.link.reports[2:]}, {self.service.subscribed["switched"]})
+
+    async def test_events_after_the_end_of_the_session_wait_for_a_subscription(self):
+        await self.link.connect(window=0)
+        await self.link.subscribe("switched")
+        self.link.cut()
+        await until(lambda: not self.service.session)
+        self.a.event("switched", {"number": 1})
+        await self.restart()
+        await self.link.subscribe("other")
+        self.assertEqual(self.link.values("switched"), [])
+        await self.link.subscribe("switched")
+        self.assertEqual(self.link.values("switched"), ["1"])
+
+    async def test_events_that_have_expired_are_dropped(self):
+        self.a.event("switched", {"number": 1})
+        end, *event = self.service.kept.pop()
+        self.service.kept.append((end - 60, *event))
+        await self.link.connect()
+        await self.link.subscribe("switched")
+        self.assertEqual(self.link.values("switched"), [])
+
+    async def test_a_command_of_an_ended_session_does_not_complete_in_the_next_one(self):
+        await self.link.connect()
+        self.a.start = wait_for(patience)
+        await self.link.execute("a", "start", id="old")
+        self.link.cut()
+        await self.restart()
+        self.assert_ok(await self.link.execute("a", "stop"))
+        await self.completed("stop", "OK")
+        self.assertEqual([each.findtext(rois.M + "command_id") for each in self.link.reports if each.tag == rois.M + "completed"], ["stop"])
+        known = await self.link.ask("get_command_result", "<command_id>old</command_id>")
+        self.assertEqual(known.get("return_code"), "BAD_PARAMETER")
+
+    async def test_a_query_may_report_events_from_its_thread(self):
+        await self.link.connect()
+        await self.link.subscribe("switched")
+        self.a.state = lambda: self.a.event("switched", {"number": 1}) or {"is_on": True}
+        self.assert_ok(await self.link.query("a", "state"))
+        await until(lambda: self.link.values("switched") == ["1"])
+
+
+if __name__ == "__main__":
+    unittest.main(warnings="ignore")
