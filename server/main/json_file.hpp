@@ -17,7 +17,7 @@ nlohmann::json parse_json(std::string const& file, std::string const& text);
 struct ObjectInText {
     struct Key {
         std::string name;
-        std::size_t at;
+        std::size_t at = 0;
     };
     std::size_t begin = 0;  // of its '{'
     std::size_t depth = 1;  // 1: the outermost object

@@ -153,7 +153,6 @@ Check activity_check_of(ComponentEntry const& component) {
 
 std::vector<Check> halting_checks_of(ComponentEntry const& component) {
     std::vector<Check> checks;
-    auto const ref = component.ref;
     auto const add = [&](std::string name, std::function<void(Program&, ComponentEntry const&)> run) {
         checks.push_back({std::move(name), [component, run = std::move(run)](Program& program) { run(program, component); }});
     };

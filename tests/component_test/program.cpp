@@ -217,7 +217,7 @@ void Program::check_notification(Completed const& completed) {
     auto const& [ref, name] = command->second;
     if (!completed_.emplace(id, completed).second) fail("unexpected second `completed` of " + quoted(name));
     auto const* message = find_message(profile_of(ref), MessageKind::command, name);
-    if (!completed.active) fail("`completed` of " + quoted(name) + ": expected active=\"true\" or active=\"false\"");
+    if (!completed.active) fail("`completed` of " + quoted(name) + R"(: expected active="true" or active="false")");
     if (!completed.results) fail("`completed` of " + quoted(name) + ": expected an element results");
     if (auto const why = why_not(*completed.results, message == nullptr ? std::vector<ParameterProfile>{} : message->results);
         !why.empty())
