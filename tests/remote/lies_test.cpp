@@ -11,7 +11,7 @@ struct ALyingSubEngine : testing::Test {
 
     // Returns the components of the main engine after the sub engine has sent this profile.
     std::vector<std::string> after(std::function<void(GetProfile::Reply&)> const& change) {
-        engines.falsify = [&](Reply& reply) {
+        engines.falsify = [change](Reply& reply) {
             if (auto* profile = std::get_if<GetProfile::Reply>(&reply)) change(*profile);
         };
         engines.hall.change({}, {detection});
