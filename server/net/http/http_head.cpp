@@ -62,23 +62,29 @@ bool split_target(std::string_view target, RequestHead& head) {
 // Checks the Host field, and the authority of a target: a host with an optional port.
 bool may_be_authority(std::string_view text) { return text.find_first_of(" \t,/\\@\"<>?#") == std::string_view::npos; }
 
+// Returns whether a header field goes on in another line, which Beast accepts.
+bool is_folded(std::string_view head) {
+    for (auto end = head.find('\n'); end < head.size() - 1; end = head.find('\n', end + 1))
+        if (head[end + 1] == ' ' || head[end + 1] == '\t') return true;
+    return false;
+}
+
 // Returns a fault for what Beast accepts and this gateway rejects (RFC 9112, 3.2, 5.2, 6.3).
 std::optional<Fault> find_fault(std::string_view text, Settings const& settings, RequestHead const& head) {
     std::size_t fields = 0, hosts = 0, lengths = 0;
+    std::string_view host;
     bool is_encoded = false;
     for (auto const& field : head.message) {
         ++fields;
-        if (field.name() == http::field::host) ++hosts;
+        if (field.name() == http::field::host) ++hosts, host = field.value();
         if (field.name() == http::field::content_length) lengths += field.value().contains(',') ? 2 : 1;
         if (field.name() == http::field::transfer_encoding) is_encoded = true;
     }
     if (fields > settings.max_fields)
         return Fault{FaultCode::header_too_large, "more than " + std::to_string(settings.max_fields) + " header fields"};
-    if (text.find("\n ") != text.npos || text.find("\n\t") != text.npos)
-        return broken("a folded header line: send each header field in one line");
+    if (is_folded(text)) return broken("a folded header line: send each header field in one line");
     if (hosts > 1 || (hosts == 0 && !head.is_http_1_0())) return broken("expected exactly one Host header");
-    if (auto const host = head.field("Host").value_or(""); !may_be_authority(host))
-        return broken("Host " + quoted(host) + " is not a name or an address with an optional port");
+    if (!may_be_authority(host)) return broken("Host " + quoted(host) + " is not a name or an address with an optional port");
     if (!may_be_authority(head.target_authority))
         return broken("the target's host is not a name or an address with an optional port");
     if (is_encoded) return no_transfer_encoding();
@@ -89,9 +95,13 @@ std::optional<Fault> find_fault(std::string_view text, Settings const& settings,
 }  // namespace
 
 std::optional<std::string_view> RequestHead::field(std::string_view name) const {
-    auto const [first, last] = message.equal_range(name);
-    if (first == last || std::next(first) != last) return {};
-    return first->value();
+    std::optional<std::string_view> value;
+    for (auto const& each : message) {
+        if (!equal_ignoring_case(each.name_string(), name)) continue;
+        if (value) return {};
+        value = each.value();
+    }
+    return value;
 }
 
 bool RequestHead::lists(std::string_view name, std::string_view member, Case letters) const {
