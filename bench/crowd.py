@@ -44,5 +44,6 @@ class Crowd:
 
 
 if __name__ == "__main__":
-    rois.longest_pause = 0.01 if "reconnects" in sys.argv else rois.longest_pause
+    if "reconnects" in sys.argv:
+        rois.LONGEST_PAUSE = rois.PAUSE_IN_WINDOW = 0.01
     asyncio.run(Crowd(sys.argv[3:], int(sys.argv[2])).join(sys.argv[1]))

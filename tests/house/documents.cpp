@@ -11,6 +11,7 @@ namespace rois::house {
 namespace {
 
 constexpr std::ptrdiff_t longest_file = 500;  // lines
+constexpr auto one_file = "components/sdk/python/rois_component.py";  // may be longer: a program needs nothing else
 constexpr std::ptrdiff_t longest_line = 140;  // characters
 
 constexpr auto dependencies = "docs/dependencies.md";
@@ -99,7 +100,7 @@ Complaints against_short_files(Tree const& tree) {
     Complaints complaints;
     for (auto const& [file, text] : tree) {
         auto const lines = std::ranges::count(text, '\n');
-        if (is_source(file) && lines > longest_file)
+        if (is_source(file) && file != one_file && lines > longest_file)
             complaints.push_back(at(file, longest_file + 1) + "has " + std::to_string(lines) + " lines, more than " +
                                  std::to_string(longest_file));
     }

@@ -240,8 +240,8 @@ class Waiting(ModuleTest):
 
     async def test_a_query_that_hangs_is_answered_with_error(self):
         await self.link.connect()
-        self.addCleanup(setattr, rois, "longest_query", rois.longest_query)
-        rois.longest_query = 0.1
+        self.addCleanup(setattr, rois, "LONGEST_QUERY", rois.LONGEST_QUERY)
+        rois.LONGEST_QUERY = 0.1
         self.a.state = lambda: time.sleep(1)
         self.assertEqual((await self.link.query("a", "state")).get("return_code"), "ERROR")
 

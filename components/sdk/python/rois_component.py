@@ -1,17 +1,53 @@
 """Components of a RoIS engine in a program of your own: this file and Python 3.9 suffice (docs/component-programs.md; lamp.py).
 The program joins the engine as a sub engine, and joins again whenever the link is lost."""
-import argparse, asyncio, base64, collections, concurrent.futures, contextlib, datetime, hashlib, inspect, logging  # noqa: E401
-import os, pathlib, re, signal, struct, threading, time, urllib.parse, uuid  # noqa: E401
+
+import argparse
+import asyncio
+import base64
+import collections
+import concurrent.futures
+import contextlib
+import datetime
+import hashlib
+import inspect
+import logging
+import os
+import pathlib
+import re
+import signal
+import struct
+import threading
+import time
+import urllib.parse
+import uuid
 from xml.etree import ElementTree
 from xml.sax.saxutils import escape, quoteattr
 
-M, R = "{urn:x-rois:psm:xml:message:1}", "{http://www.omg.org/spec/RoIS/20240801}"
-GML, XSI = "{http://www.opengis.net/gml/3.2}", "{http://www.w3.org/2001/XMLSchema-instance}"
+# Namespaces, as ElementTree writes them: of the messages, of RoIS, of GML, and of XML Schema.
+M = "{urn:x-rois:psm:xml:message:1}"
+R = "{http://www.omg.org/spec/RoIS/20240801}"
+GML = "{http://www.opengis.net/gml/3.2}"
+XSI = "{http://www.w3.org/2001/XMLSchema-instance}"
 NAMES = f'xmlns="{M[1:-1]}" xmlns:rois="{R[1:-1]}" xmlns:xsi="{XSI[1:-1]}"'
-NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")  # characters
+NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+# Seconds.
+LONGEST_PAUSE = 30  # between two attempts to join
+PAUSE_IN_WINDOW = 0.2  # while the engine keeps the session
+LONGEST_HALT = 0.5  # for which an answer waits
+LONGEST_QUERY = 2
+EVENT_LIFE = 60
+
+LINK_ERRORS = (
+    OSError,
+    EOFError,
+    asyncio.TimeoutError,
+    asyncio.LimitOverrunError,
+    UnicodeDecodeError,
+    ElementTree.ParseError,
+)
 
 log = logging.getLogger("rois")
-longest_pause, longest_halt, longest_query = 30, 0.5, 2  # seconds: between two attempts to join; for which an answer waits (twice)
 
 
 class Refused(Exception):
@@ -19,19 +55,24 @@ class Refused(Exception):
 
 
 class Component:
-    """A component. Override what it can do: a coroutine for each command, and a function or coroutine for each query, by the names of
-    its profile. Arguments and results are dictionaries of int, float, bool, str, or lists of them. A query that is a function runs in a
-    thread. All other code runs in the event loop and must not block it."""
+    """A component. Override what it can do: a coroutine for each command, and a function or coroutine for each query, by the
+    names of its profile. Arguments and results are dictionaries of int, float, bool, str, or lists of them. A query that is a
+    function runs in a thread. All other code runs in the event loop and must not block it."""
 
     profile = ""  # the profile document, or the name of its file
-    moves = False  # whether commands may move the component among people; if so, it is halted when no sign of life arrives within the motion lease
+    # Whether commands may move the component among people. It is then halted when no sign of life arrives within the motion
+    # lease.
+    moves = False
     continuous = False  # `start` begins a function that goes on until it is stopped; otherwise an action that ends by itself
 
     def __init__(self, ref):
-        self.ref, self._ref = ref, f"<component_ref rois:code={quoteattr(ref)}/>"
+        self.ref = ref
         self.status = "READY"  # or UNINITIALIZED, WARNING, ERROR
-        self._service, self._halt = None, None  # set by Service; the task of the last halt
-        self._running, self._active = set(), False  # the tasks of the commands that run; whether a function goes on after `start`
+        self._ref = f"<component_ref rois:code={quoteattr(ref)}/>"
+        self._service = None  # set by Service
+        self._running = set()  # the tasks of the commands that run
+        self._active = False  # whether a function goes on after `start`
+        self._halt = None  # the task of the last halt
         is_document = self.profile.lstrip().startswith("<")
         self._profile = Profile(self.profile if is_document else pathlib.Path(self.profile).read_text(encoding="utf-8"))
         self.parameters = dict(self._profile.defaults)  # set by `set_parameter` and `start`; the defaults again after `release`
@@ -63,39 +104,77 @@ class Profile:
     """A component profile document: the messages with the types of their parameters."""
 
     def __init__(self, text):
-        def types(owner, element):
-            return {each.get(R + "name"): each.find(R + "data_type_ref").get(R + "code") for each in owner.findall(R + element)}
         root = ElementTree.fromstring(text)
-        if root.tag != R + "HRIComponentProfile": raise ValueError(f"expected an HRIComponentProfile, not {root.tag}")
+        if root.tag != R + "HRIComponentProfile":
+            raise ValueError(f"expected an HRIComponentProfile, not {root.tag}")
         self.urn = root.findtext(GML + "identifier")
-        for common in [each for each in root.findall(R + "SubComponentProfile") if each.text.strip() == "urn:x-rois:def:component:OMG::RoISCommon"]:
-            at = list(root).index(common)
-            root.remove(common)
-            for name in ("start", "stop", "suspend", "resume"):  # the engine expects all messages in the document
-                root.insert(at, ElementTree.Element(R + "MessageProfile", {XSI + "type": "rois:CommandMessageProfileType", R + "name": name}))
-        for prefix, name in (("rois", R), ("gml", GML), ("xsi", XSI)): ElementTree.register_namespace(prefix, name[1:-1])
+        self.include_common_messages(root)
+        for prefix, name in (("rois", R), ("gml", GML), ("xsi", XSI)):
+            ElementTree.register_namespace(prefix, name[1:-1])
         self.text = ElementTree.tostring(root, encoding="unicode")
         self.messages = {"command": {}, "query": {}, "event": {}}  # by name: the types of the arguments and of the results
         for message in root.findall(R + "MessageProfile"):
             kind = message.get(XSI + "type").split(":")[-1].replace("MessageProfileType", "").lower()
-            self.messages[kind][message.get(R + "name")] = (types(message, "Arguments"), types(message, "Results"))
-        self.parameters = types(root, "ParameterProfile")
-        defaults = ((each.get(R + "name"), each.get(R + "default_value")) for each in root.findall(R + "ParameterProfile"))
-        self.defaults = {name: read_value(f"the default of {name}", self.parameters[name], [text], True) for name, text in defaults if text is not None}
+            self.messages[kind][message.get(R + "name")] = (self.types(message, "Arguments"), self.types(message, "Results"))
+        self.parameters = self.types(root, "ParameterProfile")
+        self.defaults = {}
+        for each in root.findall(R + "ParameterProfile"):
+            name, value = each.get(R + "name"), each.get(R + "default_value")
+            if value is not None:
+                self.defaults[name] = read_value(f"the default of {name}", self.parameters[name], [value], True)
+
+    @staticmethod
+    def types(owner, element):
+        return {each.get(R + "name"): each.find(R + "data_type_ref").get(R + "code") for each in owner.findall(R + element)}
+
+    @staticmethod
+    def include_common_messages(root):
+        """Replaces the reference to RoISCommon by its messages: the engine expects all messages in the document."""
+        for profile in root.findall(R + "SubComponentProfile"):
+            if profile.text.strip() != "urn:x-rois:def:component:OMG::RoISCommon":
+                continue
+            at = list(root).index(profile)
+            root.remove(profile)
+            for name in ("start", "stop", "suspend", "resume"):
+                attributes = {XSI + "type": "rois:CommandMessageProfileType", R + "name": name}
+                root.insert(at, ElementTree.Element(R + "MessageProfile", attributes))
+
 
 # The forms of values, by the names of their types in lower case (decision 26). Any text is a value of another type.
-INT, LONG, REALS, BOOLS = 2**31, 2**63, ("double", "real", "float", "decimal", "number"), ("bool", "boolean")
-RANGES = {**dict.fromkeys(("int", "integer"), (-INT, INT)), **dict.fromkeys(("unlimitednatural", "nonnegativeinteger"), (0, INT))}
-RANGES.update({"long": (-LONG, LONG), "short": (-(2**15), 2**15), "byte": (-(2**7), 2**7), "unsignedlong": (0, LONG), "unsignedint": (0, 2**32)})
-RANGES.update({"unsignedshort": (0, 2**16), "unsignedbyte": (0, 2**8), "positiveinteger": (1, INT), "nonpositiveinteger": (-INT, 1), "negativeinteger": (-INT, 0)})
-DATE, TIME, ZONE = r"\d{4}-\d\d-\d\d", r"([01]\d|2[0-3]):[0-5]\d:[0-5]\d(\.\d+)?", r"(Z|[+-]((0\d|1[0-3]):[0-5]\d|14:00))"
+RANGES = {  # of whole numbers: the lowest, and the first that is too high
+    "byte": (-(2**7), 2**7),
+    "short": (-(2**15), 2**15),
+    "int": (-(2**31), 2**31),
+    "integer": (-(2**31), 2**31),
+    "long": (-(2**63), 2**63),
+    "unsignedbyte": (0, 2**8),
+    "unsignedshort": (0, 2**16),
+    "unsignedint": (0, 2**32),
+    "unsignedlong": (0, 2**63),
+    "unlimitednatural": (0, 2**31),
+    "nonnegativeinteger": (0, 2**31),
+    "positiveinteger": (1, 2**31),
+    "nonpositiveinteger": (-(2**31), 1),
+    "negativeinteger": (-(2**31), 0),
+}
+REALS = ("double", "real", "float", "decimal", "number")
+BOOLS = ("bool", "boolean")
+DATE = r"\d{4}-\d\d-\d\d"
+TIME = r"([01]\d|2[0-3]):[0-5]\d:[0-5]\d(\.\d+)?"
+ZONE = r"(Z|[+-]((0\d|1[0-3]):[0-5]\d|14:00))"
 FORMS = {
-    **dict.fromkeys(RANGES, r"[+-]?\d+"), **dict.fromkeys(BOOLS, "true|false|1|0"),
+    **dict.fromkeys(RANGES, r"[+-]?\d+"),
+    **dict.fromkeys(BOOLS, "true|false|1|0"),
     **dict.fromkeys(REALS, r"[+-]?(INF|(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?)|NaN"),
-    "datetime": f"{DATE}T{TIME}{ZONE}", "date": f"{DATE}{ZONE}?", "time": f"{TIME}{ZONE}?", "roisidentifier": "(?s:.+)", "rois_identifier": "(?s:.+)",
+    "datetime": f"{DATE}T{TIME}{ZONE}",
+    "date": f"{DATE}{ZONE}?",
+    "time": f"{TIME}{ZONE}?",
+    "roisidentifier": "(?s:.+)",
+    "rois_identifier": "(?s:.+)",
     **dict.fromkeys(("component_status", "componentstatus"), "UNINITIALIZED|READY|BUSY|WARNING|ERROR"),
     **dict.fromkeys(("stream_status", "streamstatus"), "STREAMING_(NOT_RUNNING|NOT_CONNECTED|RUNNING|SUSPENDED|RESUMED)"),
 }
+
 
 def data_type(code):
     """The name of a type or of a list's items, whether it is a list, and whether one text has all items of the list."""
@@ -103,49 +182,76 @@ def data_type(code):
     name = re.split("[:#/]", ((item[1] or item[2]) if item else code).strip())[-1].lower()
     return name, item is not None, item is not None and (name in RANGES or name in REALS or name in BOOLS)
 
+
 def read_item(name, text):
-    if name not in FORMS: return text
+    if name not in FORMS:
+        return text
     text = text.strip(" \t\r\n")
-    if not re.fullmatch(FORMS[name], text, re.ASCII): raise ValueError(text)
-    if name in ("date", "datetime"): datetime.date.fromisoformat(text[:10])  # raises ValueError if there is no such day
-    value = int(text) if name in RANGES else float(text) if name in REALS else text in ("true", "1") if name in BOOLS else text
-    if name in RANGES and value not in range(*RANGES[name]) or name in REALS and abs(value) == float("inf") and "INF" not in text: raise ValueError(text)
-    return value
+    if not re.fullmatch(FORMS[name], text, re.ASCII):
+        raise ValueError(text)
+    if name in ("date", "datetime"):
+        datetime.date.fromisoformat(text[:10])  # raises ValueError if there is no such day
+    if name in BOOLS:
+        return text in ("true", "1")
+    if name in RANGES:
+        if int(text) not in range(*RANGES[name]):
+            raise ValueError(text)
+        return int(text)
+    if name in REALS:
+        if abs(float(text)) == float("inf") and "INF" not in text:
+            raise ValueError(text)
+        return float(text)
+    return text
+
 
 def read_value(what, code, texts, is_default=False):
     """The Python value of a parameter of this type. Raises Refused if the texts are not a value of the type."""
     name, is_list, is_packed = data_type(code)
     try:
-        if len(texts) > 1 if is_packed else len(texts) != 1 and not is_list: raise ValueError(texts)
+        if len(texts) != 1 and (not is_list or is_packed and texts):
+            raise ValueError(texts)
         items = re.findall("[^ \t\r\n]+", "".join(texts)) if is_packed or is_list and is_default else texts
         values = [read_item(name, each) for each in items]
         return values if is_list else values[0]
     except ValueError:
         raise Refused(f"{what} must be of type {code}, not {', '.join(map(repr, texts)) or 'empty'}") from None
 
+
 def results(types, values):
     """A `results` element. Raises ValueError for a result that the profile does not have."""
     content = ""
     for name, value in values.items():
-        if name not in types: raise ValueError(f"the profile has no result {name!r}: expected {', '.join(types) or 'none'}")
-        texts = [str(each).lower() if isinstance(each, bool) else str(each) for each in (value if isinstance(value, (list, tuple)) else [value])]
-        items = "".join(f"<rois:value>{escape(text)}</rois:value>" for text in ([" ".join(texts)] if data_type(types[name])[2] else texts))
-        content += f"<result rois:name={quoteattr(name)}><rois:data_type_ref rois:code={quoteattr(types[name])}/>{items}</result>"
+        if name not in types:
+            raise ValueError(f"the profile has no result {name!r}: expected {', '.join(types) or 'none'}")
+        items = value if isinstance(value, (list, tuple)) else [value]
+        texts = [str(each).lower() if isinstance(each, bool) else str(each) for each in items]
+        _, _, is_packed = data_type(types[name])
+        if is_packed:
+            texts = [" ".join(texts)]
+        content += f"<result rois:name={quoteattr(name)}><rois:data_type_ref rois:code={quoteattr(types[name])}/>"
+        content += "".join(f"<rois:value>{escape(text)}</rois:value>" for text in texts) + "</result>"
     return f"<results>{content}</results>"
+
 
 async def within(seconds, task):
     """The result of a task. Before Python 3.12, asyncio.wait_for may lose a cancellation."""
     done, _ = await asyncio.wait([task], timeout=seconds)
-    if not done and task.cancel(): raise asyncio.TimeoutError(f"no end within {seconds} s")
+    if not done and task.cancel():
+        raise asyncio.TimeoutError(f"no end within {seconds} s")
     return task.result()
+
 
 def in_thread(function):
     """The result of a function that may block. The end of the program does not wait for its thread."""
     future = concurrent.futures.Future()
     future.set_running_or_notify_cancel()
+
     def call():
-        try: future.set_result(function())
-        except Exception as problem: future.set_exception(problem)
+        try:
+            future.set_result(function())
+        except Exception as problem:
+            future.set_exception(problem)
+
     threading.Thread(target=call, daemon=True).start()
     return asyncio.wrap_future(future)
 
@@ -154,7 +260,9 @@ class WebSocket:
     """The client's side of a WebSocket (RFC 6455)."""
 
     def __init__(self, reader, writer):
-        self.reader, self.writer, self.last_received = reader, writer, time.monotonic()
+        self.reader = reader
+        self.writer = writer
+        self.last_received = time.monotonic()
 
     @classmethod
     async def open(cls, url):
@@ -163,8 +271,9 @@ class WebSocket:
         reader, writer = await asyncio.open_connection(parts.hostname, parts.port or (443 if secure else 80), ssl=secure or None)
         key = base64.b64encode(os.urandom(16)).decode()
         writer.write(
-            f"GET {parts.path.rstrip('/')}/rois/engines HTTP/1.1\r\nHost: {parts.netloc}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-            f"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: {key}\r\nSec-WebSocket-Protocol: rois.xml.v1\r\n\r\n".encode()
+            f"GET {parts.path.rstrip('/')}/rois/engines HTTP/1.1\r\nHost: {parts.netloc}\r\n"
+            "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+            f"Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Protocol: rois.xml.v1\r\n\r\n".encode()
         )
         status, _, fields = (await reader.readuntil(b"\r\n\r\n")).decode("latin-1").partition("\r\n")
         expected = base64.b64encode(hashlib.sha1((key + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11").encode()).digest()).decode()
@@ -174,9 +283,16 @@ class WebSocket:
         return cls(reader, writer)
 
     def send(self, payload, opcode=1):
-        size, mask = len(payload), os.urandom(4)
-        length = bytes([0x80 | size]) if size < 126 else struct.pack(">BH", 0xFE, size) if size < 65536 else struct.pack(">BQ", 0xFF, size)
-        masked = (int.from_bytes(payload, "big") ^ int.from_bytes((mask * (size // 4 + 1))[:size], "big")).to_bytes(size, "big")
+        size = len(payload)
+        mask = os.urandom(4)
+        if size < 126:
+            length = bytes([0x80 | size])
+        elif size < 65536:
+            length = struct.pack(">BH", 0xFE, size)
+        else:
+            length = struct.pack(">BQ", 0xFF, size)
+        key = (mask * (size // 4 + 1))[:size]
+        masked = (int.from_bytes(payload, "big") ^ int.from_bytes(key, "big")).to_bytes(size, "big")
         self.writer.write(bytes([0x80 | opcode]) + length + mask + masked)
 
     async def next(self):
@@ -185,31 +301,51 @@ class WebSocket:
         while True:
             first, second = await self.reader.readexactly(2)
             size = second & 0x7F
-            if size > 125: size = int.from_bytes(await self.reader.readexactly(2 if size == 126 else 8), "big")
-            if size > 16_000_000: raise ConnectionError(f"received a message of {size} bytes: expected at most 16000000")
+            if size > 125:
+                size = int.from_bytes(await self.reader.readexactly(2 if size == 126 else 8), "big")
+            if size > 16_000_000:
+                raise ConnectionError(f"received a message of {size} bytes: expected at most 16000000")
             payload = await self.reader.readexactly(size)
             self.last_received = time.monotonic()
-            if (opcode := first & 0x0F) == 8: raise ConnectionError("closed by the engine: " + payload[2:].decode("utf-8", "replace"))
-            if opcode == 9: self.send(payload, 10)
-            if opcode in (0, 1): message += payload
-            if opcode in (0, 1) and first & 0x80: return message.decode()
+            opcode = first & 0x0F
+            if opcode == 8:
+                raise ConnectionError("closed by the engine: " + payload[2:].decode("utf-8", "replace"))
+            if opcode == 9:
+                self.send(payload, 10)
+            if opcode in (0, 1):
+                message += payload
+                if first & 0x80:
+                    return message.decode()
 
 
 class Service:
     """Answers the engine's requests, each in a task of its own. The session survives a lost link for `window` seconds."""
 
     def __init__(self, name, components):
-        self.name, self.instance, self.components = name, uuid.uuid4().hex, {each.ref: each for each in components}
-        self.loop, self.thread, self.tasks = None, threading.get_ident(), set()  # the event loop does not own its tasks
-        self.socket, self.is_attached = None, False  # the link, and whether the session uses it
-        self.answers = {}  # of the requests of this link, in their order; None until there is an answer
-        self.session, self.subscribed, self.window, self.lease = "", {}, 3.0, 0
-        self.last_request = self.detached_at = time.monotonic()
-        self.sequence = self.written = 0  # of the last notification, and of the last one given to a link
+        self.name = name
+        self.instance = uuid.uuid4().hex
+        self.components = {each.ref: each for each in components}
+        self.loop = None
+        self.thread = threading.get_ident()
+        self.tasks = set()  # the event loop does not own its tasks
+        # The link.
+        self.socket = None
+        self.answers = {}  # of its requests, in their order; None until there is an answer
+        self.last_request = time.monotonic()
+        # The session.
+        self.session = ""
+        self.is_attached = False  # whether the link uses it
+        self.detached_at = time.monotonic()
+        self.window = 3.0
+        self.lease = 0
+        self.subscribed = {}
+        self.performed = collections.deque(maxlen=1_000)  # ids of accepted commands
+        self.sequence = 0  # of the last notification
+        self.written = 0  # of the last one given to a link
         self.sent = collections.deque(maxlen=10_000)  # (sequence, document, event or None): kept for a link that returns
         self.kept = collections.deque(maxlen=10_000)  # events without a subscription
-        self.performed = collections.deque(maxlen=1_000)  # ids of accepted commands
-        for each in components: each._service = self
+        for each in components:
+            each._service = self
 
     def begin(self, coroutine):
         self.tasks.add(task := asyncio.ensure_future(coroutine))
@@ -227,74 +363,100 @@ class Service:
             self.socket.send(document.encode())
 
     def event(self, component, event_type, values):
-        if event_type not in component._profile.messages["event"]: raise ValueError(f"the profile has no event {event_type!r}")
+        if event_type not in component._profile.messages["event"]:
+            raise ValueError(f"the profile has no event {event_type!r}")
         content = results(component._profile.messages["event"][event_type][1], values)
-        expire = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(time.time() + 60))
+        expire = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(time.time() + EVENT_LIFE))
         head = f"<event_id>{uuid.uuid4().hex}</event_id><event_type>{escape(event_type)}</event_type><subscribe_id>"
-        self.publish((time.monotonic() + 60, event_type, head, f"</subscribe_id><expire>{expire}</expire>{component._ref}{content}"))
+        tail = f"</subscribe_id><expire>{expire}</expire>{component._ref}{content}"
+        self.publish((time.monotonic() + EVENT_LIFE, event_type, head, tail))
 
     def publish(self, event):
-        """Sends an event, or keeps it for a subscription in the 60 s until it expires."""
+        """Sends an event, or keeps it for a subscription until it expires."""
         end, event_type, head, tail = event
-        if event_type not in self.subscribed: self.kept.append(event)
-        elif time.monotonic() < end: self.notify("receive_event", head + self.subscribed[event_type] + tail, event=event)
+        if event_type not in self.subscribed:
+            self.kept.append(event)
+        elif time.monotonic() < end:
+            self.notify("receive_event", head + self.subscribed[event_type] + tail, event=event)
 
     def error(self, component, text):
         what = f"<error_id>{uuid.uuid4().hex}</error_id><error_type>COMPONENT_INTERNAL_ERROR</error_type>{component._ref}"
-        if self.session: self.notify("receive_error", f"{what}<text>{escape(text)}</text>")
+        if self.session:
+            self.notify("receive_error", f"{what}<text>{escape(text)}</text>")
 
     def state(self, component):
-        if self.session: self.notify("component_changed", f"{component._ref}<status>{component.status}</status><results/>")
+        if self.session:
+            self.notify("component_changed", f"{component._ref}<status>{component.status}</status><results/>")
 
     async def serve(self, socket):
         """Reads requests until the link ends. Never waits for a component."""
-        self.loop, self.socket, self.is_attached, self.answers = asyncio.get_running_loop(), socket, False, {}
+        self.loop = asyncio.get_running_loop()
+        self.socket = socket
         try:
             while True:
                 request = ElementTree.fromstring(await socket.next())
-                self.last_request, self.answers[request] = time.monotonic(), None
+                self.last_request = time.monotonic()
+                self.answers[request] = None
                 self.begin(self.handle(request))
         finally:
-            self.detached_at = time.monotonic() if self.is_attached else self.detached_at
-            self.socket, self.is_attached, self.answers = None, False, {}
+            if self.is_attached:
+                self.detached_at = time.monotonic()
+            self.is_attached = False
+            self.socket = None
+            self.answers = {}
 
     async def handle(self, request):
         name = request.tag.replace(M, "")
         try:
-            if hasattr(self, "on_" + name): return await getattr(self, "on_" + name)(request)
+            if hasattr(self, "on_" + name):
+                return await getattr(self, "on_" + name)(request)
             self.reply(name, request, "UNSUPPORTED", reason=f"a component program does not answer {name}")
         except (Exception, asyncio.CancelledError) as problem:
             log.exception("%s failed", name)
             self.reply(name, request, "ERROR", reason=f"{type(problem).__name__}: {problem}")
 
     def reply(self, name, request, code="OK", content="", reason="", attributes=""):
-        if request.get("request_id") is not None: attributes += f" request_id={quoteattr(request.get('request_id'))}"
+        if request.get("request_id") is not None:
+            attributes += f" request_id={quoteattr(request.get('request_id'))}"
         content = content if code == "OK" else f"<reason>{escape(reason)}</reason>"
         self.answer(request, f'<{name}_response {NAMES} return_code="{code}"{attributes}>{content}</{name}_response>')
 
     def answer(self, request, document):
         """Sends an answer after those of earlier requests. Drops it if its link has ended."""
-        if self.answers.get(request, "") is None: self.answers[request] = NOT_XML.sub("?", document)
-        while self.answers and self.answers[(first := next(iter(self.answers)))]:
+        if self.answers.get(request, "") is None:
+            self.answers[request] = NOT_XML.sub("?", document)
+        while self.answers:
+            first = next(iter(self.answers))
+            if self.answers[first] is None:
+                break
             self.socket.send(self.answers.pop(first).encode())
 
     async def on_connect(self, request):
-        if not self.is_attached: await self.end_session()  # of an engine that has restarted
+        if not self.is_attached:
+            await self.end_session()  # of an engine that has restarted
         is_new = request in self.answers and not (self.session and self.is_attached)
         if is_new:
-            self.session, self.is_attached, self.sequence, self.written = uuid.uuid4().hex, True, 0, 0
-            self.window, self.lease = (int(request.get(name, default)) / 1_000 for name, default in (("window", 3_000), ("motion_lease", 0)))
-        self.reply("connect", request, "OK", f"<session>{self.session}</session>", attributes=f' window="{round(self.window * 1_000)}"')
-        for component in self.components.values() if is_new else (): self.state(component)
+            self.session = uuid.uuid4().hex
+            self.is_attached = True
+            self.sequence = self.written = 0
+            self.window = int(request.get("window", 3_000)) / 1_000
+            self.lease = int(request.get("motion_lease", 0)) / 1_000
+        window = f' window="{round(self.window * 1_000)}"'
+        self.reply("connect", request, "OK", f"<session>{self.session}</session>", attributes=window)
+        if is_new:
+            for component in self.components.values():
+                self.state(component)
 
     async def on_resume(self, request):
         if request.get("session") != self.session or not self.session:
-            id = quoteattr(request.get("request_id", ""))
-            return self.answer(request, f'<fault {NAMES} code="no_session" request_id={id}><reason>unknown session</reason></fault>')
-        self.is_attached, self.written = True, self.sequence
+            attributes = f'code="no_session" request_id={quoteattr(request.get("request_id", ""))}'
+            return self.answer(request, f"<fault {NAMES} {attributes}><reason>unknown session</reason></fault>")
+        self.is_attached = True
+        self.written = self.sequence
         self.reply("resume", request)
         for sequence, document, _ in self.sent:
-            if sequence > int(request.get("last_sequence")): self.socket.send(document.encode())
+            if sequence > int(request.get("last_sequence")):
+                self.socket.send(document.encode())
 
     async def on_disconnect(self, request):
         await self.end_session()
@@ -307,12 +469,15 @@ class Service:
             entries += f"<component ref={quoteattr(ref)} type={quoteattr(each._profile.urn)} engine={quoteattr(self.name)} "
             entries += f'moves="{str(each.moves).lower()}" when_stopped="ABORT"/>'
             profiles += each._profile.text
-        self.reply("get_profile", request, content=(
+        identifier = f"urn:x-rois:def:HRIEngine:program::{escape(self.name)}"
+        engine = (
             f'<rois:HRIEngineProfile xmlns:gml="{GML[1:-1]}" gml:id="engine.{uuid.uuid5(uuid.NAMESPACE_URL, self.name).hex}">'
-            f'<gml:identifier codeSpace="urn:ietf:rfc:2141">urn:x-rois:def:HRIEngine:program::{escape(self.name)}</gml:identifier>'
-            f'<gml:name>{escape(self.name)}</gml:name>{names}<rois:ParameterProfile rois:name="instance" rois:default_value="{self.instance}">'
+            f'<gml:identifier codeSpace="urn:ietf:rfc:2141">{identifier}</gml:identifier>'
+            f"<gml:name>{escape(self.name)}</gml:name>{names}"
+            f'<rois:ParameterProfile rois:name="instance" rois:default_value="{self.instance}">'
             '<rois:data_type_ref rois:code="string"/></rois:ParameterProfile></rois:HRIEngineProfile>'
-            f"<components>{entries}</components>{profiles}"))
+        )
+        self.reply("get_profile", request, content=f"{engine}<components>{entries}</components>{profiles}")
 
     async def on_bind(self, request):
         is_known = request.find(M + "component_ref").get(R + "code") in self.components
@@ -320,22 +485,26 @@ class Service:
 
     async def on_release(self, request):
         component = self.components.get(request.find(M + "component_ref").get(R + "code"))
-        if component is not None: await asyncio.wait([self.halt(component, True)], timeout=longest_halt)
+        if component is not None:
+            await asyncio.wait([self.halt(component, True)], timeout=LONGEST_HALT)
         self.reply("release", request)
 
     async def on_subscribe(self, request):
         event_type = request.findtext(M + "event_type")
         self.subscribed[event_type] = uuid.uuid4().hex
         kept, self.kept = self.kept, collections.deque(maxlen=10_000)
-        for event in kept: self.publish(event)  # before the answer: events after it are new
+        for event in kept:
+            self.publish(event)  # before the answer: events after it are new
         self.reply("subscribe", request, content=f"<subscribe_id>{self.subscribed[event_type]}</subscribe_id>")
 
     async def on_query(self, request):
         name = request.findtext(M + "query_type")
         component = self.components.get(next((each.text for each in request.iter() if each.tag.endswith("}Literal")), None))
         function = getattr(component, name, None) if component and name in component._profile.messages["query"] else None
-        if function is None: return self.reply("query", request, "UNSUPPORTED", reason=f"no component answers the query {name!r}")
-        values = await within(longest_query, self.begin(function() if inspect.iscoroutinefunction(function) else in_thread(function)))
+        if function is None:
+            return self.reply("query", request, "UNSUPPORTED", reason=f"no component answers the query {name!r}")
+        answer = function() if inspect.iscoroutinefunction(function) else in_thread(function)
+        values = await within(LONGEST_QUERY, self.begin(answer))
         self.reply("query", request, content=component._ref + results(component._profile.messages["query"][name][1], values))
 
     async def on_get_command_result(self, request):
@@ -343,52 +512,69 @@ class Service:
         self.reply("get_command_result", request, code, "<results/>", "there is no such command")
 
     async def on_execute(self, request):
-        unit = (sequence := request.find(R + "CommandUnitSequence")).find(R + "command_unit_list")
+        sequence = request.find(R + "CommandUnitSequence")
+        unit = sequence.find(R + "command_unit_list")
         component = self.components.get(unit.find(R + "component_ref").get(R + "code"))
         command, id = unit.get(R + "command_type"), unit.get(R + "command_id")
         try:
             arguments = self.arguments(component, command, unit)
-            if command != "stop": component.check(command, arguments)
+            if command != "stop":
+                component.check(command, arguments)
         except Refused as refused:
             return self.reply("execute", request, "BAD_PARAMETER", reason=str(refused))
         self.reply("execute", request, content=ElementTree.tostring(sequence, encoding="unicode"))
-        if request.get("check_only") in ("true", "1"): return
+        if request.get("check_only") in ("true", "1"):
+            return
         self.performed.append(id)
         await self.perform(component, id, command, arguments)
 
     def arguments(self, component, command, unit):
         """The arguments of a command. Raises Refused for a wrong one."""
-        if component is None: raise Refused("there is no such component")
-        profile, values = component._profile, {}
-        if command not in profile.messages["command"]: raise Refused(f"the component has no command {command!r}")
-        if command not in ("stop", "set_parameter") and not hasattr(component, command): raise Refused(f"the component does not implement {command!r}")
+        if component is None:
+            raise Refused("there is no such component")
+        profile = component._profile
+        if command not in profile.messages["command"]:
+            raise Refused(f"the component has no command {command!r}")
+        if command not in ("stop", "set_parameter") and not hasattr(component, command):
+            raise Refused(f"the component does not implement {command!r}")
         codes = {**profile.parameters, **profile.messages["command"][command][0]}
+        values = {}
         for each in unit.findall(f"{R}arguments/{R}parameter"):
-            if (name := each.get(R + "name")) not in codes: raise Refused(f"the command {command!r} has no argument {name!r}")
-            values[name] = read_value(f"the argument {name!r}", codes[name], [value.text or "" for value in each.findall(R + "value")])
+            name = each.get(R + "name")
+            if name not in codes:
+                raise Refused(f"the command {command!r} has no argument {name!r}")
+            texts = [value.text or "" for value in each.findall(R + "value")]
+            values[name] = read_value(f"the argument {name!r}", codes[name], texts)
         return values
 
     async def perform(self, component, id, command, arguments):
-        session, task, status, values, reason = self.session, asyncio.current_task(), "OK", {}, ""
+        session = self.session
+        task = asyncio.current_task()
+        status, values, reason = "OK", {}, ""
         try:
             if command == "stop":
                 reason = await self.halt(component)
                 status = "ERROR" if reason else "OK"
             else:
                 component._running.add(task)
-                if component._halt: await asyncio.wait([component._halt])  # a halt ends first
+                if component._halt:
+                    await asyncio.wait([component._halt])  # a halt ends first
                 given = {name: value for name, value in arguments.items() if name in component._profile.parameters}
-                if command == "start": component.parameters.update(given)
+                if command == "start":
+                    component.parameters.update(given)
                 values = await getattr(component, command)(arguments) if hasattr(component, command) else {}
-                if command == "set_parameter": component.parameters.update(given)
-                component._active = component.continuous if command == "start" else component._active
+                if command == "set_parameter":
+                    component.parameters.update(given)
+                if command == "start":
+                    component._active = component.continuous
         except asyncio.CancelledError:
             status, reason = "ABORT", "it was stopped"
         except Exception as problem:
             log.exception("%s: %s failed", component.ref, command)
             status, reason = "ERROR", f"{type(problem).__name__}: {problem}"
         component._running.discard(task)
-        if session and session == self.session: self.completed(component, id, status, values, command, reason)  # its engine waits
+        if session and session == self.session:
+            self.completed(component, id, status, values, command, reason)  # its engine waits
 
     def completed(self, component, id, status, values=None, command="", reason=""):
         try:
@@ -401,19 +587,23 @@ class Service:
 
     def halt(self, component, is_released=False):
         """Begins to end what the component does. The task ends when it stands still, and returns why that failed."""
-        for task in component._running: task.cancel()
+        for task in component._running:
+            task.cancel()
         component._halt = self.begin(self.finish(component, list(component._running), component._halt, is_released))
         return component._halt
 
     async def finish(self, component, running, last_halt, is_released):
-        if last_halt: await asyncio.wait([last_halt])
-        if running: await asyncio.wait(running, timeout=longest_halt)
+        if last_halt:
+            await asyncio.wait([last_halt])
+        if running:
+            await asyncio.wait(running, timeout=LONGEST_HALT)
         reason = await self.call(component, component.halt)
         component._active = bool(reason)  # after an exception, it may still move
         await asyncio.gather(*running, return_exceptions=True)
         if is_released and component.parameters != component._profile.defaults:
             component.parameters = dict(component._profile.defaults)
-            if hasattr(component, "set_parameter"): await self.call(component, component.set_parameter, dict(component.parameters))
+            if hasattr(component, "set_parameter"):
+                await self.call(component, component.set_parameter, dict(component.parameters))
         return reason
 
     async def call(self, component, function, *arguments):
@@ -425,14 +615,22 @@ class Service:
             self.error(component, f"{function.__name__} failed: {type(problem).__name__}: {problem}")
             return f"{type(problem).__name__}: {problem}"
 
-    async def end_session(self, patience=longest_halt):
-        """Ends the session, halts its components, and waits at most this time for them. Keeps the events that no link has taken."""
-        self.session, self.is_attached, self.subscribed = "", False, {}
+    async def end_session(self, patience=LONGEST_HALT):
+        """Ends the session, halts its components, and waits at most this time for them. Keeps the events that no link has
+        taken."""
+        self.session = ""
+        self.is_attached = False
+        self.subscribed = {}
         self.performed.clear()
         self.kept.extend(event for sequence, _, event in self.sent if event and sequence > self.written)
         self.sent.clear()
-        used = [each for each in self.components.values() if each._running or each._active or each.parameters != each._profile.defaults]
-        if used: await asyncio.wait([self.halt(each, True) for each in used], timeout=patience)
+        used = [each for each in self.components.values() if self.is_used(each)]
+        if used:
+            await asyncio.wait([self.halt(each, True) for each in used], timeout=patience)
+
+    @staticmethod
+    def is_used(component):
+        return component._running or component._active or component.parameters != component._profile.defaults
 
     async def watch(self):
         """Ends the session when its link is lost for longer than the window, and holds what moves without signs of life."""
@@ -441,7 +639,8 @@ class Service:
             await asyncio.sleep(0.1)
             now = time.monotonic()
             is_silent = self.socket and now > self.socket.last_received + 2 + self.window
-            if is_silent: self.socket.writer.transport.abort()
+            if is_silent:
+                self.socket.writer.transport.abort()
             if self.session and (is_silent or not self.is_attached and now > self.detached_at + self.window):
                 log.warning("the engine is lost: everything is halted")
                 self.begin(self.end_session())
@@ -458,24 +657,37 @@ async def join(service, url):
     try:
         socket.send(f"<join {NAMES} name={quoteattr(service.name)} instance={quoteattr(service.instance)}/>".encode())
         response = ElementTree.fromstring(await within(5, asyncio.ensure_future(socket.next())))
-        if response.get("return_code") != "OK": raise ConnectionError(f"refused: {response.findtext(M + 'reason')}")
+        if response.get("return_code") != "OK":
+            raise ConnectionError(f"refused: {response.findtext(M + 'reason')}")
         log.info("joined %s as %s", url, service.name)
         await service.serve(socket)
     finally:
         socket.writer.close()
 
+
 async def join_again(service, url):
-    pause, said, is_asked = 0.1, "", False
+    """Joins when there is no link: soon after a link that was used and while a session waits, otherwise less and less often."""
+    pause = 0.1
+    said = ""
+    was_used = False
     while True:
         begun = time.monotonic()
         try:
             await join(service, url)
-        except (OSError, EOFError, asyncio.TimeoutError, asyncio.LimitOverrunError, UnicodeDecodeError, ElementTree.ParseError) as problem:
-            if str(problem) != said: log.warning("%s: %s", url, problem or "the link broke")
+        except LINK_ERRORS as problem:
+            if str(problem) != said:
+                log.warning("%s: %s", url, problem or "the link broke")
             said = str(problem)
-        was_asked, is_asked = is_asked, service.last_request > begun
-        pause = min(0.1 if time.monotonic() - begun > 5 or (is_asked and not was_asked) else 2 * pause, longest_pause)
+        is_used = service.last_request > begun
+        if time.monotonic() - begun > 5 or (is_used and not was_used):
+            pause = 0.1
+        elif service.session:
+            pause = PAUSE_IN_WINDOW
+        else:
+            pause = min(2 * pause, LONGEST_PAUSE)
+        was_used = is_used
         await asyncio.sleep(pause)
+
 
 async def keep_joined(service, url):
     """Joins whenever there is no link. Ends only when it is cancelled, or with an exception of this module."""
@@ -483,6 +695,7 @@ async def keep_joined(service, url):
         await asyncio.gather(service.watch(), join_again(service, url))
     finally:
         await service.end_session(1.5)  # the gateway kills a program after 2 s
+
 
 def run(url, name, components):
     """Serves the components until SIGTERM or SIGINT. --url and --name, or ROIS_URL and ROIS_NAME, replace the given ones."""
@@ -493,7 +706,8 @@ def run(url, name, components):
     logging.basicConfig(level=logging.INFO, format="%(levelname)s %(message)s")
 
     async def until_signal():
-        for number in (signal.SIGTERM, signal.SIGINT): asyncio.get_running_loop().add_signal_handler(number, asyncio.current_task().cancel)
+        for number in (signal.SIGTERM, signal.SIGINT):
+            asyncio.get_running_loop().add_signal_handler(number, asyncio.current_task().cancel)
         await keep_joined(Service(arguments.name, components), arguments.url)
 
     with contextlib.suppress(asyncio.CancelledError):  # another exception ends the program with an exit code that is not 0
