@@ -55,6 +55,19 @@ TEST_F(ALyingSubEngine, IsLeftAtOnceIfItSendsNoMessage) {
     EXPECT_EQ(desk.status_of("hall.navigation"), "READY");
 }
 
+TEST_F(ALyingSubEngine, MayAnswerOutOfOrder) {
+    engines.hold_back(true);
+    auto const asked = engines.main.begin_to_say(desk.session, Query{"route", {}});
+    auto const bound = engines.main.begin_to_say(desk.session, Bind{Application::identifier("hall.navigation")});
+    engines.settle();
+    engines.reverse_answers();
+    engines.hold_back(false);
+    engines.settle();
+    EXPECT_EQ(std::get<Query::Reply>(std::get<Reply>(asked->said.value())).results.parameters.size(), 2u);
+    EXPECT_EQ(std::get<Bind::Reply>(std::get<Reply>(bound->said.value())).return_code, ReturnCode::ok);
+    EXPECT_EQ(engines.execute(desk, go("go", "hall.navigation")).return_code, ReturnCode::ok);
+}
+
 TEST_F(ALyingSubEngine, EndsEachCommandOnce) {
     engines.bind(desk, "hall.navigation");
     engines.execute(desk, go("go", "hall.navigation"));

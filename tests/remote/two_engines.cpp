@@ -1,5 +1,6 @@
 #include "remote/two_engines.hpp"
 
+#include <algorithm>
 #include <deque>
 #include <map>
 
@@ -46,6 +47,7 @@ public:
         close();
         engines_.on_links([&] { fail("the link broke", failure); });
     }
+    void reverse_answers() { std::ranges::reverse(waiting_); }
     bool is_dead() const { return listener_ == nullptr; }
 
     // Takes one step. Returns false if there is nothing to do.
@@ -252,6 +254,8 @@ Reply TwoEngines::ask(Application const& by, Operation const& operation) {
     for (int i = 0; i < 40 && !asked->said; ++i) advance(50ms);
     return std::get<Reply>(asked->said.value());
 }
+
+void TwoEngines::reverse_answers() { wire_->reverse_answers(); }
 
 void TwoEngines::inject(std::string const& document) {
     wire_->inject(document);

@@ -62,6 +62,8 @@ public:
     void cut_after(int documents) { until_cut_ = documents; }
     // If `yes`, keeps back the hall's answers and notifications.
     void hold_back(bool yes) { is_held_back_ = yes; }
+    // The hall's answers that are kept back arrive in reverse order.
+    void reverse_answers();
     // Changes the answers of the hall.
     std::function<void(Reply&)> falsify = [](Reply&) {};
     // Sends the main engine a document, as if from the hall.
