@@ -37,8 +37,7 @@ def round(keep, settings):
             busy = neighbour(main, settings)
             keep(EVENTS, p99(busy, calm))
             for special in SPECIAL:
-                # A program that floods keeps a core busy: another busy program does the same before.
-                with busy_program() if special == "floods" else contextlib.nullcontext():
+                with elsewhere(special):
                     before = neighbour(main, settings)
                 with one_that(special, main):
                     keep(with_one(special), p99(neighbour(main, settings), before))
@@ -48,10 +47,10 @@ def names():
     return [f"e{i}" for i in range(ENGINES)]
 
 
-def main_engine():
+def main_engine(name="crowd-main"):
     file = WORK / "crowd.json"
     file.write_text(json.dumps({"engines": [{"name": name, "joins": name} for name in (*names(), *SPECIAL)]}))
-    return gateway(2, "--engines", file, name="crowd-main")
+    return gateway(2, "--engines", file, name=name)
 
 
 def quiet():
@@ -75,19 +74,22 @@ def say(them, line):
     them.stdin.flush()
 
 
-def lowest_priority():
+def lowest_priority(task=0):
     """Sub engines run elsewhere. Here they share the cores, and must not take time that the gateway wants."""
-    os.sched_setscheduler(0, os.SCHED_IDLE, os.sched_param(0))
+    os.sched_setscheduler(task, os.SCHED_IDLE, os.sched_param(0))
 
 
 @contextlib.contextmanager
-def busy_program():
-    process = subprocess.Popen([sys.executable, "-c", "while True: pass"], preexec_fn=lowest_priority)
-    try:
+def elsewhere(special):
+    """The engine at another gateway, of lowest priority: its program keeps the cores as busy."""
+    if special == "hangs":
         yield
-    finally:
-        process.kill()
-        process.wait()
+        return
+    with running(main_engine("crowd-other")) as (other,):
+        for thread in os.listdir(f"/proc/{other.pid}/task"):
+            lowest_priority(int(thread))
+        with one_that(special, other, 1):
+            yield
 
 
 @contextlib.contextmanager
@@ -104,9 +106,9 @@ def crowd(main, engines):
 
 
 @contextlib.contextmanager
-def one_that(special, main):
+def one_that(special, main, engines=ENGINES + 1):
     with crowd(main, [special]) as one:
-        await_present(main, ENGINES + 1)
+        await_present(main, engines)
         if special == "hangs":
             one.send_signal(signal.SIGSTOP)
         else:
