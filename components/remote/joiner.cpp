@@ -48,9 +48,9 @@ private:
         auto const response = xml::read_join_response(text);
         if (!response) return of_.give_up("unexpected answer to join: expected join_response, not " + quoted(text, 200));
         if (response->return_code != ReturnCode::ok) return of_.give_up("it refuses: " + response->reason);
+        of_.joined_at_ = std::chrono::steady_clock::now();
         of_.has_joined_ = true;
         of_.window_ = response->window;
-        of_.failures_ = 0;
         of_.note("joined as " + quoted(of_.joining_.name));
     }
 };
@@ -89,7 +89,11 @@ void Joiner::give_up(std::string const& reason) {
     auto const self = shared_from_this();
     ++era_;
     auto const now = std::chrono::steady_clock::now();
-    if (std::exchange(has_joined_, false)) may_resume_until_ = now + window_;
+    // A link that breaks at once may have been refused for the profile that it brought.
+    if (std::exchange(has_joined_, false) && now > joined_at_ + time_for_attempt) {
+        may_resume_until_ = now + window_;
+        failures_ = 0;
+    }
     auto const main_engine = std::exchange(main_engine_, nullptr);
     auto const own_gateway = std::exchange(own_gateway_, nullptr);
     if (main_engine) main_engine->cut();

@@ -42,8 +42,9 @@ private:
     std::shared_ptr<Side> own_gateway_;  // null between attempts
     std::shared_ptr<Side> main_engine_;  // null until the own gateway is connected
     std::string last_note_;
-    std::uint64_t era_ = 0;                // counts attempts and lost links
-    unsigned failures_ = 0;                // failed attempts in a row, since the session can no longer be resumed
+    std::uint64_t era_ = 0;  // counts attempts and lost links
+    unsigned failures_ = 0;  // short links and failed attempts in a row, since a session could be resumed
+    Steady joined_at_{};
     std::chrono::milliseconds window_{0};  // within which the main engine may resume its session after a loss
     Steady may_resume_until_{};
     bool has_joined_ = false;

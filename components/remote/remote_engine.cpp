@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "remote/remote_component.hpp"
+#include "remote/times.hpp"
 #include "types/identifier_length.hpp"
+#include "types/text/listing.hpp"
 #include "types/text/texts.hpp"
 
 namespace rois::remote {
@@ -17,6 +19,7 @@ constexpr int deepest = 8;  // levels of engines
 // Names that a component's profile declares. The engine compares them with one another, while all applications wait.
 constexpr std::size_t most_names = 500;
 constexpr auto is_lost = "its engine is lost";
+constexpr std::chrono::milliseconds between_questions{50};  // whether everything stands still
 
 // The robots of an engine have its instance and no sub engines. They do not count as a level.
 void collect(EngineProfile const& profile, int level, std::string const& instance_above, std::vector<std::string>& instances) {
@@ -109,6 +112,9 @@ RemoteEngine::RemoteEngine(SubEngine settings, std::shared_ptr<RemoteEngineHost>
 void RemoteEngine::ask_profile() {
     profile_changed_ = profile_asked_;
     if (std::exchange(profile_asked_, true)) return;
+    host_->at(host_->now() + time_for_attempt, [self = shared_from_this(), era = era_] {
+        if (self->era_ == era && self->profile_asked_) self->reject("no answer to get_profile within " + shown(time_for_attempt));
+    });
     ask(GetProfile{}, [self = shared_from_this()](Reply const* reply) {
         self->profile_asked_ = false;
         auto const* profile = reply == nullptr ? nullptr : std::get_if<GetProfile::Reply>(reply);
@@ -136,9 +142,18 @@ void RemoteEngine::take_profile(GetProfile::Reply const& reply) {
     failures_ = 0;
     last_error_.clear();
     is_present_ = true;
+    note_missing();
     show();
     subscribe();
     restore();
+}
+
+void RemoteEngine::note_missing() {
+    std::vector<std::string> missing;
+    for (auto const& ref : settings_.components)
+        if (!record_of(ref)) missing.push_back(ref);
+    if (std::exchange(missing_, missing) == missing || missing.empty()) return;
+    note("it lacks " + listed(missing) + ", which the engines file names in \"components\"");
 }
 
 // Components whose profile has changed leave, and come again.
@@ -303,12 +318,13 @@ void RemoteEngine::bind(std::shared_ptr<ComponentRecord> const& record, Ticket t
     if (!is_open_) return record->answer(ticket, Failed{is_lost});
     record->is_wanted = true;
     if (record->is_held && record->binds_asked == 0) return record->answer(ticket, Done{});
-    bind_there(record, [record, ticket](Reply const* reply) {
+    bind_there(record, [self = shared_from_this(), record, ticket](Reply const* reply) {
         if (reply == nullptr) return record->answer(ticket, Failed{is_lost});
         auto const outcome = outcome_of(*reply);
         if (outcome.return_code == ReturnCode::ok) return record->answer(ticket, Done{});
-        if (outcome.return_code == ReturnCode::out_of_resources) return record->answer(ticket, Refused{outcome.reason});
-        record->answer(ticket, Failed{outcome.reason});
+        auto reason = "in the engine " + quoted(self->settings_.name) + ": " + outcome.reason;
+        if (outcome.return_code == ReturnCode::out_of_resources) return record->answer(ticket, Refused{std::move(reason)});
+        record->answer(ticket, Failed{std::move(reason)});
     });
 }
 
@@ -348,7 +364,7 @@ void RemoteEngine::prepare(std::shared_ptr<ComponentRecord> const& record, Ticke
         auto const outcome = outcome_of(*reply);
         if (outcome.return_code == ReturnCode::bad_parameter)
             return record->answer(ticket, Refused{without_place(outcome.reason)});
-        if (outcome.return_code != ReturnCode::ok) return record->answer(ticket, Failed{outcome.reason});
+        if (outcome.return_code != ReturnCode::ok) return record->answer(ticket, Failed{without_place(outcome.reason)});
         record->answer(ticket, [self, record, command_type, parameters](CommandHandle command, Instant) {
             self->run([=](RemoteEngine& engine) {
                 try {
@@ -402,7 +418,7 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
 // sub engine knows whether its component stands still.
 void RemoteEngine::halt(std::shared_ptr<ComponentRecord> const& record, Ticket ticket) {
     record->halt = ticket;
-    if (!record->may_act) return record->stands_still();
+    if (!record->may_act) return everything_is_stopped_ ? ask_to_stop() : record->stands_still();
     if (!record->is_held || record->is_stopping || is_given_up_) return;
     record->is_stopping = true;
     command(record, "stop", {}, [self = shared_from_this(), record](CompletedStatus status, std::string const&) {
@@ -410,6 +426,41 @@ void RemoteEngine::halt(std::shared_ptr<ComponentRecord> const& record, Ticket t
         if (status != CompletedStatus::ok) return;
         record->stands_still();
         self->release_unwanted(record);
+    });
+}
+
+void RemoteEngine::stop_everything() {
+    everything_is_stopped_ = true;
+    ask_to_stop();
+}
+
+// Until then, the halts of components that this engine does not command wait for the sub engine's answer.
+void RemoteEngine::clear_stop() {
+    everything_is_stopped_ = false;
+    if (auto const stop = std::exchange(stop_there_, {})) ask(ClearStop{*stop}, [](Reply const*) {});
+    for (auto const& [ref, record] : records_)
+        if (!record->may_act) record->stands_still();
+}
+
+// Asks until all components there stand still. A component program does not know this request: it has no other applications.
+void RemoteEngine::ask_to_stop() {
+    if (!everything_is_stopped_ || !is_open_ || std::exchange(stop_is_asked_, true)) return;
+    ask(StopEverything{}, [self = shared_from_this()](Reply const* reply) {
+        self->stop_is_asked_ = false;
+        auto const* stopped = reply == nullptr ? nullptr : std::get_if<StopEverything::Reply>(reply);
+        if (stopped == nullptr || !self->everything_is_stopped_) return;
+        if (stopped->stop) self->stop_there_ = stopped->stop;
+        if (stopped->return_code != ReturnCode::ok && stopped->return_code != ReturnCode::unsupported) return;
+        bool is_waiting = false;
+        for (auto const& [ref, record] : self->records_) {
+            if (record->may_act || !record->halt) continue;
+            auto const& moving = stopped->not_halted;
+            if (std::ranges::find(moving, ref) == moving.end())
+                record->stands_still();
+            else
+                is_waiting = true;
+        }
+        if (is_waiting) self->host_->at(self->host_->now() + between_questions, [self] { self->ask_to_stop(); });
     });
 }
 

@@ -66,6 +66,11 @@ public:
     void joined(std::shared_ptr<client::Link> link);
     bool has_link() const { return link_ != nullptr; }
 
+    // Everything is stopped in this engine, or this has ended. The sub engine stops everything too, also what its own
+    // applications have begun.
+    void stop_everything();
+    void clear_stop();
+
     // Reports a problem. If the same one is reported again and again, the log has it once.
     void note(std::string const& what);
 
@@ -126,9 +131,11 @@ private:
     void report_state(ComponentRecord&, ComponentChanged const&) const;
     void command(std::shared_ptr<ComponentRecord> const&, std::string const& command_type, ParameterList arguments,
                  std::function<void(CompletedStatus, std::string const& reason)> const& then);
+    void ask_to_stop();
     void ask_profile();
     void take_profile(GetProfile::Reply const&);
     void enter(GetProfile::Reply const&);
+    void note_missing();
     void subscribe();
     void restore();
     void bind_there(std::shared_ptr<ComponentRecord> const&, Then const&);
@@ -151,6 +158,7 @@ private:
     Records records_;
     std::map<std::string, ComponentChanged, std::less<>> states_;  // by refs in the sub engine; some have no record yet
     std::map<std::string, std::function<void(Completed const&)>, std::less<>> commands_;  // commands that have not ended, by id
+    std::vector<std::string> missing_;  // refs that the engines file names and the sub engine does not have
     std::set<std::string> subscribed_;  // event types that `subscribe` was sent for
 
     std::shared_ptr<client::Link> link_;  // null between attempts
@@ -172,6 +180,9 @@ private:
     Steady last_sign_{};             // when the last sign of life was sent
     std::optional<Steady> asked_for_sign_;  // when the first sign of life that is not answered yet was sent
     EngineState state_;                     // the state that `show` passed on last
+    bool everything_is_stopped_ = false;
+    bool stop_is_asked_ = false;               // a `stop_everything` is not answered yet
+    std::optional<std::uint64_t> stop_there_;  // for `clear_stop`
     bool is_over_ = false;
 };
 

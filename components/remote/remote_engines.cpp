@@ -68,8 +68,14 @@ public:
             auto& engine = engines_[each.name];
             if (engine) continue;
             engine = std::make_shared<RemoteEngine>(each, shared_from_this());
+            if (everything_is_stopped_) engine->stop_everything();
             engine->begin();
         }
+    }
+
+    void everything_stopped(bool is_stopped) {
+        everything_is_stopped_ = is_stopped;
+        for (auto const& [name, engine] : engines_) is_stopped ? engine->stop_everything() : engine->clear_stop();
     }
 
     void accept(UniqueDescriptor&& socket, std::string head) { acceptor_->open(std::move(socket), std::move(head)); }
@@ -145,6 +151,13 @@ private:
         return found->second;
     }
 
+    // Reports a refusal, unless the last engine that came by this name was refused for the same reason.
+    void note_join(std::string const& name, std::string const& refusal) {
+        auto& last = last_refusals_[joined_.contains(name) ? name : std::string{}];
+        if (!refusal.empty() && last != refusal) host_.report("an engine that joins", "refused: " + refusal);
+        last = refusal;
+    }
+
     // An exception has left a handler of this thread, for example because memory is missing. It may have interrupted any of them.
     void recover() {
         for (auto const& [name, engine] : engines_) engine->recover();
@@ -164,18 +177,20 @@ private:
     std::map<std::string, EngineState> states_;  // guarded by states_mutex_
     std::shared_ptr<Pulse> const pulse_ = std::make_shared<Pulse>();
     std::map<std::string, std::shared_ptr<RemoteEngine>> engines_;
+    bool everything_is_stopped_ = false;
     std::map<std::string, Settings> settings_;  // of the links, which refer to them
     std::map<std::string, std::vector<std::string>> instances_;
     struct Joined {
         std::string instance;    // the last one
         RateLimit often{10, 1};  // how often an engine may join
     };
-    std::map<std::string, Joined> joined_;  // by name
+    std::map<std::string, Joined> joined_;              // by name
+    std::map<std::string, std::string> last_refusals_;  // by name; "": all unknown names
     std::shared_ptr<JoinAcceptor> const acceptor_ =
         std::make_shared<JoinAcceptor>(loop_, host_.schemas, [this](xml::Join const& join) {
             auto found = joining(join);
-            if (auto const* reason = std::get_if<std::string>(&found))
-                host_.report("an engine that joins", "refused: " + *reason);
+            auto const* refusal = std::get_if<std::string>(&found);
+            note_join(join.name, refusal == nullptr ? std::string{} : *refusal);
             return found;
         });
     std::shared_ptr<Joiner> joiner_;  // null: this engine joins none
@@ -209,6 +224,10 @@ void RemoteEngines::accept(UniqueDescriptor socket, std::string head) {
 void RemoteEngines::join(Joining joining) {
     client::read_url(joining.url);
     links_->post([links = links_, joining = std::move(joining)] { links->join(joining); });
+}
+
+void RemoteEngines::everything_stopped(bool is_stopped) {
+    links_->post([links = links_, is_stopped] { links->everything_stopped(is_stopped); });
 }
 
 std::vector<EngineState> RemoteEngines::states() const { return links_->states(); }

@@ -184,8 +184,9 @@ void RemoteEngine::opened(Connect::Reply const& reply) {
     subscribed_.clear();
     last_sequence_ = 0;
     is_open_ = true;
-    profile_asked_ = false;
+    profile_asked_ = stop_is_asked_ = false;
     give_signs_of_life(era_);
+    ask_to_stop();
     ask_profile();
 }
 
@@ -218,9 +219,11 @@ void RemoteEngine::resumed(ReturnCode code) {
     lost_at_.reset();
     failures_ = 0;
     host_->report(settings_.name, "the link is back, and nothing was lost");
+    last_error_.clear();
     show();
     give_signs_of_life(era_);
     send_again();
+    ask_to_stop();
 }
 
 // The answers to these requests may have been lost. All may be performed twice, except an execute.

@@ -192,6 +192,9 @@ Engine::Core::Later Engine::Core::bind_first(Session& session, SharedAsked const
             if (!answer)
                 return refused<BindAny::Reply>(ReturnCode::timeout,
                                                did_not_answer(*component, settings_.question_deadline) + "; nothing is bound");
+            if (auto const* taken = std::get_if<Refused>(&*answer))
+                return refused<BindAny::Reply>(ReturnCode::out_of_resources,
+                                               "no component that matches the condition is free now; " + taken->reason);
             return refused<BindAny::Reply>(ReturnCode::error, "no component that matches the condition can be bound now");
         };
         --component->binds_asked;

@@ -55,7 +55,8 @@ public:
     Session* session_of(Asked const&) const;
     void end(SessionId const&, Instant now);
     void stop_everything(Instant now);
-    void clear() { everything_is_stopped_ = false; }
+    void clear();
+    void on_stop(std::function<void(bool is_stopped)> call) { on_stop_ = std::move(call); }
     bool everything_is_stopped() const { return everything_is_stopped_; }
     std::vector<std::string> not_halted() const;
     std::vector<std::string> not_ready() const;
@@ -97,6 +98,8 @@ private:
     Reply perform(Session&, Disconnect const&, Instant now);
     Reply perform(Session&, GetProfile const&, Instant now);
     Reply perform(Session&, GetErrorDetail const&, Instant now);
+    Reply perform(Session&, StopEverything const&, Instant now);
+    Reply perform(Session&, ClearStop const&, Instant now);
 
     // Command interface (command_interface.cpp)
     Reply perform(Session&, Search const&, Instant now);
@@ -234,6 +237,8 @@ private:
     bool sessions_must_end_ = false;
     bool shutting_down_ = false;
     bool everything_is_stopped_ = false;
+    std::uint64_t stops_ = 0;  // how often everything was stopped
+    std::function<void(bool)> on_stop_ = [](bool) {};
     std::optional<Steady> stop_reported_;  // when the sessions last received the error of a stop of everything
     bool stop_unreported_ = false;         // a later stop has not been reported yet: a tick will report it
     std::vector<Session*> engines_;        // sessions of other engines

@@ -212,11 +212,17 @@ void Engine::Core::remove(Session& session, Instant now) {
 void Engine::Core::stop_everything(Instant now) {
     everything_is_stopped_ = true;
     stop_unreported_ = true;
+    ++stops_;
     Attempts attempts;
+    attempts([&] { on_stop_(true); });  // before the components are halted
     attempts([&] { executor_.stop_all("everything was stopped", now); });
     attempts([&] { report_stop_of_everything(now); });
     attempts([&] { settle(now); });
     attempts.rethrow();
+}
+
+void Engine::Core::clear() {
+    if (std::exchange(everything_is_stopped_, false)) on_stop_(false);
 }
 
 // Any client can stop everything, as often as it likes. Reporting each stop would fill the queues of the sessions.
@@ -421,6 +427,7 @@ void Engine::shut_down(Instant now) { core_->shut_down(now); }
 
 void Engine::stop_everything(Instant now) { core_->stop_everything(now); }
 void Engine::clear() { core_->clear(); }
+void Engine::on_stop(std::function<void(bool is_stopped)> call) { core_->on_stop(std::move(call)); }
 bool Engine::everything_is_stopped() const { return core_->everything_is_stopped(); }
 std::vector<std::string> Engine::not_halted() const { return core_->not_halted(); }
 std::vector<std::string> Engine::not_ready() const { return core_->not_ready(); }

@@ -187,6 +187,9 @@ public:
     void stop_everything(Instant now);
     void clear();
     bool everything_is_stopped() const;
+    // Sets the function that is called when everything is stopped, and at the end of that: within a call to the engine, before
+    // the components are halted. It must return at once and not call the engine.
+    void on_stop(std::function<void(bool is_stopped)>);
     // Returns the refs of the components that have not confirmed a halt (decision 35).
     std::vector<std::string> not_halted() const;
     // Returns the components of not_halted() that make the engine report "not ready". While everything is stopped, these are all

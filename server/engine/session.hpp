@@ -54,6 +54,8 @@ struct Session {
     // After this time without a link, the session ends.
     std::chrono::milliseconds window{};
 
+    std::uint64_t last_stop = 0;  // number of the last stop of everything that it has asked for
+
     // The client is another engine (decision 39).
     bool is_engine = false;
     struct Notified {

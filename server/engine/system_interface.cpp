@@ -108,6 +108,22 @@ Reply Engine::Core::perform(Session& session, Resume const& resume, Instant) {
                                                                  ", not " + std::to_string(resume.last_sequence));
 }
 
+// A session that asks again sees how far the stop is.
+Reply Engine::Core::perform(Session& session, StopEverything const&, Instant now) {
+    bool const was_stopped = everything_is_stopped_;
+    if (!was_stopped || session.last_stop != stops_) stop_everything(now);
+    session.last_stop = stops_;
+    StopEverything::Reply reply;
+    if (!was_stopped) reply.stop = stops_;
+    reply.not_halted = not_halted();
+    return reply;
+}
+
+Reply Engine::Core::perform(Session&, ClearStop const& asked, Instant) {
+    if (asked.stop == stops_) clear();
+    return ClearStop::Reply{};
+}
+
 Reply Engine::Core::perform(Session& session, Disconnect const&, Instant now) {
     end(session, "it disconnected", now);
     return Disconnect::Reply{};

@@ -249,7 +249,7 @@ std::vector<SubEngine> read_engines_file(std::string const& file, TakenNames con
         if (auto const other = taken.find(engine.name); other != taken.end())
             throw BadSettings{where("name") + "sub engine " + rois::quoted(engine.name) + ": name is already the name of " +
                               other->second};
-        if (!names.insert(engine.name).second)
+        if (!names.insert(lower_case(engine.name)).second)  // names of frames do not distinguish letter case
             throw BadSettings{where("name") + "there are two sub engines with the name " + rois::quoted(engine.name)};
         if (!engine.joins.empty() && !joining.insert(engine.joins).second)
             throw BadSettings{where("joins") + "two sub engines join as " + rois::quoted(engine.joins)};

@@ -274,6 +274,7 @@ int serve(CommandLine const& command) {
             .change = [&](ComponentChange change) { gateway.change(std::move(change)); },
             .report = [](std::string const& name, std::string const& what) { spdlog::info("{}: {}", name, what); }});
         engine.add(remote_engines->pulse(), "pulse");
+        engine.on_stop([&](bool is_stopped) { remote_engines->everything_stopped(is_stopped); });
     }
     if (!settings.engines.empty())
         net_settings.join = [&](UniqueDescriptor socket, std::string head) {

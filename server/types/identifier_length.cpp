@@ -88,6 +88,8 @@ struct Checker {
         return why_too_long("subscribe_id", unsubscribe.subscribe_id.text);
     }
     Problem operator()(GetEventDetail const& get) const { return why_too_long("event_id", get.event_id.text); }
+    Problem operator()(StopEverything const&) const { return {}; }
+    Problem operator()(ClearStop const&) const { return {}; }
 };
 
 }  // namespace

@@ -176,10 +176,25 @@ struct GetEventDetail {
     };
 };
 
+// --- Stop for everything (decision 34), for applications and engines without HTTP ---
+
+struct StopEverything {
+    struct Reply : Outcome {
+        std::optional<std::uint64_t> stop;    // for `ClearStop`; nullopt: everything had been stopped before, by someone else
+        std::vector<std::string> not_halted;  // refs of components that have not confirmed that they stand still
+    };
+};
+
+// Has no effect if everything was stopped again since.
+struct ClearStop {
+    std::uint64_t stop = 0;
+    struct Reply : Outcome {};
+};
+
 // All operations, in the order in which they are declared above.
-using Operation =
-    std::variant<Connect, Resume, Disconnect, GetProfile, GetErrorDetail, Search, Bind, BindAny, Release, GetParameter,
-                 SetParameter, Execute, GetCommandResult, Query, Subscribe, Unsubscribe, GetEventDetail>;
+using Operation = std::variant<Connect, Resume, Disconnect, GetProfile, GetErrorDetail, Search, Bind, BindAny, Release,
+                               GetParameter, SetParameter, Execute, GetCommandResult, Query, Subscribe, Unsubscribe,
+                               GetEventDetail, StopEverything, ClearStop>;
 
 template <class>
 struct ReplyOf;

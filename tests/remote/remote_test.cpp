@@ -35,6 +35,45 @@ TEST_F(SubEngines, AreAskedForBindings) {
     EXPECT_EQ(guard.bind("navigation"), ReturnCode::ok);
 }
 
+TEST_F(SubEngines, WithAnApplicationOfTheirOwnAreTakenForBindAny) {
+    auto guard = engines.hall.connect();
+    guard.bind("navigation");
+    auto const taken = engines.ask(desk, BindAny{equal("name", "hall.navigation")});
+    EXPECT_EQ(taken.return_code, ReturnCode::out_of_resources);
+    EXPECT_THAT(taken.reason, HasSubstr("in the engine 'hall': the component 'navigation' is bound by another session"));
+}
+
+TEST_F(SubEngines, LossesAreReportedEachTime) {
+    for (int i = 0; i < 3; ++i) {
+        engines.cut();
+        engines.advance(500ms);
+        engines.repair();
+        engines.advance(500ms);
+    }
+    EXPECT_EQ(std::ranges::count(engines.reported, "the link broke"), 3);
+    EXPECT_EQ(std::ranges::count(engines.reported, "the link is back, and nothing was lost"), 3);
+}
+
+TEST_F(SubEngines, ThatDoNotAnswerGetProfileAreGivenUp) {
+    engines.inject(ProfileChanged{});
+    engines.hold_back(true);
+    engines.inject(ProfileChanged{});
+    engines.advance(6s);
+    EXPECT_THAT(engines.reported, testing::Contains("no answer to get_profile within 5 s"));
+}
+
+TEST(SubEnginesWithoutAWantedComponent, AreReported) {
+    auto settings = TwoEngines::hall_settings();
+    settings.components = {"navigation", "navigatoin"};
+    TwoEngines engines{{navigation}, settings};
+    EXPECT_THAT(engines.reported,
+                testing::Contains("it lacks navigatoin, which the engines file names in \"components\"").Times(1));
+    engines.hall.change({}, {speech});
+    engines.advance(1s);
+    EXPECT_THAT(engines.reported,
+                testing::Contains("it lacks navigatoin, which the engines file names in \"components\"").Times(1));
+}
+
 TEST_F(SubEngines, PerformCommands) {
     engines.bind(desk, "hall.navigation");
     engines.execute(desk, go("go", "hall.navigation"));

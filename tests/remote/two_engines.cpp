@@ -193,6 +193,9 @@ TwoEngines::TwoEngines(std::vector<Part> const& parts, remote::SubEngine setting
         main.engine->describe({.frames = {"here"}, .all = {}});
         hall.engine->describe({.frames = {crs_of_hall}, .all = {}});
     }
+    main.engine->on_stop([this](bool is_stopped) {
+        remote_->run([is_stopped](auto& engine) { is_stopped ? engine.stop_everything() : engine.clear_stop(); });
+    });
     remote_->begin();
     advance(100ms);
 }

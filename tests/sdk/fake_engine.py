@@ -25,6 +25,10 @@ class Link:
         self.pongs = 0
 
     async def open(self):
+        await self.accept_join()
+        self.reading = asyncio.ensure_future(self.read())
+
+    async def accept_join(self):
         head = (await self.reader.readuntil(b"\r\n\r\n")).decode()
         key = next(line.split(": ")[1] for line in head.split("\r\n") if line.startswith("Sec-WebSocket-Key"))
         accept = base64.b64encode(hashlib.sha1((key + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11").encode()).digest()).decode()
@@ -33,7 +37,6 @@ class Link:
         )
         await self.message()  # join
         self.send(f'<join_response {rois.NAMES} return_code="OK" window="200"/>'.encode())
-        self.reading = asyncio.ensure_future(self.read())
 
     async def message(self):
         first, second = await self.reader.readexactly(2)

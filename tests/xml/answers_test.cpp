@@ -105,7 +105,9 @@ std::vector<Reply> good_replies() {
             query_reply(component, results()),
             answer(&Subscribe::Reply::subscribe_id, SubscribeId{strange}),
             Unsubscribe::Reply{},
-            answer(&GetEventDetail::Reply::results, Results{})};
+            answer(&GetEventDetail::Reply::results, Results{}),
+            answer(&StopEverything::Reply::not_halted, {strange, "b"}),
+            ClearStop::Reply{}};
 }
 
 TEST(Answer, EverySuccessfulReplyIsValid) {

@@ -33,6 +33,8 @@ TEST(Request, EveryOperationIsRead) {
     EXPECT_EQ(operation<rois::Query>(document("query", "<query_type>robot_position</query_type>")).query_type, "robot_position");
     EXPECT_EQ(operation<Unsubscribe>(document("unsubscribe", "<subscribe_id>s1</subscribe_id>")).subscribe_id, SubscribeId{"s1"});
     EXPECT_EQ(operation<GetEventDetail>(document("get_event_detail", "<event_id>v1</event_id>")).event_id, EventId{"v1"});
+    operation<StopEverything>(document("stop_everything"));
+    EXPECT_EQ(operation<ClearStop>(document("clear_stop", {}, " stop='3'")).stop, 3u);
 }
 
 TEST(Request, ResumeHasSessionAndLastSequence) {

@@ -34,6 +34,7 @@ NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 # Seconds.
 LONGEST_PAUSE = 30  # between two attempts to join
 PAUSE_IN_WINDOW = 0.2  # while the engine keeps the session
+SHORT_LINK = 5
 LONGEST_HALT = 0.5  # for which an answer waits
 LONGEST_QUERY = 2
 EVENT_LIFE = 60
@@ -666,10 +667,10 @@ async def join(service, url):
 
 
 async def join_again(service, url):
-    """Joins when there is no link: soon after a link that was used and while a session waits, otherwise less and less often."""
+    """Joins when there is no link: often while the engine keeps the session, otherwise less and less often."""
     pause = 0.1
+    soon_until = 0.0
     said = ""
-    was_used = False
     while True:
         begun = time.monotonic()
         try:
@@ -678,15 +679,13 @@ async def join_again(service, url):
             if str(problem) != said:
                 log.warning("%s: %s", url, problem or "the link broke")
             said = str(problem)
-        is_used = service.last_request > begun
-        if time.monotonic() - begun > 5 or (is_used and not was_used):
+        now = time.monotonic()
+        if now - begun > SHORT_LINK:  # not a link that the engine ended at once, perhaps because of the profiles
             pause = 0.1
-        elif service.session:
-            pause = PAUSE_IN_WINDOW
-        else:
+            soon_until = now + service.window
+        await asyncio.sleep(PAUSE_IN_WINDOW if now < soon_until else pause)
+        if now >= soon_until:
             pause = min(2 * pause, LONGEST_PAUSE)
-        was_used = is_used
-        await asyncio.sleep(pause)
 
 
 async def keep_joined(service, url):

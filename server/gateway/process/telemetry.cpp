@@ -18,7 +18,7 @@ using prometheus::ClientMetric;
 using prometheus::MetricFamily;
 using prometheus::MetricType;
 
-constexpr std::array<char const*, 17> operation_names{"connect",
+constexpr std::array<char const*, 19> operation_names{"connect",
                                                       "resume",
                                                       "disconnect",
                                                       "get_profile",
@@ -34,7 +34,9 @@ constexpr std::array<char const*, 17> operation_names{"connect",
                                                       "query",
                                                       "subscribe",
                                                       "unsubscribe",
-                                                      "get_event_detail"};
+                                                      "get_event_detail",
+                                                      "stop_everything",
+                                                      "clear_stop"};
 static_assert(operation_names.size() == std::variant_size_v<Operation>);
 
 constexpr std::array<char const*, 3> kind_names{"http", "websocket", "stream"};

@@ -45,6 +45,8 @@ Operation decode_resume(Node node) {
     return Resume{SessionId{node.attribute_text("session")}, decode_unsigned(node.attribute_text("last_sequence"))};
 }
 
+Operation decode_clear_stop(Node node) { return ClearStop{decode_unsigned(node.attribute_text("stop"))}; }
+
 Operation decode_set_parameter(Node node) {
     return SetParameter{component_ref(node), decode_parameters(node.child("parameters")),
                         decode_boolean(node.attribute_text("check_only"))};
@@ -90,6 +92,8 @@ constexpr std::array<std::pair<std::string_view, Decode>, std::variant_size_v<Op
      [](Node n) -> Operation {
          return GetEventDetail{child_id<EventTag>(n, "event_id"), condition(n)};
      }},
+    {"stop_everything", [](Node) -> Operation { return StopEverything{}; }},
+    {"clear_stop", decode_clear_stop},
 }};
 
 constexpr auto names = [] {

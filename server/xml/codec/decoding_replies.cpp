@@ -57,6 +57,13 @@ bool read(Node node, Connect::Reply& reply) {
     return !reply.session.text.empty();
 }
 
+bool read(Node node, StopEverything::Reply& reply) {
+    if (auto const stop = node.attribute("stop")) reply.stop = decode_unsigned(*stop);
+    for (auto const child : node.children())
+        if (child.name() == "not_halted") reply.not_halted.emplace_back(child.text());
+    return true;
+}
+
 // Null if the entry has none.
 std::shared_ptr<ComponentTraits const> decode_traits(Node entry) {
     auto const moves = entry.attribute("moves");

@@ -24,10 +24,12 @@ constexpr std::string_view root_of(Query::Reply const&) { return "query_response
 constexpr std::string_view root_of(Subscribe::Reply const&) { return "subscribe_response"; }
 constexpr std::string_view root_of(Unsubscribe::Reply const&) { return "unsubscribe_response"; }
 constexpr std::string_view root_of(GetEventDetail::Reply const&) { return "get_event_detail_response"; }
+constexpr std::string_view root_of(StopEverything::Reply const&) { return "stop_everything_response"; }
+constexpr std::string_view root_of(ClearStop::Reply const&) { return "clear_stop_response"; }
 
 template <class T>
 concept HasNothing = std::is_same_v<T, Resume::Reply> || std::is_same_v<T, Disconnect::Reply> || std::is_same_v<T, Bind::Reply> ||
-    std::is_same_v<T, Release::Reply> || std::is_same_v<T, Unsubscribe::Reply>;
+    std::is_same_v<T, Release::Reply> || std::is_same_v<T, Unsubscribe::Reply> || std::is_same_v<T, ClearStop::Reply>;
 template <class T>
 concept HasOnlyResults = std::is_same_v<T, GetErrorDetail::Reply> || std::is_same_v<T, GetCommandResult::Reply> ||
     std::is_same_v<T, GetEventDetail::Reply>;
@@ -42,6 +44,10 @@ void write(Writer&, HasNothing auto const&) {}
 void write(Writer& out, HasOnlyResults auto const& reply) { write_results(out, reply.results); }
 
 void write(Writer& out, Connect::Reply const& reply) { out.element("session", reply.session.text); }
+
+void write(Writer& out, StopEverything::Reply const& reply) {
+    for (auto const& ref : reply.not_halted) out.element("not_halted", ref);
+}
 
 void write_traits(Writer& out, ComponentTraits const& traits) {
     out.constant("moves", traits.moves ? "true" : "false").constant("when_stopped", to_text(traits.status_when_stopped));
@@ -92,6 +98,9 @@ void write(Writer& out, Subscribe::Reply const& reply) { out.element("subscribe_
 void write_attributes(Writer&, auto const&) {}
 void write_attributes(Writer& out, Connect::Reply const& reply) {
     if (reply.window) out.attribute("window", static_cast<std::uint64_t>(reply.window->count()));
+}
+void write_attributes(Writer& out, StopEverything::Reply const& reply) {
+    if (reply.stop) out.attribute("stop", *reply.stop);
 }
 
 template <class R>

@@ -34,6 +34,8 @@ void write(Writer& out, GetCommandResult const& op) { out.element("command_id", 
 void write(Writer& out, Query const& op) { out.element("query_type", op.query_type); }
 void write(Writer& out, Subscribe const& op) { out.element("event_type", op.event_type); }
 void write(Writer& out, Unsubscribe const& op) { out.element("subscribe_id", op.subscribe_id.text); }
+void write(Writer&, StopEverything const&) {}
+void write(Writer&, ClearStop const&) {}
 void write(Writer& out, GetEventDetail const& op) { out.element("event_id", op.event_id.text); }
 
 void write_attributes(Writer&, auto const&) {}
@@ -44,6 +46,7 @@ void write_attributes(Writer& out, Connect const& op) {
     if (op.window) out.attribute("window", static_cast<std::uint64_t>(op.window->count()));
     if (op.motion_proof) out.attribute("motion_proof", *op.motion_proof == MotionProof::request ? "request" : "pong");
 }
+void write_attributes(Writer& out, ClearStop const& op) { out.attribute("stop", op.stop); }
 void write_attributes(Writer& out, Resume const& op) {
     out.attribute("session", op.session.text).attribute("last_sequence", op.last_sequence);
 }

@@ -1,0 +1,100 @@
+// A stop of everything reaches the sub engines (decision 34).
+#include "remote/two_engines.hpp"
+
+namespace rois {
+
+namespace {
+
+struct AStopOfEverything : testing::Test {
+    TwoEngines engines{{navigation, speech}};
+    // An application of the hall, whose robot it drives.
+    Application guard = engines.hall.connect();
+
+    void SetUp() override {
+        guard.bind("navigation");
+        guard.execute(go("go", "navigation"));
+        guard.received();
+    }
+    ScriptedComponent& robot() { return engines.hall["navigation"]; }
+    void stop(World& world) { world.engine->stop_everything(world.now); }
+    void clear(World& world) {
+        world.engine->clear();
+        engines.settle();
+    }
+    std::vector<std::string> not_halted() const { return engines.main.engine->not_halted(); }
+    bool hall_is_stopped() const { return engines.hall.engine->everything_is_stopped(); }
+};
+
+}  // namespace
+
+TEST_F(AStopOfEverything, StopsWhatApplicationsOfTheSubEngineHaveBegun) {
+    stop(engines.main);
+    EXPECT_THAT(not_halted(), testing::Contains("hall.navigation")) << "nobody has confirmed it yet";
+    engines.advance(200ms);
+    EXPECT_THAT(guard.received(), testing::Contains(HasSubstr("completed go ABORT")));
+    EXPECT_THAT(not_halted(), IsEmpty());
+    EXPECT_EQ(guard.execute(go("again", "navigation")).return_code, ReturnCode::error) << "it is stopped there, too";
+    clear(engines.main);
+    EXPECT_EQ(guard.execute(go("later", "navigation")).return_code, ReturnCode::ok);
+}
+
+TEST_F(AStopOfEverything, IsConfirmedWhenTheComponentStandsStill) {
+    robot().halts_later = true;
+    stop(engines.main);
+    engines.advance(400ms);
+    EXPECT_THAT(not_halted(), ElementsAre("hall.navigation"));
+    robot().stands_still();
+    engines.advance(300ms);
+    EXPECT_THAT(not_halted(), IsEmpty());
+}
+
+TEST_F(AStopOfEverything, ReachesASubEngineWhoseLinkReturns) {
+    engines.cut();
+    stop(engines.main);
+    engines.advance(1s);
+    EXPECT_THAT(not_halted(), testing::Contains("hall.navigation"));
+    EXPECT_FALSE(hall_is_stopped());
+    engines.repair();
+    engines.advance(1s);
+    EXPECT_TRUE(hall_is_stopped());
+    EXPECT_THAT(not_halted(), IsEmpty());
+}
+
+TEST_F(AStopOfEverything, DoesNotEndOneOfTheSubEnginesOwn) {
+    stop(engines.hall);
+    stop(engines.main);
+    engines.advance(200ms);
+    EXPECT_THAT(not_halted(), IsEmpty());
+    clear(engines.main);
+    EXPECT_TRUE(hall_is_stopped());
+}
+
+TEST_F(AStopOfEverything, DoesNotEndALaterOneOfTheSubEnginesOwn) {
+    stop(engines.main);
+    engines.advance(200ms);
+    stop(engines.hall);
+    clear(engines.main);
+    EXPECT_TRUE(hall_is_stopped());
+}
+
+TEST_F(AStopOfEverything, MayBeClearedWhileTheLinkIsLost) {
+    stop(engines.main);
+    engines.advance(200ms);
+    engines.cut();
+    clear(engines.main);
+    engines.repair();
+    engines.advance(1s);
+    EXPECT_FALSE(hall_is_stopped());
+}
+
+// A component program does not know the request.
+TEST_F(AStopOfEverything, NeedsNoAnswerFromASubEngineThatHasNoApplications) {
+    engines.falsify = [](Reply& reply) {
+        if (auto* stopped = std::get_if<StopEverything::Reply>(&reply)) stopped->return_code = ReturnCode::unsupported;
+    };
+    stop(engines.main);
+    engines.advance(200ms);
+    EXPECT_THAT(not_halted(), IsEmpty());
+}
+
+}  // namespace rois
