@@ -306,6 +306,27 @@ TEST_F(Halting, OfEverythingIsReportedALittleLaterIfTheLastReportWasJustBefore) 
     EXPECT_THAT(desk.received(), IsEmpty());
 }
 
+TEST_F(Halting, OfEverythingIsAnOperationToo) {
+    desk.execute(go("go"));
+    auto const stopped = desk.ask(StopEverything{});
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go ABORT", "2 USER_DEFINED_ERROR"));
+    EXPECT_TRUE(world.engine->everything_is_stopped());
+    auto const again = desk.ask(StopEverything{});
+    EXPECT_THAT(again.not_halted, IsEmpty());
+    EXPECT_FALSE(again.stop);
+    EXPECT_THAT(robot.calls, ElementsAre("start", "halt")) << "the same session only asks how far it is";
+    desk.ask(ClearStop{stopped.stop.value()});
+    EXPECT_FALSE(world.engine->everything_is_stopped());
+}
+
+TEST_F(Halting, OfEverythingByTwoSessionsIsClearedByNeither) {
+    auto hall = world.connect();
+    auto const first = desk.ask(StopEverything{});
+    EXPECT_FALSE(hall.ask(StopEverything{}).stop);
+    desk.ask(ClearStop{first.stop.value()});
+    EXPECT_TRUE(world.engine->everything_is_stopped());
+}
+
 TEST_F(Halting, ThatFailsIsInTheJournalOnceUntilItSucceeds) {
     struct Halts : Journal {
         std::vector<std::string> said;
