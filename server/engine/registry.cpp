@@ -298,7 +298,7 @@ std::optional<std::string> RegisteredComponent::why_no_frame(ParameterList const
         auto const& crs = parameter.data_type_ref.codebook_ref;
         if (is_position(parameter.name) && !frames_.know(crs))
             return "parameter " + quoted(parameter.name) + ": the frame " + quoted(crs, 200) +
-                   " is not known here; expected one of " + listed(frames_.names());
+                   " is not known here; expected one of " + first_listed(frames_.names());
     }
     return {};
 }

@@ -3,6 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "types/text/listing.hpp"
 
 namespace rois {
 
@@ -85,6 +90,15 @@ TEST(Texts, AreSplitIntoCharacters) {
     EXPECT_EQ(take_character(text), U'\U0001F600');
     EXPECT_EQ(take_character(text), char32_t{0xFF}) << "a stray byte";
     EXPECT_EQ(take_character(text), std::nullopt);
+}
+
+TEST(Texts, AreListedUpToFifty) {
+    std::vector<std::string> const two{"desk", "entrance"};
+    EXPECT_EQ(first_listed(two), "desk, entrance");
+    EXPECT_EQ(first_listed(two, [](auto const& text) { return rois::quoted(text); }), "'desk', 'entrance'");
+    std::vector<std::string> const many(60, "a");
+    EXPECT_TRUE(first_listed(many).ends_with("a, a and 10 more"));
+    EXPECT_EQ(first_listed(many).size(), std::string_view{" and 10 more"}.size() + 50 * 3 - 2);
 }
 
 }  // namespace rois

@@ -13,7 +13,7 @@ namespace rois {
 namespace {
 
 std::string names_of(Places const& places) {
-    auto const names = listed(places.all, [](auto const& place) { return quoted(place.name); });
+    auto const names = first_listed(places.all, [](auto const& place) { return quoted(place.name); });
     return names.empty() ? "(none)" : names;
 }
 
@@ -136,7 +136,7 @@ std::optional<SpatialOperand> FilterCompiler::spatial_operand(Expression const& 
         if (here.crs.empty()) here.crs = frames.own();
         if (!frames.own().empty() && !frames.know(here.crs))
             return refuse("the condition has the frame " + quoted(here.crs, 200) + ", which is not known here; expected one of " +
-                          listed(frames.names()));
+                          first_listed(frames.names()));
         if (auto moved = frames.moved(here, frames.own())) return std::move(*moved);
         return here;
     }

@@ -101,23 +101,38 @@ Frames Frames::with(std::vector<Frame> others) const {
 }
 
 void Frames::add(std::vector<Frame> others) {
-    for (auto& frame : others) {
-        if (own_.empty() || frame.crs.empty()) throw std::invalid_argument("a frame, or the engine's own frame, has no name");
-        if (frame.base.empty()) frame.base = own_;
-        auto const placement = Placement::of(frame);
-        auto key = lower_case(frame.crs);
-        if (equal_ignoring_case(frame.crs, own_) || placed_.contains(key))
-            throw std::invalid_argument("the frame " + quoted(frame.crs, 200) + " is given twice");
-        placed_.emplace(std::move(key), std::make_shared<Placed const>(Placed{std::move(frame), placement}));
-    }
+    for (auto& frame : others) insert(std::move(frame));
     for (auto const& [key, placed] : placed_) {
-        auto const& [crs, base, position, orientation, covariance] = placed->frame;
-        if (!know(base))
-            throw std::invalid_argument("the frame " + quoted(crs, 200) + " is placed in " + quoted(base, 200) +
-                                        ", which is unknown; expected one of " + listed(names()));
-        if (ancestry(crs).size() > placed_.size())
-            throw std::invalid_argument("the frame " + quoted(crs, 200) + " is placed in itself, through " + quoted(base, 200));
+        auto const& frame = placed->frame;
+        if (!know(frame.base)) throw std::invalid_argument(unknown_base(frame) + "; expected one of " + first_listed(names()));
+        if (ancestry(frame.crs).size() > placed_.size())
+            throw std::invalid_argument("the frame " + quoted(frame.crs, 200) + " is placed in itself, through " +
+                                        quoted(frame.base, 200));
     }
+}
+
+void Frames::insert(Frame frame) {
+    if (own_.empty() || frame.crs.empty()) throw std::invalid_argument("a frame, or the engine's own frame, has no name");
+    if (frame.base.empty()) frame.base = own_;
+    auto const placement = Placement::of(frame);
+    auto key = lower_case(frame.crs);
+    if (equal_ignoring_case(frame.crs, own_) || placed_.contains(key))
+        throw std::invalid_argument("the frame " + quoted(frame.crs, 200) + " is given twice");
+    placed_.emplace(std::move(key), std::make_shared<Placed const>(Placed{std::move(frame), placement}));
+}
+
+std::optional<std::string> Frames::include(Frame frame) {
+    if (!know(frame.base)) return unknown_base(frame);
+    try {
+        insert(std::move(frame));
+    } catch (std::invalid_argument const& problem) {
+        return problem.what();
+    }
+    return {};
+}
+
+std::string Frames::unknown_base(Frame const& frame) {
+    return "the frame " + quoted(frame.crs, 200) + " is placed in " + quoted(frame.base, 200) + ", which is unknown";
 }
 
 bool Frames::know(std::string_view crs) const { return crs.empty() || equal_ignoring_case(crs, own_) || find(crs) != nullptr; }
@@ -127,6 +142,13 @@ std::vector<std::string> Frames::names() const {
     if (!own_.empty()) names.push_back(own_);
     for (auto const& [key, placed] : placed_) names.push_back(placed->frame.crs);
     return names;
+}
+
+std::vector<Frame> Frames::others() const {
+    std::vector<Frame> frames;
+    for (auto const& [key, placed] : placed_) frames.push_back(placed->frame);
+    std::ranges::stable_sort(frames, {}, [&](Frame const& frame) { return ancestry(frame.crs).size(); });
+    return frames;
 }
 
 Frames::Placed const* Frames::find(std::string_view crs) const {

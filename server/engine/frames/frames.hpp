@@ -13,20 +13,10 @@
 #include <vector>
 
 #include "types/condition.hpp"
+#include "types/space.hpp"
 #include "types/values.hpp"
 
 namespace rois {
-
-// A frame and its position in another frame.
-struct Frame {
-    std::string crs;
-    std::string base;                  // the frame in which this one is placed; empty: the engine's own
-    std::array<double, 3> position{};  // of its origin, mm
-    std::array<double, 3>
-        orientation{};  // of its axes: roll, pitch, yaw in degrees; turned by roll about x first, by yaw about z last
-    std::vector<double> covariance;  // of the placement, row by row in mm and degrees: of x, y, yaw (9 numbers), or of x, y, z,
-                                     // roll, pitch, yaw (36); empty: it is certain
-};
 
 // All frames that the engine knows: its own, and frames placed in it or in one another. Frame names are not case-sensitive; an
 // empty name means the engine's frame. Conversions leave values in unknown frames unchanged.
@@ -49,10 +39,15 @@ public:
     // Returns these frames and others. Throws as the constructor does.
     Frames with(std::vector<Frame> others) const;
 
+    // Adds a frame that is placed in a known one. Returns why the frame is not added, for the reasons of the constructor, or
+    // nullopt.
+    std::optional<std::string> include(Frame);
+
     // Returns whether the engine's frame is the only one. Then no value needs a conversion.
     bool are_one() const { return placed_.empty(); }
     bool know(std::string_view crs) const;
     std::vector<std::string> names() const;  // the engine's frame first
+    std::vector<Frame> others() const;       // without the engine's own; each after the frame that it is placed in
 
     // Converts the position to the frame `to`. Converts a covariance to the first order, and adds those of the frames between.
     // The covariance keeps its form. The forms are
@@ -79,6 +74,8 @@ private:
     struct Step;
 
     void add(std::vector<Frame>);
+    void insert(Frame);
+    static std::string unknown_base(Frame const&);
     Placed const* find(std::string_view crs) const;  // null for the engine's frame
     std::vector<Placed const*> ancestry(std::string_view crs) const;
     std::optional<std::vector<Step>> way(std::string_view from, std::string_view to) const;

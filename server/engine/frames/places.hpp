@@ -2,23 +2,16 @@
 #pragma once
 
 #include <algorithm>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/frames/frames.hpp"
-#include "types/condition.hpp"
+#include "types/space.hpp"
 
 namespace rois {
 
-// An area that conditions refer to by name.
-struct NamedPlace {
-    std::string name;
-    Geometry area;
-};
-
 struct Places {
-    Frames frames;  // areas, and coordinates without a frame, are in the engine's frame
+    Frames frames;  // coordinates without a frame are in the engine's frame
     std::vector<NamedPlace> all;
 
     // Finds a place by its exact name. Returns null if there is none.

@@ -1,6 +1,7 @@
 // Joins texts for reasons: "desk, entrance, exit".
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <ranges>
 #include <string>
@@ -17,6 +18,15 @@ std::string listed(Range&& range, Text text = {}) {
         all += std::invoke(text, each);
     }
     return all;
+}
+
+// The same for the first 50 elements: "desk, entrance and 12 more". With many sub engines, a list of all names would be too long.
+template <std::ranges::sized_range Range, class Text = std::identity>
+std::string first_listed(Range const& range, Text text = {}) {
+    constexpr std::size_t most = 50;
+    auto const all = listed(range | std::views::take(most), std::move(text));
+    auto const count = std::ranges::size(range);
+    return count > most ? all + " and " + std::to_string(count - most) + " more" : all;
 }
 
 }  // namespace rois

@@ -62,6 +62,13 @@ std::string text_in(Frames const& frames, std::string text, std::string from, st
     return parameter.values.front();
 }
 
+// The names of the frames in `others`, in order.
+std::vector<std::string> others_of(Frames const& frames) {
+    std::vector<std::string> names;
+    for (auto const& frame : frames.others()) names.push_back(frame.crs);
+    return names;
+}
+
 std::string complaint(std::vector<Frame> others, std::string own = "hall") {
     try {
         Frames const frames{std::move(own), std::move(others)};
@@ -234,6 +241,20 @@ TEST(Frames, MustHaveAValidPlacement) {
     auto nowhere = map();
     nowhere.position[0] = NAN;
     EXPECT_THAT(complaint({nowhere}), HasSubstr("the frame 'map': its position or orientation is not finite"));
+}
+
+TEST(Frames, AreListedAfterTheFrameThatTheyArePlacedIn) {
+    Frames const frames{"hall", {cart(), map()}};
+    EXPECT_THAT(others_of(frames), ElementsAre("map", "cart"));
+}
+
+TEST(Frames, AreIncludedOneByOne) {
+    Frames frames{"hall"};
+    EXPECT_EQ(frames.include(cart()), "the frame 'cart' is placed in 'map', which is unknown");
+    EXPECT_EQ(frames.include(map()), std::nullopt);
+    EXPECT_EQ(frames.include(cart()), std::nullopt);
+    EXPECT_EQ(frames.include(map()), "the frame 'map' is given twice");
+    EXPECT_THAT(others_of(frames), ElementsAre("map", "cart"));
 }
 
 }  // namespace rois
