@@ -16,6 +16,7 @@
 #include "types/ids.hpp"
 #include "types/instant.hpp"
 #include "types/profiles.hpp"
+#include "types/space.hpp"
 #include "types/values.hpp"
 
 namespace rois {
@@ -71,6 +72,7 @@ struct GetProfile {
     struct Reply : Outcome {
         std::shared_ptr<EngineProfile const> profile;
         std::vector<ComponentEntry> components;
+        Space space{};  // only for engines
     };
 };
 

@@ -1,6 +1,7 @@
 // The documents that the gateway writes: every kind is valid against the schemas.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
 
 #include "xml/speaking.hpp"
@@ -163,6 +164,45 @@ TEST(Answer, OfAQueryMayHaveSeveralRows) {
     ASSERT_EQ(again.other_rows.size(), 2u);
     EXPECT_EQ(again.other_rows[0].parameters, row("2").parameters);
     EXPECT_EQ(again.other_rows[1].parameters, row("3").parameters);
+}
+
+TEST(Answer, OfGetProfileHasFramesAndPlacesForEngines) {
+    auto reply = profile_reply();
+    auto const text_without = encode(Reply{reply}, "7");
+    EXPECT_THAT(text_without, Not(HasSubstr("<space")));
+    Frame const map{.crs = strange.substr(0, 5),
+                    .base = "urn:hall",
+                    .position = {1, -2.5, 1e300},
+                    .orientation = {0, 0, 90},
+                    .covariance = {4, 0, 0, 0, 4, 0, 0, 0, 0.25}};
+    Frame const cart{.crs = "cart", .base = map.crs, .position = {}, .orientation = {}, .covariance = {}};
+    NamedPlace const lab{"lab", {.crs = "urn:hall", .low = {0, -1, 0}, .high = {1, 2.5, 0}, .dimensions = 2}};
+    NamedPlace const shelf{"<shelf>", {.crs = "", .low = {0, 0, 1}, .high = {0, 0, 2}, .dimensions = 3}};
+    reply.space = {{map, cart}, {lab, shelf}};
+    auto const text = encode(Reply{reply}, "7");
+    EXPECT_EQ(problem("answer", text), "") << text;
+    auto const read = AnswerReader{}.read(text);
+    ASSERT_TRUE(read) << text;
+    auto const again = std::get<GetProfile::Reply>(std::get<Answered>(*read).reply);
+    EXPECT_EQ(again.space, reply.space) << text;
+    EXPECT_EQ(again.components.size(), reply.components.size());
+}
+
+TEST(AnswerReader, KeepsInvalidFramesAndPlacesForTheEngineToReport) {
+    auto reply = profile_reply();
+    reply.space.places = {{"lab", {}}};
+    auto text = encode(Reply{reply}, "7");
+    auto const at = text.find("<low>");
+    text.replace(at, text.find("</place>") - at, "<low>1 2</low><high>3</high>");
+    text.insert(text.find("<place"), "<frame crs=\"map\"><position>0 x 0</position></frame>");
+    auto const read = AnswerReader{}.read(text);
+    ASSERT_TRUE(read) << text;
+    auto const& space = std::get<GetProfile::Reply>(std::get<Answered>(*read).reply).space;
+    ASSERT_EQ(space.frames.size(), 1U);
+    EXPECT_TRUE(std::isnan(space.frames[0].position[1]));
+    EXPECT_TRUE(std::isnan(space.frames[0].orientation[0])) << "missing";
+    ASSERT_EQ(space.places.size(), 1U);
+    EXPECT_EQ(space.places[0].area.dimensions, 0);
 }
 
 TEST(Answer, ValuesRoundTrip) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "types/text/texts.hpp"
 #include "xml/codec/decoding.hpp"
@@ -87,7 +88,46 @@ std::shared_ptr<ComponentTraits const> decode_traits(Node entry) {
     return std::make_shared<ComponentTraits const>(std::move(traits));
 }
 
+// NaN if the text is not three numbers.
+std::array<double, 3> decode_three_numbers(std::string_view text) {
+    auto const numbers = to_doubles(text);
+    std::array<double, 3> three{};
+    three.fill(std::nan(""));
+    if (numbers.size() == three.size()) std::ranges::copy(numbers, three.begin());
+    return three;
+}
+
+// A box whose corners are not two or three numbers each has no dimensions.
+Geometry decode_box(Node node) {
+    auto const low = to_doubles(node.child_text("low")), high = to_doubles(node.child_text("high"));
+    Geometry box;
+    box.crs = node.attribute_text("crs");
+    box.dimensions = 0;
+    if (low.size() != high.size() || low.size() < 2 || low.size() > 3) return box;
+    box.dimensions = static_cast<std::uint8_t>(low.size());
+    std::ranges::copy(low, box.low.begin());
+    std::ranges::copy(high, box.high.begin());
+    return box;
+}
+
+// Keeps invalid numbers: the engine reports the frame or place, and leaves it out.
+Space decode_space(Node node) {
+    Space space;
+    for (auto const each : node.children()) {
+        if (each.name() == "frame")
+            space.frames.push_back({.crs = each.attribute_text("crs"),
+                                    .base = each.attribute_text("base"),
+                                    .position = decode_three_numbers(each.child_text("position")),
+                                    .orientation = decode_three_numbers(each.child_text("orientation")),
+                                    .covariance = to_doubles(each.child_text("covariance"))});
+        else if (each.name() == "place")
+            space.places.push_back({each.attribute_text("name"), decode_box(each)});
+    }
+    return space;
+}
+
 bool read(Node node, GetProfile::Reply& reply) {
+    reply.space = decode_space(node.child("space"));
     for (auto const entry : node.child("components").children())
         reply.components.push_back({entry.attribute_text("ref"),
                                     entry.attribute_text("type"),

@@ -1,3 +1,5 @@
+#include <span>
+
 #include "xml/codec/codec.hpp"
 #include "xml/codec/encoding.hpp"
 #include "xml/codec/names.hpp"
@@ -61,6 +63,22 @@ void write_traits(Writer& out, ComponentTraits const& traits) {
     }
 }
 
+void write_space(Writer& out, Space const& space) {
+    out.start("space");
+    for (auto const& frame : space.frames) {
+        out.start("frame").attribute("crs", frame.crs).attribute("base", frame.base);
+        out.element("position", numbers_text(frame.position)).element("orientation", numbers_text(frame.orientation));
+        if (!frame.covariance.empty()) out.element("covariance", numbers_text(frame.covariance));
+        out.end();
+    }
+    for (auto const& [name, area] : space.places) {
+        out.start("place").attribute("name", name).attribute("crs", area.crs);
+        out.element("low", numbers_text(std::span{area.low}.first(area.dimensions)));
+        out.element("high", numbers_text(std::span{area.high}.first(area.dimensions))).end();
+    }
+    out.end();
+}
+
 void write(Writer& out, GetProfile::Reply const& reply) {
     write_profile(out, *reply.profile, "engine." + reply.profile->object.name);
     out.start("components");
@@ -70,6 +88,7 @@ void write(Writer& out, GetProfile::Reply const& reply) {
         out.end();
     }
     out.end();
+    if (reply.space != Space{}) write_space(out, reply.space);
     for (auto const& entry : reply.components) write_profile(out, *entry.profile, "profile." + entry.ref);
 }
 
