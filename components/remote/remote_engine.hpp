@@ -35,8 +35,9 @@ public:
     virtual void post(std::function<void()>) = 0;
     // Returns null for a sub engine that joins: it will call `joined`.
     virtual std::shared_ptr<client::Link> link(SubEngine const&, client::Link::Listener&) = 0;
-    // Changes this engine's components. Throws std::exception with the reason if it refuses.
-    virtual void change(ComponentChange) = 0;
+    // Changes this engine's components. Throws std::exception with the reason if it refuses. Returns why frames and places are
+    // left out.
+    virtual std::vector<std::string> change(ComponentChange) = 0;
     // Returns the reason if one of these instances is this engine, or belongs to another sub engine. Otherwise assigns them to
     // this sub engine, instead of its earlier ones, and returns nothing.
     virtual std::optional<std::string> why_loop(std::string const& sub_engine, std::vector<std::string> const& instances) = 0;

@@ -116,7 +116,7 @@ private:
         return client::websocket_link(loop_, client::read_url(to.url), settings, listener);
     }
 
-    void change(ComponentChange change) override { host_.change(std::move(change)); }
+    std::vector<std::string> change(ComponentChange change) override { return host_.change(std::move(change)); }
     void report(std::string const& sub_engine, std::string const& what) override {
         host_.report("sub engine " + sub_engine, what);
     }

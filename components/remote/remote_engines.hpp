@@ -19,12 +19,12 @@ namespace rois::remote {
 // Thread-safe.
 class RemoteEngines {
 public:
-    // `change` changes this engine's components, and may throw. It is called on the thread of the links. `report` receives lines
+    // `change` is Engine::change, and may throw. It is called on the thread of the links. `report` receives lines
     // for the log about another engine or a program, on that thread and the one of the programs.
     struct Host {
         std::string instance;  // of this engine
         std::shared_ptr<xml::Schemas const> schemas;
-        std::function<void(ComponentChange)> change;
+        std::function<std::vector<std::string>(ComponentChange)> change;
         std::function<void(std::string const& engine, std::string const& what)> report;
     };
 

@@ -1,8 +1,10 @@
 // Adding and removing components (7.5.3; decisions 12, 13).
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "engine/core.hpp"
@@ -72,6 +74,17 @@ void unlist(EngineProfile& engine, std::set<std::string_view> const& refs) {
     std::erase_if(engine.sub_profiles,
                   [](EngineProfile const& sub) { return sub.components.empty() && sub.sub_profiles.empty(); });
 }
+
+// Returns why the area of a place is invalid, or nullopt. Messages have only boxes.
+std::optional<std::string> why_not(NamedPlace const& place) {
+    auto const& [name, area] = place;
+    bool valid = area.dimensions == 2 || area.dimensions == 3;
+    for (std::size_t axis = 0; axis < area.low.size(); ++axis) valid = valid && area.low[axis] <= area.high[axis];
+    if (valid) return {};
+    return "the place " + quoted(name, 200) + " has an invalid area: expected its lowest and its highest coordinates";
+}
+
+auto all_space_of(Belongings const& brought) { return std::tie(brought.frames, brought.places, brought.space); }
 
 Provider::Runs runs(bool returns_at_once) {
     return returns_at_once ? Provider::Runs::on_callers_thread : Provider::Runs::on_own_thread;
@@ -164,6 +177,53 @@ Places Engine::Core::places_of(BelongingsOf const& belongings) const {
     return all;
 }
 
+// Adds the frames and places of all sub engines, except invalid ones, those whose name is taken, and those in a frame that is
+// left out. Returns why those of `provider` are left out.
+std::vector<std::string> Engine::Core::add_space(Places& all, BelongingsOf const& belongings, std::string const& provider) {
+    std::vector<std::string> left_out;
+    std::set<std::string> names;
+    for (auto const& place : all.all) names.insert(place.name);
+    for (auto const& [owner, brought] : belongings) {
+        auto const leave_out = [&, &owner = owner](std::string why) {
+            if (owner == provider) left_out.push_back(std::move(why));
+        };
+        std::set<std::string> missing;
+        auto const why_missing = [&](std::string const& crs) {
+            return missing.contains(lower_case(crs)) ? std::optional{"the frame " + quoted(crs, 200) + " is left out"}
+                                                     : std::nullopt;
+        };
+        for (auto const& frame : brought.space.frames) {
+            auto why = why_missing(frame.base);
+            if (!why) why = all.frames.include(frame);
+            if (!why) continue;
+            missing.insert(lower_case(frame.crs));
+            leave_out(std::move(*why));
+        }
+        for (auto const& place : brought.space.places) {
+            auto why = why_missing(place.area.crs);
+            if (!why) why = why_not(place);
+            if (why)
+                leave_out(std::move(*why));
+            else if (!names.insert(place.name).second)
+                leave_out("there are two places with the name " + quoted(place.name, 200));
+            else
+                all.all.push_back(place);
+        }
+    }
+    return left_out;
+}
+
+// The frames and places for another engine. Places that are not boxes are left out: messages have no form for them.
+Space Engine::Core::space() const {
+    Space space{.frames = places_.frames.others(), .places = {}};
+    for (auto const& place : places_.all) {
+        if (place.area.shape != Geometry::Shape::box) continue;
+        auto& area = space.places.emplace_back(place).area;
+        if (area.crs.empty()) area.crs = places_.frames.own();
+    }
+    return space;
+}
+
 void Engine::Core::check(ComponentChange const& change) const {
     std::set<std::string_view> const going{change.going.begin(), change.going.end()};
     std::set<std::string_view> refs;
@@ -179,15 +239,18 @@ void Engine::Core::check(ComponentChange const& change) const {
 
 // Prepares the change in copies, and then exchanges them. Nothing is thrown after the exchange: if a later step fails, the next
 // tick repeats it and reports the failure.
-void Engine::Core::change(ComponentChange change, Instant now) {
+std::vector<std::string> Engine::Core::change(ComponentChange change, Instant now) {
     check(change);
     settle(now);
     auto registry = registry_;
     auto profile = profile_;
     auto belongings = belongings_;
-    belongings[change.provider] = std::move(change.belongings);
+    auto& brought = belongings[change.provider];
+    bool const has_new_space = all_space_of(brought) != all_space_of(change.belongings);
+    brought = std::move(change.belongings);
     auto const known = profiles_of(belongings);
     auto places = places_of(belongings);
+    auto left_out = add_space(places, belongings, change.provider);
     std::vector<SharedComponent> going, coming;
     for (auto const& ref : change.going) registry.remove(*going.emplace_back(registry_.find(ref)->shared_from_this()));
     unlist(profile, {change.going.begin(), change.going.end()});
@@ -196,7 +259,7 @@ void Engine::Core::change(ComponentChange change, Instant now) {
         auto const& entry = registry.add(coming.back()).entry();
         list(profile, entry.engine, entry.ref);
     }
-    describe_engines(profile, belongings[change.provider].engines);
+    describe_engines(profile, brought.engines);
     expect_providers(registry.all().size() + going.size() + devices_.size());
 
     std::swap(registry_, registry);
@@ -204,7 +267,7 @@ void Engine::Core::change(ComponentChange change, Instant now) {
     std::swap(belongings_, belongings);
     std::swap(places_, places);
     shared_profile_.reset();
-    if (going.empty() && coming.empty() && profile == profile_) return;
+    if (going.empty() && coming.empty() && !has_new_space && profile == profile_) return left_out;
     Attempts attempts;
     for (auto const& component : going) attempts([&] { leave(component, now); });
     for (auto const& component : coming) attempts([&] { component->hosted().attach(); });
@@ -214,6 +277,7 @@ void Engine::Core::change(ComponentChange change, Instant now) {
     attempts([&] { report_profile_change(now); });
     attempts([&] { settle(now); });
     if (attempts.failure()) unsettled_ = attempts.failure();
+    return left_out;
 }
 
 // At most once a second: components may come and go often. A tick reports a later change.

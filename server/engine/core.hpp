@@ -40,7 +40,7 @@ public:
     void report_to(Journal& journal) { journal_ = &journal; }
     void keep_within(MemoryBudget& memory) { memory_ = &memory; }
     void add(std::unique_ptr<Component>);
-    void change(ComponentChange, Instant now);
+    std::vector<std::string> change(ComponentChange, Instant now);
     ~Core();
     void add(std::shared_ptr<Device>, std::string const& provider, bool returns_at_once);
     void describe(Places places) { own_places_ = places_ = std::move(places); }
@@ -85,6 +85,8 @@ private:
     using BelongingsOf = std::map<std::string, Belongings>;  // by provider
     static std::vector<ComponentProfile> profiles_of(BelongingsOf const&);
     Places places_of(BelongingsOf const&) const;
+    static std::vector<std::string> add_space(Places&, BelongingsOf const&, std::string const& provider);
+    Space space() const;
     void report_profile_change(Instant now);
 
     // Sessions of other engines (engine_sessions.cpp)

@@ -399,7 +399,7 @@ Engine::~Engine() = default;
 void Engine::report_to(Journal& journal) { core_->report_to(journal); }
 void Engine::keep_within(MemoryBudget& memory) { core_->keep_within(memory); }
 void Engine::add(std::unique_ptr<Component> component) { core_->add(std::move(component)); }
-void Engine::change(ComponentChange change, Instant now) { core_->change(std::move(change), now); }
+std::vector<std::string> Engine::change(ComponentChange change, Instant now) { return core_->change(std::move(change), now); }
 void Engine::add(std::shared_ptr<Device> device, std::string const& provider, bool returns_at_once) {
     core_->add(std::move(device), provider, returns_at_once);
 }

@@ -62,6 +62,7 @@ struct Belongings {
     std::vector<Frame> frames;               // placed in frames of the engine, or in one another
     std::vector<NamedPlace> places;
     std::map<std::string, std::vector<ParameterProfile>> engines{};  // by name: the parameters of the profiles of its sub engines
+    Space space{};  // of a sub engine: frames and places that are left out if they are invalid or known already
 };
 
 // Components to remove and to add in one step (profile_changed).
@@ -145,7 +146,8 @@ public:
     // is taken or unknown, a sub component profile is unknown, or a frame or place is invalid or known already. Commands that run
     // on or wait for a removed component complete with ABORT, and its bindings end. Subscriptions stay, and apply again if the
     // component returns. New components are halted first. Notifies all sessions if anything changed, at most once a second.
-    void change(ComponentChange, Instant now);
+    // Returns why frames and places of the space are left out.
+    std::vector<std::string> change(ComponentChange, Instant now);
 
     // Sets the gateway's own frames and named places. Call once, before the first session.
     void describe(Places);

@@ -155,6 +155,7 @@ Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
         reply.components.push_back(component->entry());
         if (session.is_engine) reply.components.back().traits = component->traits();
     }
+    if (session.is_engine) reply.space = space();
     reply.profile = selected.filter().restricts() ? profile_of_engine_with(profile(), reply.components) : profile();
     return reply;
 }

@@ -380,11 +380,12 @@ void Gateway::halt_at_last() noexcept {
     readers_.flush();
 }
 
-void Gateway::change(ComponentChange change) {
+std::vector<std::string> Gateway::change(ComponentChange change) {
     auto const now = present();
     Lock lock{*this};
-    engine_.change(std::move(change), now);
+    auto left_out = engine_.change(std::move(change), now);
     engine_.work(lock, now);
+    return left_out;
 }
 
 StopState Gateway::stop_everything() {

@@ -179,7 +179,7 @@ public:
     void halt_at_last() noexcept;
 
     // Adds and removes components. Throws the exceptions of the engine.
-    void change(ComponentChange);
+    std::vector<std::string> change(ComponentChange);
 
     // Stop for everything (decision 34), and its end. Return the state afterwards.
     StopState stop_everything();

@@ -271,7 +271,7 @@ int serve(CommandLine const& command) {
         remote_engines.emplace(remote::RemoteEngines::Host{
             .instance = instance,
             .schemas = schemas,
-            .change = [&](ComponentChange change) { gateway.change(std::move(change)); },
+            .change = [&](ComponentChange change) { return gateway.change(std::move(change)); },
             .report = [](std::string const& name, std::string const& what) { spdlog::info("{}: {}", name, what); }});
         engine.add(remote_engines->pulse(), "pulse");
         engine.on_stop([&](bool is_stopped) { remote_engines->everything_stopped(is_stopped); });

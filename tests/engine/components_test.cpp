@@ -329,6 +329,31 @@ TEST_F(ComingAndGoing, BringsFramesAndPlacesThatLeaveAgain) {
     EXPECT_EQ(at_the_lift(), ReturnCode::ok);
 }
 
+TEST_F(ComingAndGoing, LeavesOutFramesAndPlacesOfASubEngineThatAreKnown) {
+    world.engine->describe({.frames = {"hall"}, .all = {{"desk", box(0, 0, 1, 1, "hall")}}});
+    auto const frame = [](std::string crs, std::string base) {
+        return Frame{
+            .crs = std::move(crs), .base = std::move(base), .position = {1'000, 0, 0}, .orientation = {}, .covariance = {}};
+    };
+    auto const change = [&](std::string provider, Space space) {
+        Belongings belongings;
+        belongings.space = std::move(space);
+        return world.engine->change({{}, {}, std::move(belongings), std::move(provider)}, world.now);
+    };
+    Space const space{{frame("map", "hall"), frame("cart", "map")}, {{"lift", box(0, 0, 1, 1, "cart")}}};
+    auto const at_the_lift = [&] { return desk.ask(Search{equal("location", "lift")}).return_code; };
+    EXPECT_THAT(change("robot1", space), IsEmpty());
+    EXPECT_EQ(at_the_lift(), ReturnCode::ok);
+    EXPECT_THAT(change("robot2", space),
+                ElementsAre("the frame 'map' is given twice", "the frame 'map' is left out", "the frame 'cart' is left out"));
+    EXPECT_THAT(change("robot3", {{}, {{"desk", box(0, 0, 1, 1, "hall")}}}),
+                ElementsAre("there are two places with the name 'desk'"));
+    EXPECT_THAT(change("robot1", {}), IsEmpty());
+    EXPECT_EQ(at_the_lift(), ReturnCode::ok) << "that of robot2";
+    change("robot2", {});
+    EXPECT_EQ(at_the_lift(), ReturnCode::bad_parameter);
+}
+
 TEST_F(ComingAndGoing, KeepsTheDetailsOfEarlierEvents) {
     world.change({}, {detection});
     desk.subscribe("person_detected");

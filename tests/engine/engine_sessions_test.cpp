@@ -39,6 +39,15 @@ TEST_F(AnEngine, GetsTheTraitsOfComponents) {
     EXPECT_FALSE(world.connect().ask(GetProfile{}).components[1].traits) << "an application";
 }
 
+TEST_F(AnEngine, GetsFramesAndPlaces) {
+    Frame const map{.crs = "map", .base = "hall", .position = {1, 2, 3}, .orientation = {0, 0, 90}, .covariance = {}};
+    NamedPlace const desk{"desk", {.crs = "hall", .low = {0, 0, 0}, .high = {1, 2, 0}}};
+    NamedPlace const circle{"circle", {.crs = "hall", .shape = Geometry::Shape::circle, .paths = {{{0, 0}}}, .radius = 1}};
+    world.engine->describe({.frames = {"hall", {map}}, .all = {desk, circle}});
+    EXPECT_EQ(engine.ask(GetProfile{}).space, (Space{{map}, {desk}})) << "the circle is left out";
+    EXPECT_EQ(world.connect().ask(GetProfile{}).space, Space{}) << "an application";
+}
+
 TEST_F(AnEngine, ReceivesAllRowsOfAQuery) {
     auto const row = [](std::string const& length) { return Results{{value("length", "double", {length})}, {}}; };
     world["navigation"].knows = {row("1"), row("2"), row("3")};

@@ -57,8 +57,10 @@ public:
         and_work([&] { Engine::add(std::move(component)); }, {});
     }
     void add(std::shared_ptr<Device> device) { Engine::add(std::move(device), "stage"); }
-    void change(ComponentChange change, Instant now) {
-        and_work([&] { Engine::change(std::move(change), now); }, now);
+    std::vector<std::string> change(ComponentChange change, Instant now) {
+        std::vector<std::string> left_out;
+        and_work([&] { left_out = Engine::change(std::move(change), now); }, now);
+        return left_out;
     }
     void begin(Instant now) {
         and_work([&] { Engine::begin(now); }, now, Provider::Runner::clock);

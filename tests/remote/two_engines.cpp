@@ -146,7 +146,9 @@ public:
     std::shared_ptr<client::Link> link(remote::SubEngine const&, client::Link::Listener& listener) override {
         return engines_.link_for(listener);
     }
-    void change(ComponentChange change) override { engines_.main.engine->change(std::move(change), engines_.main.now); }
+    std::vector<std::string> change(ComponentChange change) override {
+        return engines_.main.engine->change(std::move(change), engines_.main.now);
+    }
     std::optional<std::string> why_loop(std::string const&, std::vector<std::string> const& instances) override {
         if (std::ranges::find(instances, engines_.instance_of_main) == instances.end()) return {};
         return "that would be a loop";

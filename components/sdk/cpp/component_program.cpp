@@ -75,7 +75,7 @@ bool serve(std::string const& url, std::string const& name, Make const& make) {
     remote::RemoteEngines engines{
         {.instance = instance,
          .schemas = schemas(),
-         .change = [](ComponentChange const&) {},
+         .change = [](ComponentChange const&) { return std::vector<std::string>{}; },
          .report = [](std::string const& whose, std::string const& what) { spdlog::info("{}: {}", whose, what); }}};
     net::Settings settings;
     settings.port = 0;

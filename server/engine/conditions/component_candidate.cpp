@@ -112,8 +112,10 @@ Texts ComponentCandidate::location_texts(Part part) const {
     if (part == Part::crs) return {location()->crs};
     Texts names;
     auto const here = point(*location());
-    for (auto const& place : perspective_.places().all)
-        if (share_a_frame(here, place.area) && holds(SpatialRelation::within, here, place.area)) names.push_back(place.name);
+    auto const is_within = [](Geometry const& a, Geometry const& b) { return holds(SpatialRelation::within, a, b); };
+    auto const& [frames, places] = perspective_.places();
+    for (auto const& place : places)
+        if (in_one_frame(frames, here, place.area, is_within).value_or(false)) names.push_back(place.name);
     return names;
 }
 
