@@ -161,7 +161,7 @@ void RemoteEngine::enter(GetProfile::Reply const& reply) {
     auto const& profile = *reply.profile;
     auto const* crs = find_parameter(profile.parameters, "crs");
     auto const frame = crs == nullptr ? std::string{} : crs->default_value.value_or("");
-    Translation const translation{settings_.name, profile.object.name, frame, !settings_.placement};
+    Translation const translation{settings_.name, profile.object.name, frame, !settings_.placement, reply.space};
     ComponentChange change{.going = {}, .coming = {}, .belongings = {}, .provider = settings_.name};
     if (settings_.placement && !frame.empty()) {
         auto const& [position, orientation, covariance] = *settings_.placement;
@@ -171,6 +171,8 @@ void RemoteEngine::enter(GetProfile::Reply const& reply) {
                                             .orientation = orientation,
                                             .covariance = covariance});
     }
+    std::vector<std::string> left_out, refused;
+    change.belongings.space = translation.to_here(reply.space, left_out);
     add_engines(profile, translation, change.belongings.engines);
     Records records;
     auto const is_taken = [&](std::string const& ref) {
@@ -199,8 +201,9 @@ void RemoteEngine::enter(GetProfile::Reply const& reply) {
     translation_ = translation;
     auto const before = std::exchange(records_, std::move(records));
     bool const changes = !change.going.empty() || !change.coming.empty();
+    bool const differs = changes || before.empty() || profile != profile_ || reply.space != space_;
     try {
-        if (changes || before.empty() || profile != profile_) host_->change(std::move(change));
+        if (differs) refused = host_->change(std::move(change));
     } catch (...) {
         records_ = before;
         throw;
@@ -208,9 +211,20 @@ void RemoteEngine::enter(GetProfile::Reply const& reply) {
     for (auto const& [ref, record] : before)
         if (record_of(ref) != record && record->is_held) ask(Release{{.code = ref}}, [](Reply const*) {});
     profile_ = profile;
+    space_ = reply.space;
+    left_out.insert(left_out.end(), refused.begin(), refused.end());
+    if (differs) report_left_out(left_out);
     if (changes)
         host_->report(settings_.name,
                       "present with " + std::to_string(records_.size()) + (records_.size() == 1 ? " component" : " components"));
+}
+
+// One line for all frames and places that are left out: the sub engine is used without them.
+void RemoteEngine::report_left_out(std::vector<std::string> const& left_out) const {
+    if (left_out.empty()) return;
+    auto const others = left_out.size() - 1;
+    host_->report(settings_.name,
+                  "left out: " + left_out.front() + (others == 0 ? "" : ", and " + std::to_string(others) + " more"));
 }
 
 ComponentDescription RemoteEngine::description_of(ComponentEntry const& entry, ComponentRecord const& record,
@@ -252,7 +266,7 @@ void RemoteEngine::restore() {
         if (!record->is_wanted) continue;
         bind_there(record, [self = shared_from_this(), record](Reply const*) {
             if (record->is_held && !record->stored.empty())
-                self->command(record, "set_parameter", self->translation_.to_there(record->stored),
+                self->command(record, "set_parameter", self->translation_.to_there(record->stored, record->entry),
                               [](CompletedStatus, std::string const&) {});
         });
     }
@@ -287,6 +301,7 @@ void RemoteEngine::operator()(ComponentChanged const& changed) {
 
 void RemoteEngine::report_state(ComponentRecord& record, ComponentChanged const& changed) const {
     ComponentState state{.status = changed.status, .location = {}, .parameters = changed.results.parameters};
+    translation_.to_here(state.parameters);
     if (!changed.results.located.empty()) {
         auto& location = state.location.emplace(changed.results.located.front());
         translation_.to_here(location);
@@ -357,7 +372,7 @@ void RemoteEngine::release_unwanted(std::shared_ptr<ComponentRecord> const& reco
 void RemoteEngine::prepare(std::shared_ptr<ComponentRecord> const& record, Ticket ticket, std::string const& command_type,
                            ParameterList const& parameters) {
     if (!is_open_) return record->answer(ticket, Failed{is_lost});
-    auto unit = unit_of(record->entry.ref, command_type, {}, translation_.to_there(parameters));
+    auto unit = unit_of(record->entry.ref, command_type, {}, translation_.to_there(parameters, record->entry));
     Execute check{.command_unit_list = {{std::move(unit)}}, .check_only = true};
     ask(std::move(check), [self = shared_from_this(), record, ticket, command_type, parameters](Reply const* reply) {
         if (reply == nullptr) return record->answer(ticket, Failed{is_lost});
@@ -395,7 +410,7 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
     commands_.emplace(id, std::move(end));
     record->may_act = true;
     ++record->running;
-    auto unit = unit_of(record->entry.ref, command_type, id, translation_.to_there(parameters));
+    auto unit = unit_of(record->entry.ref, command_type, id, translation_.to_there(parameters, record->entry));
     ++record->begins_asked;
     ask(Execute{{{std::move(unit)}}},
         [self = shared_from_this(), record, command, id](Reply const* reply) {

@@ -137,6 +137,7 @@ private:
     void take_profile(GetProfile::Reply const&);
     void enter(GetProfile::Reply const&);
     void note_missing();
+    void report_left_out(std::vector<std::string> const& why) const;
     void subscribe();
     void restore();
     void bind_there(std::shared_ptr<ComponentRecord> const&, Then const&);
@@ -155,6 +156,7 @@ private:
     std::string last_error_;
     Translation translation_;
     EngineProfile profile_;  // as the sub engine has sent it last
+    Space space_;            // the same
     xml::AnswerReader reader_;
     Records records_;
     std::map<std::string, ComponentChanged, std::less<>> states_;  // by refs in the sub engine; some have no record yet

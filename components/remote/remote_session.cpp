@@ -336,7 +336,7 @@ void RemoteEngine::leave(std::string const& reason) {
     ComponentChange change{.going = {}, .coming = {}, .belongings = {}, .provider = settings_.name};
     for (auto const& [ref, record] : records_) change.going.push_back(record->ref);
     try {
-        if (!records_.empty()) host_->change(std::move(change));
+        if (is_present_ || !records_.empty()) host_->change(std::move(change));
         records_.clear();
         is_present_ = false;
         host_->why_loop(settings_.name, {});

@@ -384,7 +384,7 @@ TEST(AnEngineWhoseClockStandsStill, LeavesItsSubEnginesToHoldTheirRobots) {
 TEST(ASubEngineWithAPlacement, HasItsPositionsInOurFrame) {
     auto settings = TwoEngines::hall_settings();
     settings.placement = {.position = {1000, 0, 0}, .orientation = {0, 0, 90}, .covariance = {}};
-    TwoEngines engines{{localization, navigation}, settings, "crs1"};
+    TwoEngines engines{{localization, navigation}, settings, {.frames = {"crs1"}, .all = {}}};
     auto desk = engines.main.connect();
     desk.subscribe("person_localized", {}, true);
     Located found{

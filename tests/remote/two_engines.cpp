@@ -188,12 +188,13 @@ remote::SubEngine TwoEngines::hall_settings() {
     return settings;
 }
 
-TwoEngines::TwoEngines(std::vector<Part> const& parts, remote::SubEngine settings, std::string const& crs_of_hall)
+TwoEngines::TwoEngines(std::vector<Part> const& parts, remote::SubEngine settings, Places const& of_hall,
+                       std::vector<NamedPlace> const& places_of_main)
     : main{std::vector<Part>{}, {}}, hall{parts, {}}, parts_{parts}, host_{std::make_shared<Host>(*this)} {
     remote_ = std::make_shared<remote::RemoteEngine>(std::move(settings), host_);
-    if (!crs_of_hall.empty()) {
-        main.engine->describe({.frames = {"here"}, .all = {}});
-        hall.engine->describe({.frames = {crs_of_hall}, .all = {}});
+    if (!of_hall.frames.own().empty()) {
+        main.engine->describe({.frames = {"here"}, .all = places_of_main});
+        hall.engine->describe(of_hall);
     }
     main.engine->on_stop([this](bool is_stopped) {
         remote_->run([is_stopped](auto& engine) { is_stopped ? engine.stop_everything() : engine.clear_stop(); });

@@ -19,9 +19,10 @@ namespace rois {
 
 class TwoEngines final {
 public:
-    // `crs_of_hall`: the hall's frame; that of the main engine is then "here". Empty: none has a frame.
-    explicit TwoEngines(std::vector<Part> const& parts, remote::SubEngine settings = hall_settings(),
-                        std::string const& crs_of_hall = {});
+    // `of_hall`: the hall's frames and places; its own frame is "crs1", as in its profile. The main engine's frame is then
+    // "here". Empty: neither has a frame.
+    explicit TwoEngines(std::vector<Part> const& parts, remote::SubEngine settings = hall_settings(), Places const& of_hall = {},
+                        std::vector<NamedPlace> const& places_of_main = {});
     ~TwoEngines();
 
     static remote::SubEngine hall_settings();

@@ -68,6 +68,22 @@ TEST(Joining, GivesTheMainEngineItsComponents) {
     EXPECT_EQ(desk.status_of("hello"), "OK");
 }
 
+// Both have the same floor plan, and frames of the same name.
+TEST(Joining, GivesTheMainEngineItsPlaces) {
+    Main main;
+    auto const robot = robot_that_joins(main);
+    main.gateway().log_with("present with");
+    Application desk{Transport::websocket, main};
+    desk.connect();
+    auto const in_the_hall = where(equal("location", "robot1.Reception hall"));
+    for (int i = 0; i < 100 && desk.search(in_the_hall).empty(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds{20});
+    EXPECT_THAT(desk.search(in_the_hall), Contains("robot1.navigation"));
+    desk.bind("robot1.navigation");
+    desk.execute(
+        Command{.component = "robot1.navigation", .id = "go", .arguments = {target_position({"robot1.desk"})}});
+    EXPECT_EQ(desk.status_of("go"), "OK");
+}
+
 TEST(Joining, IsRefusedForAnUnknownName) {
     Main main;
     auto const robot = robot_that_joins(main, "robot2");
