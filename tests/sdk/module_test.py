@@ -411,6 +411,14 @@ class Values(ModuleTest):
         self.assertRaises(rois.Refused, rois.read_value, "x", "RoISIdentifier", [" "])
         self.assertEqual(rois.read_value("x", "Set<string>", ["a b", "c"]), ["a b", "c"])
 
+    async def test_infinity_and_nan_are_written_as_in_xml_schema(self):
+        values = [float("inf"), float("-inf"), float("nan"), 1e300]
+        types = {"all": "double[]", "one": "double", "text": "string"}
+        document = rois.results(types, {"all": values, "one": values[1], "text": "inf nan"})
+        found = [each.text for each in rois.ElementTree.fromstring(f"<all {rois.NAMES}>{document}</all>").iter(rois.R + "value")]
+        self.assertEqual(found, ["INF -INF NaN 1e+300", "-INF", "inf nan"])
+        self.assertEqual(repr(rois.read_value("one", "double[]", found[:1])), repr(values))
+
     async def test_a_list_of_numbers_is_one_value(self):
         await self.link.connect()
         self.assertEqual([each.text for each in (await self.link.query("a", "numbers")).iter(rois.R + "value")], ["1 2 3"])

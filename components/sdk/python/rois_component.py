@@ -218,6 +218,16 @@ def read_value(what, code, texts, is_default=False):
         raise Refused(f"{what} must be of type {code}, not {', '.join(map(repr, texts)) or 'empty'}") from None
 
 
+def text_of(value):
+    """The text of a value, as XML Schema writes it."""
+    text = str(value)
+    if isinstance(value, bool):
+        return text.lower()
+    if isinstance(value, float):
+        return text.replace("inf", "INF").replace("nan", "NaN")
+    return text
+
+
 def results(types, values):
     """A `results` element. Raises ValueError for a result that the profile does not have."""
     content = ""
@@ -225,7 +235,7 @@ def results(types, values):
         if name not in types:
             raise ValueError(f"the profile has no result {name!r}: expected {', '.join(types) or 'none'}")
         items = value if isinstance(value, (list, tuple)) else [value]
-        texts = [str(each).lower() if isinstance(each, bool) else str(each) for each in items]
+        texts = [text_of(each) for each in items]
         _, _, is_packed = data_type(types[name])
         if is_packed:
             texts = [" ".join(texts)]
