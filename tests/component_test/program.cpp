@@ -82,7 +82,6 @@ xml::Join Program::await_join() {
     auto const read = joins_.read(*document);
     if (auto const* fault = std::get_if<Fault>(&read)) fail("join: " + fault->reason);
     auto join = std::get<xml::Join>(read);
-    if (join.instance.empty()) fail("join: expected an instance, got none");
     instance_ = join.instance;
     xml::JoinResponse response;
     response.window = window;

@@ -131,6 +131,20 @@ TEST(Joining, AnswersOtherDocumentsWithAFault) {
     EXPECT_THROW(client.next_document(), kit::LineEnded);
 }
 
+TEST(Joining, IsRefusedForAnInstanceThatIsEmptyOrTooLong) {
+    Main main;
+    for (auto const& instance : {""s, std::string(129, 'a')}) {
+        JoiningClient client{main};
+        auto const fault = client.join("robot1", instance);
+        EXPECT_STREQ(fault.name(), "fault");
+        EXPECT_THAT(fault.child("reason").text().get(), HasSubstr("attribute 'instance' of 'join' has the value '"));
+        EXPECT_THAT(fault.child("reason").text().get(), HasSubstr("of at least 1 characters, of at most 128 characters"));
+        EXPECT_THROW(client.next_document(), kit::LineEnded);
+    }
+    JoiningClient client{main};
+    EXPECT_STREQ(client.join("robot1", std::string(128, 'a')).attribute("return_code").value(), "OK");
+}
+
 TEST(Joining, IsNotAllowedWithoutAnEnginesFile) {
     HttpClient http;
     EXPECT_EQ(kit::shake_hands(http, {}, "/rois/engines").status, 403);
