@@ -198,6 +198,8 @@ void opens_a_new_session_for_a_restarted_engine(Program& program) {
 // --- The end ---
 
 void ends_on_sigterm(Program& program) {
+    if (auto const code = program.exit_code())
+        Program::fail("the program ended before SIGTERM, with exit code " + std::to_string(*code));
     auto const code = program.end();
     require(code.has_value(), "SIGTERM: the program did not end within " + std::to_string(program.patience().count()) + " ms");
     require(code == 0, "SIGTERM: expected exit code 0, got " + std::to_string(*code));

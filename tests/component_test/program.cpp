@@ -48,7 +48,7 @@ Program::Program(std::vector<std::string> command, std::chrono::milliseconds pat
 
 Program::~Program() {
     link_.reset();
-    if (process_ == 0) return;
+    if (exit_code()) return;
     ::kill(process_, SIGKILL);
     kit::exit_code(process_);
 }
@@ -74,8 +74,13 @@ xml::Join Program::await_join() {
     pollfd waiting{listener_.descriptor(), POLLIN, 0};
     // The program may pause before it connects again.
     auto const longest = 3 * patience_;
-    if (::poll(&waiting, 1, static_cast<int>(longest.count())) <= 0)
-        fail("the program did not connect to /rois/engines within " + std::to_string(longest.count()) + " ms");
+    auto const until = Clock::now() + longest;
+    while (::poll(&waiting, 1, 50) <= 0) {
+        if (auto const code = exit_code())
+            fail("expected that the program joins, but it has ended with exit code " + std::to_string(*code));
+        if (Clock::now() > until)
+            fail("the program did not connect to /rois/engines within " + std::to_string(longest.count()) + " ms");
+    }
     link_ = std::make_unique<Link>(listener_.accept().value());
     auto const document = link_->next(Clock::now() + patience_);
     if (!document) fail("the program did not send join within " + std::to_string(patience_.count()) + " ms");
@@ -252,15 +257,18 @@ ComponentProfile const& Program::profile_of(std::string const& ref) const {
     return *found->profile;
 }
 
+std::optional<int> Program::exit_code() {
+    int status = 0;
+    if (!exit_code_ && ::waitpid(process_, &status, WNOHANG) == process_)
+        exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    return exit_code_;
+}
+
 std::optional<int> Program::end() {
     ::kill(process_, SIGTERM);
-    for (auto const until = Clock::now() + patience_; Clock::now() < until; std::this_thread::sleep_for(10ms)) {
-        int status = 0;
-        if (::waitpid(process_, &status, WNOHANG) != process_) continue;
-        process_ = 0;
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-    }
-    return {};
+    auto const until = Clock::now() + patience_;
+    while (!exit_code() && Clock::now() < until) std::this_thread::sleep_for(10ms);
+    return exit_code_;
 }
 
 }  // namespace rois::component_test

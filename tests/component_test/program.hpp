@@ -90,6 +90,8 @@ public:
     std::chrono::milliseconds patience() const { return patience_; }
     EngineProfile const& profile() const { return *profile_; }
 
+    // Returns the exit code, or minus the signal that killed the program, if it has ended.
+    std::optional<int> exit_code();
     // Sends SIGTERM. Returns the exit code, or nothing if the program does not end within the patience.
     std::optional<int> end();
 
@@ -116,6 +118,7 @@ private:
     std::chrono::milliseconds patience_;
     kit::Listener listener_;
     pid_t process_;
+    std::optional<int> exit_code_;
     std::unique_ptr<Link> link_;
     std::unique_ptr<xml::Validator> validator_;
     xml::JoinReader joins_;

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <stdexcept>
+#include <system_error>
 
 namespace rois::kit {
 
@@ -34,15 +36,25 @@ pid_t start(std::string const& program, std::vector<std::string> const& argument
     std::vector<char*> argv{const_cast<char*>(program.c_str())};
     for (auto const& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
+    Pipe const failure;  // exec closes it; otherwise the child writes the reason
     auto const process = fork();
     if (process < 0) throw std::runtime_error{"cannot fork"};
-    if (process > 0) return process;
+    if (process > 0) {
+        int reason = 0;
+        close(failure.to_write);
+        bool const failed = read(failure.to_read, &reason, sizeof reason) > 0;
+        close(failure.to_read);
+        if (!failed) return process;
+        exit_code(process);
+        throw std::system_error{reason, std::generic_category(), "cannot start '" + program + "'"};
+    }
     for (auto const& [name, value] : variables) setenv(name.c_str(), value.c_str(), 1);
     redirect(STDIN_FILENO, streams.in);
     redirect(STDOUT_FILENO, streams.out);
     redirect(STDERR_FILENO, streams.error);
     execvp(program.c_str(), argv.data());
-    _exit(127);
+    auto const reason = errno;
+    _exit(write(failure.to_write, &reason, sizeof reason) > 0 ? 127 : 126);
 }
 
 int exit_code(pid_t process) {

@@ -36,7 +36,7 @@ struct Streams {
 };
 
 // Starts a program and returns its process id. A program without a slash is searched in PATH. `variables` are added to the
-// environment.
+// environment. Throws std::system_error if the program is missing or not executable.
 pid_t start(std::string const& program, std::vector<std::string> const& arguments, Variables const&, Streams const&);
 
 // Waits for the end of a process. Returns its exit code, or minus the signal that killed it.

@@ -62,6 +62,9 @@ breaks reports_each_event_twice completes_start_once
 breaks ignores_pings answers_a_ping
 breaks moves_without_signs_of_life is_halted_without_signs_of_life
 judge session_end --only ends_its_session_after_the_window python3 -B "$here/broken_lamp.py" goes_on_after_its_session
+judge ended true
+judge missing "$work/missing"
+judge not_executable "$here/broken_lamp.py"
 judge stays_on --only reports_in_active python3 -B "$here/broken_lamp.py" stays_on_after_stop
 judge moving --only is_halted python3 -B "$here/broken_lamp.py" moves
 wait
@@ -73,6 +76,11 @@ for lamp in python cpp; do
 done
 grep -q ' checks held, 0 found a broken rule' "$work/robot" || fail "the robot" "$work/robot"
 grep -q 'BROKEN *ends_its_session_after_the_window ' "$work/session_end" || fail "goes_on_after_its_session" "$work/session_end"
+grep -q 'BROKEN *ends_on_sigterm ' "$work/ended" || fail "a program that ends at once" "$work/ended"
+for each in missing not_executable; do
+    [[ $(<"$work/$each.status") == 2 ]] || fail "$each program: expected exit code 2, not $(<"$work/$each.status")" "$work/$each.log"
+    grep -q 'cannot start' "$work/$each.log" || fail "$each program: expected a reason" "$work/$each.log"
+done
 grep -q 'not observable *reports_in_active_whether_start_began_a_function ' "$work/stays_on" || fail "stays_on_after_stop" "$work/stays_on"
 grep -q 'holds *is_halted_without_signs_of_life ' "$work/moving" || fail "moves" "$work/moving"
 for each in "${checks[@]}"; do
