@@ -24,6 +24,7 @@ Group checks_of(ComponentEntry const&);  // for one component, with the next two
 Check activity_check_of(ComponentEntry const&);
 std::vector<Check> halting_checks_of(ComponentEntry const&);
 Group link_checks();
+std::vector<Check> lost_link_checks();  // part of link_checks
 Group ending_checks();
 
 }  // namespace rois::component_test

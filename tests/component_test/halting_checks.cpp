@@ -1,11 +1,9 @@
 // Checks that a component stands still when it must: after stop, release and disconnect, and without signs of life.
 #include <algorithm>
-#include <map>
 
 #include "component_test/checks.hpp"
 #include "component_test/steps.hpp"
 #include "conformance/check.hpp"
-#include "types/data_type.hpp"
 #include "types/text/texts.hpp"
 
 namespace rois::component_test {
@@ -47,23 +45,6 @@ void disconnect_ends(Program& program, ComponentEntry const& component, std::str
 }
 
 using Ending = void (*)(Program&, ComponentEntry const&, std::string const& command, std::string const& id);
-
-// The values of all boolean results of the component's queries, by the names of query and result.
-using Switches = std::map<std::string, std::string>;
-
-Switches switches(Program& program, ComponentEntry const& component) {
-    Switches found;
-    for (auto const& query : messages(component, MessageKind::query)) {
-        auto const reply = program.ask(query_of(component.ref, query.name));
-        for (auto const& result : query.results) {
-            if (DataType::of(result.data_type_ref).base != BaseType::boolean) continue;
-            auto const* given = find(reply.results.parameters, result.name);
-            if (given != nullptr && !given->values.empty())
-                found[quoted(result.name) + " of the query " + quoted(query.name)] = given->values.front();
-        }
-    }
-    return found;
-}
 
 struct Round {
     bool active = false;

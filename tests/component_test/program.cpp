@@ -32,6 +32,9 @@ std::string why_not(Results const& results, std::vector<ParameterProfile> const&
     for (auto const& each : results.parameters) {
         auto const* profile = find_parameter(known, each.name);
         if (profile == nullptr) return "the profile lacks the result " + quoted(each.name);
+        if (!(DataType::of(each.data_type_ref) == DataType::of(profile->data_type_ref)))
+            return "the result " + quoted(each.name) + " is declared as " + quoted(each.data_type_ref.code) + ": expected " +
+                   quoted(profile->data_type_ref.code) + ", as in the profile";
         if (auto const problem = rois::why_not(DataType::of(profile->data_type_ref), each.values))
             return "the result " + quoted(each.name) + ": " + *problem;
     }
@@ -88,13 +91,14 @@ xml::Join Program::await_join() {
     if (auto const* fault = std::get_if<Fault>(&read)) fail("join: " + fault->reason);
     auto join = std::get<xml::Join>(read);
     instance_ = join.instance;
+    joined_ = Clock::now();
     xml::JoinResponse response;
     response.window = window;
     link_->send(xml::encode(response));
     return join;
 }
 
-Connect::Reply Program::connect() {
+Connect::Reply Program::connect(std::chrono::milliseconds with_window) {
     last_sequence_ = 0;
     commands_.clear();
     completed_.clear();
@@ -104,7 +108,7 @@ Connect::Reply Program::connect() {
                              .motion_lease_http = {},
                              .motion_proof = MotionProof::request,
                              .is_engine = true,
-                             .window = window});
+                             .window = with_window});
     if (reply.return_code != ReturnCode::ok) fail("connect: " + reply.reason);
     session_ = reply.session;
     return reply;

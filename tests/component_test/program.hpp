@@ -21,6 +21,7 @@ namespace rois::component_test {
 constexpr std::chrono::milliseconds window{1'000};
 constexpr std::chrono::milliseconds longest_halt{500};
 constexpr std::chrono::milliseconds motion_lease{1'000};
+constexpr std::chrono::milliseconds short_link{5'500};
 
 // All functions throw Broken if the program violates docs/component-programs.md.
 class Program {
@@ -35,8 +36,8 @@ public:
 
     // Waits for a link and its `join`, and accepts the `join`.
     xml::Join await_join();
-    // Sends `connect`, which opens a session on a new link.
-    Connect::Reply connect();
+    // Sends `connect`, which opens a session on a new link, or after `disconnect`.
+    Connect::Reply connect(std::chrono::milliseconds with_window = window);
     // Sends `disconnect`, which ends the session. The link stays.
     void disconnect();
     // Sends a ping, and waits for its pong.
@@ -45,6 +46,10 @@ public:
     // Ends the session and the link after a broken rule, so that the next check begins with new ones.
     void abandon_link();
     bool link_has_ended() const { return !link_ || link_->has_ended(); }
+    // Waits until the end of the link is not the end of a short link, after which a program may join later than 0.2 s.
+    void outlast_short_link() {
+        settle(std::chrono::duration_cast<std::chrono::milliseconds>(joined_ + short_link - Clock::now()));
+    }
 
     // Sends the request, waits for its answer, and returns it.
     template <class Op>
@@ -124,6 +129,7 @@ private:
     xml::JoinReader joins_;
     xml::AnswerReader reader_;
     std::string instance_;
+    Clock::time_point joined_;
     SessionId session_;
     std::uint64_t last_sequence_ = 0;
     std::uint64_t last_request_ = 0;

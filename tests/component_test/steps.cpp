@@ -1,6 +1,7 @@
 #include "component_test/steps.hpp"
 
 #include <algorithm>
+#include <thread>
 
 #include "conformance/check.hpp"
 #include "types/data_type.hpp"
@@ -116,6 +117,20 @@ ParameterList long_arguments(Program& program, std::string const& ref, MessagePr
     return arguments_of(command);
 }
 
+void open_session(Program& program, std::chrono::milliseconds with_window) {
+    program.ensure_ready();
+    program.disconnect();
+    program.connect(with_window);
+    program.ensure_ready();
+}
+
+void lose_link(Program& program, std::chrono::milliseconds down) {
+    program.cut();
+    std::this_thread::sleep_for(down);
+    program.await_join();
+    require_ok(program.ask(Resume{program.session(), program.last_sequence()}), "resume within the window");
+}
+
 void bind(Program& program, std::string const& ref) { require_ok(program.ask(Bind{identifier(ref)}), "bind"); }
 
 void subscribe(Program& program, ComponentEntry const& component) {
@@ -143,6 +158,20 @@ void stop(Program& program, std::string const& ref) {
     require(end.status == CompletedStatus::ok,
             "stop: expected `completed` with OK, got " + std::string{to_text(end.status)} + ": " + end.reason);
     require(end.active == false, "stop: expected `completed` with active=\"false\"");
+}
+
+Switches switches(Program& program, ComponentEntry const& component) {
+    Switches found;
+    for (auto const& query : messages(component, MessageKind::query)) {
+        auto const reply = program.ask(query_of(component.ref, query.name));
+        for (auto const& result : query.results) {
+            if (DataType::of(result.data_type_ref).base != BaseType::boolean) continue;
+            auto const* given = find(reply.results.parameters, result.name);
+            if (given != nullptr && !given->values.empty())
+                found[quoted(result.name) + " of the query " + quoted(query.name)] = given->values.front();
+        }
+    }
+    return found;
 }
 
 bool is_quiet(Program& program, ComponentEntry const& component) {

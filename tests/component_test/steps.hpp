@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,11 @@ ParameterList arguments_of(MessageProfile const& command);
 // accepts them.
 ParameterList long_arguments(Program&, std::string const& ref, MessageProfile const& command);
 
+// Ends the session, and opens a new one on the same link, with this window.
+void open_session(Program&, std::chrono::milliseconds with_window);
+// Cuts the link, accepts the next one after this time, and resumes the session.
+void lose_link(Program&, std::chrono::milliseconds down);
+
 void bind(Program&, std::string const& ref);
 // Subscribes to all events of the component, as an engine does.
 void subscribe(Program&, ComponentEntry const&);
@@ -43,6 +49,10 @@ std::string start(Program&, std::string const& ref);
 std::string run(Program&, std::string const& ref, std::string const& command, ParameterList const& arguments);
 // Stops the component, and waits until `stop` completes. Commands that ran before it have completed then.
 void stop(Program&, std::string const& ref);
+
+// The values of all boolean results of the component's queries, by the names of query and result.
+using Switches = std::map<std::string, std::string>;
+Switches switches(Program&, ComponentEntry const&);
 
 constexpr std::chrono::milliseconds time_at_rest{1'000};  // in which a component that stands still must report nothing
 

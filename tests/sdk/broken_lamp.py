@@ -68,6 +68,12 @@ elif variant == "answers_with_a_wrong_type":
     def light(old, self):
         return {"is_on": "bright"}
 
+elif variant == "answers_with_another_declared_type":
+
+    @replace(rois, "results")
+    def results(old, types, values):
+        return old(types, values).replace('rois:code="bool"', 'rois:code="int"')
+
 elif variant == "answers_without_a_result":
 
     @replace(Lamp, "light")
@@ -121,6 +127,39 @@ elif variant == "forgets_what_it_has_sent":
         self.sent.clear()
         self.sequence += 1
         await old(self, request)
+
+elif variant == "drops_notifications_while_the_link_is_down":
+
+    @replace(Service, "notify")
+    def notify(old, self, *arguments, **named):
+        if self.socket or not self.session:
+            old(self, *arguments, **named)
+
+elif variant == "drops_events_while_the_link_is_down":
+
+    @replace(Service, "event")
+    def event(old, self, *arguments, **named):
+        if self.socket or not self.session:
+            old(self, *arguments, **named)
+
+elif variant == "forgets_its_subscriptions_with_the_link":
+
+    @replace(Service, "serve")
+    async def serve(old, self, socket):
+        try:
+            await old(self, socket)
+        finally:
+            self.subscribed = {}
+
+elif variant == "halts_when_the_link_is_lost":
+
+    @replace(Service, "serve")
+    async def serve(old, self, socket):
+        try:
+            await old(self, socket)
+        finally:
+            for component in self.components.values():
+                self.halt(component)
 
 elif variant == "resumes_any_session":
 
