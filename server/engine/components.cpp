@@ -188,19 +188,19 @@ std::vector<std::string> Engine::Core::add_space(Places& all, BelongingsOf const
             if (owner == provider) left_out.push_back(std::move(why));
         };
         std::set<std::string> missing;
-        auto const why_missing = [&](std::string const& crs) {
-            return missing.contains(lower_case(crs)) ? std::optional{"the frame " + quoted(crs, 200) + " is left out"}
-                                                     : std::nullopt;
+        auto const why_missing = [&](std::string const& what, std::string const& crs) -> std::optional<std::string> {
+            if (missing.empty() || !missing.contains(lower_case(crs))) return {};
+            return what + " is in the frame " + quoted(crs, 200) + ", which is left out";
         };
         for (auto const& frame : brought.space.frames) {
-            auto why = why_missing(frame.base);
+            auto why = why_missing("the frame " + quoted(frame.crs, 200), frame.base);
             if (!why) why = all.frames.include(frame);
             if (!why) continue;
             missing.insert(lower_case(frame.crs));
             leave_out(std::move(*why));
         }
         for (auto const& place : brought.space.places) {
-            auto why = why_missing(place.area.crs);
+            auto why = why_missing("the place " + quoted(place.name, 200), place.area.crs);
             if (!why) why = why_not(place);
             if (why)
                 leave_out(std::move(*why));

@@ -345,7 +345,8 @@ TEST_F(ComingAndGoing, LeavesOutFramesAndPlacesOfASubEngineThatAreKnown) {
     EXPECT_THAT(change("robot1", space), IsEmpty());
     EXPECT_EQ(at_the_lift(), ReturnCode::ok);
     EXPECT_THAT(change("robot2", space),
-                ElementsAre("the frame 'map' is given twice", "the frame 'map' is left out", "the frame 'cart' is left out"));
+                ElementsAre("the frame 'map' is given twice", "the frame 'cart' is in the frame 'map', which is left out",
+                            "the place 'lift' is in the frame 'cart', which is left out"));
     EXPECT_THAT(change("robot3", {{}, {{"desk", box(0, 0, 1, 1, "hall")}}}),
                 ElementsAre("there are two places with the name 'desk'"));
     EXPECT_THAT(change("robot1", {}), IsEmpty());

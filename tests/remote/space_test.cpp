@@ -69,6 +69,7 @@ struct ASubEngineWithASpace : testing::Test {
         engines->bind(*desk, "hall." + ref);
         auto const reply = engines->execute(*desk, start("hall." + ref, {positions("target_position", {text}, crs)}));
         if (reply.return_code != ReturnCode::ok) return {reply.reason};
+        engines->advance(100ms);
         return find(engines->hall[ref].started_with, "target_position")->values;
     }
     std::string reason(Condition condition) { return desk->ask(Search{std::move(condition)}).reason; }

@@ -79,8 +79,7 @@ TEST(Joining, GivesTheMainEngineItsPlaces) {
     for (int i = 0; i < 100 && desk.search(in_the_hall).empty(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds{20});
     EXPECT_THAT(desk.search(in_the_hall), Contains("robot1.navigation"));
     desk.bind("robot1.navigation");
-    desk.execute(
-        Command{.component = "robot1.navigation", .id = "go", .arguments = {target_position({"robot1.desk"})}});
+    desk.execute(Command{.component = "robot1.navigation", .id = "go", .arguments = {target_position({"robot1.desk"})}});
     EXPECT_EQ(desk.status_of("go"), "OK");
 }
 
