@@ -21,6 +21,8 @@ constexpr auto shortest_run = 200ms;
 constexpr auto longest_run = 2'000ms;
 constexpr int rounds = 2;  // a single event may be missing by chance
 
+bool moves(ComponentEntry const& component) { return component.traits != nullptr && component.traits->moves; }
+
 // A command of a component, with valid arguments.
 struct Action {
     ComponentEntry component;
@@ -147,7 +149,7 @@ void goes_on_while_the_link_is_down(Program& program) {
         program.settle();
         auto const status = program.has_completed(*id) ? program.completed(*id, 0ms).status : CompletedStatus::ok;
         stop(program, action.component.ref);
-        if (status == CompletedStatus::abort && action.component.traits->moves) continue;
+        if (status == CompletedStatus::abort && moves(action.component)) continue;
         require(status != CompletedStatus::abort, quoted(action.command) +
                                                       ": expected that it goes on while the link may return, got `completed` "
                                                       "with ABORT after `resume`");
@@ -158,49 +160,49 @@ void goes_on_while_the_link_is_down(Program& program) {
 
 // Starts a function, and loses the link while it is active.
 struct Loss {
-    Switches before, started, later, resumed;  // `later`: before the link is cut
+    Switches before, resumed;
+    std::vector<std::string> shown_by;  // the results that `start` changes, and that stay so while there is a link
 };
 
-// Returns nothing if `start` begins no function.
-std::optional<Loss> lose_link_of_active(Program& program, ComponentEntry const& component) {
+std::vector<std::string> changed_in_both(Switches const& before, Switches const& started, Switches const& later) {
+    std::vector<std::string> names;
+    for (auto const& [name, value] : before) {
+        auto const has_changed = [&](Switches const& now) { return now.contains(name) && now.at(name) != value; };
+        if (has_changed(started) && has_changed(later)) names.push_back(name);
+    }
+    return names;
+}
+
+// Does not cut the link if `start` begins no function, or if no result shows it.
+Loss lose_link_of_active(Program& program, ComponentEntry const& component) {
     program.outlast_short_link();
-    Loss loss{.before = switches(program, component), .started = {}, .later = {}, .resumed = {}};
+    Loss loss{.before = switches(program, component), .resumed = {}, .shown_by = {}};
     auto const id = begin(program, {component, "start", {}});
-    bool const active = id && program.has_completed(*id) && program.completed(*id, 0ms).active == true;
-    if (active) {
-        loss.started = switches(program, component);
+    if (id && program.has_completed(*id) && program.completed(*id, 0ms).active == true) {
+        auto const started = switches(program, component);
         program.settle(longest_halt);
-        loss.later = switches(program, component);
+        loss.shown_by = changed_in_both(loss.before, started, switches(program, component));
+    }
+    if (!loss.shown_by.empty()) {
         lose_link(program, before_the_cut);
         program.settle();
         loss.resumed = switches(program, component);
     }
     stop(program, component.ref);
-    return active ? std::optional{loss} : std::nullopt;
-}
-
-// Returns the names of the results that show an active function: `start` changes them, and they stay so.
-std::vector<std::string> results_that_show_it(Loss const& loss) {
-    std::vector<std::string> names;
-    for (auto const& [name, value] : loss.before) {
-        auto const has_changed = [&](Switches const& now) { return now.contains(name) && now.at(name) != value; };
-        if (has_changed(loss.started) && has_changed(loss.later)) names.push_back(name);
-    }
-    return names;
+    return loss;
 }
 
 void keeps_active_functions_while_the_link_is_down(Program& program) {
     open_session(program, longest_loss);
     for (auto const& component : program.components()) {
-        if (!has_command(component, "start") || component.traits->moves) continue;
+        if (!has_command(component, "start") || moves(component)) continue;
         std::map<std::string, int> resets;  // by the name of the result
         for (int round = 1; round <= rounds; ++round) {
             auto const loss = lose_link_of_active(program, component);
-            auto const names = loss ? results_that_show_it(*loss) : std::vector<std::string>{};
-            if (names.empty()) break;
-            for (auto const& name : names) {
-                auto const& before = loss->before.at(name);
-                bool const is_reset = loss->resumed.contains(name) && loss->resumed.at(name) == before;
+            if (loss.shown_by.empty()) break;
+            for (auto const& name : loss.shown_by) {
+                auto const& before = loss.before.at(name);
+                bool const is_reset = loss.resumed.contains(name) && loss.resumed.at(name) == before;
                 require(!is_reset || ++resets[name] < rounds, "`start` changes the result " + name +
                                                                   ", which then stays so: expected the same value after "
                                                                   "`resume`, got " +
