@@ -22,6 +22,7 @@
 #include "engine/frames/perspective.hpp"
 #include "engine/journal.hpp"
 #include "engine/notifications/details.hpp"
+#include "engine/notifications/kept_events.hpp"
 #include "engine/notifications/notifier.hpp"
 #include "engine/notifications/subscriptions.hpp"
 #include "engine/providers/inbox.hpp"
@@ -138,6 +139,13 @@ private:
     Reply perform(Session&, GetEventDetail const&, Instant now);
     // Delivers to every receiver, even if one delivery throws. `deliveries` keeps the first exception.
     void publish(RegisteredComponent&, EventOccurred const&, Instant now, Attempts& deliveries);
+    using SharedResults = std::shared_ptr<Results const>;
+    // Returns whether a subscription matches the event.
+    bool deliver(RegisteredComponent&, std::string const& event_type, SharedResults const&, Instant now, Attempts& deliveries);
+    void deliver_or_keep(KeptEvents::Event, Instant now, Attempts& deliveries);
+    void deliver_kept(std::string const& event_type, Instant now);
+    // Delivers the events that only this session should have received, and has not read, to other sessions, or keeps them.
+    void pass_on_unread(Session const&, Instant now);
     void publish(FoundError const&, Instant now, Attempts& deliveries);
     ReceiveError noted(FoundError const&, Instant now);
 
@@ -228,6 +236,7 @@ private:
     Notifier notifier_;
     Executor executor_;
     Details events_;
+    KeptEvents kept_events_;
     Details errors_;
     Steady details_checked_;
     Steady memory_saved_;

@@ -18,6 +18,7 @@ Engine::Core::Core(EngineProfile profile, std::vector<ComponentProfile> known_pr
       notifier_{outbox},
       executor_{settings_, registry_, agenda_, deadlines_, notifier_, questions_, journal_},
       events_{"e-", settings_.event_details},
+      kept_events_{settings_.max_kept_events},
       errors_{"x-", settings_.error_details} {}
 
 // A call that blocks may outlast the engine: its thread then ends alone.
@@ -109,6 +110,7 @@ void Engine::Core::forget_what_is_old(Instant now) {
     if (now.steady - details_checked_ < std::chrono::seconds{1}) return;
     details_checked_ = now.steady;
     events_.forget_expired(now);
+    kept_events_.forget_expired(now.steady);
     errors_.forget_expired(now);
     executor_.forget_old_results(now);
 }
@@ -201,6 +203,7 @@ void Engine::Core::remove(Session& session, Instant now) {
         notify_of_release(*component, now);
     }
     subscriptions_.remove_all(session);
+    pass_on_unread(session, now);
     executor_.forget(session);
     notifier_.close(session);
     journal_->session_ended(session.number, session.why_it_ends);
@@ -271,6 +274,7 @@ void Engine::Core::save_memory(Instant now) {
     if (now.steady - memory_saved_ < std::chrono::milliseconds{100}) return;
     memory_saved_ = now.steady;
     events_.keep_last(kept);
+    kept_events_.keep_last(kept);
     errors_.keep_last(kept);
     std::vector<SessionId> slow;
     for (auto const& [id, session] : sessions_) {

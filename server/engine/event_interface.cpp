@@ -6,7 +6,7 @@
 
 namespace rois {
 
-Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instant) {
+Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instant now) {
     auto const& components = registry_.with(MessageKind::event, subscribe.event_type);
     if (components.all().empty())
         return refused<Subscribe::Reply>(ReturnCode::unsupported, "no component has the event " + quoted(subscribe.event_type));
@@ -22,6 +22,7 @@ Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instan
         return refused<Subscribe::Reply>(ReturnCode::out_of_resources, *std::move(problem));
     Subscribe::Reply reply;
     reply.subscribe_id = subscriptions_.add(session, subscribe.event_type, std::move(wanted), subscribe.inline_results).id;
+    deliver_kept(subscribe.event_type, now);
     return reply;
 }
 
@@ -106,7 +107,15 @@ private:
 void Engine::Core::publish(RegisteredComponent& component, EventOccurred const& event, Instant now, Attempts& deliveries) {
     auto const results = component.accepted(event);
     if (!results) return;
-    auto const subscriptions = subscriptions_.possible(event.event_type, component);
+    bool const matched = deliver(component, event.event_type, results, now, deliveries);
+    ++events_published_;
+    if (!matched && kept_events_.keeps_any())
+        kept_events_.add({now.steady + events_.kept_for(), event.event_type, component.ref().code, results});
+}
+
+bool Engine::Core::deliver(RegisteredComponent& component, std::string const& event_type, SharedResults const& results,
+                           Instant now, Attempts& deliveries) {
+    auto const subscriptions = subscriptions_.possible(event_type, component);
     std::string event_id;  // made when a subscriber matches
     Perspective no_asker{registry_, places_, nullptr, Perspective::Of::present};
     MessageCandidate const candidate{no_asker.candidate(component), *results};
@@ -115,15 +124,15 @@ void Engine::Core::publish(RegisteredComponent& component, EventOccurred const& 
         return subscription.filter.match(MessageCandidate{askers.candidate(component), *results}) == Match::yes;
     };
     bool begun = false;  // some subscriber may have been notified
-    auto const deliver = [&](Subscription& subscription) {
+    auto const deliver_to = [&](Subscription& subscription) {
         bool const each = subscription.filter.depends_on_asker();
         if (!each && subscription.filter.match(candidate) != Match::yes) return;
         if (event_id.empty()) {
             auto const& profile = component.entry().profile;
-            event_id = events_.add(results, {profile, find_message(*profile, MessageKind::event, event.event_type)}, now);
+            event_id = events_.add(results, {profile, find_message(*profile, MessageKind::event, event_type)}, now);
         }
         EventNotifications notifications{{.event_id = {event_id},
-                                          .event_type = event.event_type,
+                                          .event_type = event_type,
                                           .subscribe_id = subscription.id,
                                           .expire = now.utc + events_.kept_for(),
                                           .component_ref = component.ref(),
@@ -141,11 +150,45 @@ void Engine::Core::publish(RegisteredComponent& component, EventOccurred const& 
     };
     for (auto* subscription : subscriptions) {
         if (begun)
-            deliveries([&] { deliver(*subscription); });
+            deliveries([&] { deliver_to(*subscription); });
         else
-            deliver(*subscription);
+            deliver_to(*subscription);
     }
-    ++events_published_;
+    return !event_id.empty();
+}
+
+void Engine::Core::deliver_or_keep(KeptEvents::Event event, Instant now, Attempts& deliveries) {
+    auto* component = registry_.find(event.ref);
+    if (component == nullptr) return;
+    if (!deliver(*component, event.type, event.results, now, deliveries)) kept_events_.add(std::move(event));
+}
+
+// An event that cannot be delivered for lack of memory is lost. The next tick reports that.
+void Engine::Core::deliver_kept(std::string const& event_type, Instant now) {
+    Attempts attempts;
+    attempts([&] {
+        for (auto& event : kept_events_.take(event_type, now.steady)) deliver_or_keep(std::move(event), now, attempts);
+    });
+    if (attempts.failure()) unsettled_ = attempts.failure();
+}
+
+// A session with a link can still read its notifications.
+void Engine::Core::pass_on_unread(Session const& session, Instant now) {
+    if (!kept_events_.keeps_any() || shutting_down_ || session.lease.links() > 0) return;
+    Attempts attempts;
+    attempts([&] {
+        std::string last_id;
+        for (auto const& notification : session.notifications->unread_events()) {
+            auto const& event = std::get<ReceiveEvent>(notification->body);
+            auto const& id = event.event_id.text;
+            if (std::exchange(last_id, id) == id) continue;  // the same event, for another subscription of the session
+            auto const details = events_.find(id, session.events, now);
+            if (details.found != Details::Found::kept || !events_.is_only_receiver(id, session.events)) continue;
+            auto const until = now.steady + std::chrono::duration_cast<Steady::duration>(event.expire - now.utc);
+            deliver_or_keep({until, event.event_type, event.component_ref.code, details.results}, now, attempts);
+        }
+    });
+    if (attempts.failure()) unsettled_ = attempts.failure();
 }
 
 }  // namespace rois

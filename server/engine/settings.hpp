@@ -1,4 +1,4 @@
-// The engine's limits and periods. All are configurable.
+// The engine's limits and periods. All but `max_kept_events` are configurable.
 #pragma once
 
 #include <chrono>
@@ -13,6 +13,7 @@ struct EngineSettings {
     std::size_t max_sessions = 1'000;
     std::size_t max_waiting_notifications = 1'024;   // per session (decision 23)
     std::size_t max_sent_notifications = 1'024;      // kept for resuming, per session
+    std::size_t max_kept_events = 0;                 // without a receiver: kept for a later subscription until they expire
     std::size_t max_command_results = 1'000;         // kept, per session (decision 17)
     std::size_t max_subscribed_predicates = 10'000;  // total in the conditions of a session's subscriptions (docs/conditions.md)
     std::size_t max_predicates = 100'000;            // total in the conditions of all subscriptions

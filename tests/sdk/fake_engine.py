@@ -33,7 +33,8 @@ class Link:
         key = next(line.split(": ")[1] for line in head.split("\r\n") if line.startswith("Sec-WebSocket-Key"))
         accept = base64.b64encode(hashlib.sha1((key + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11").encode()).digest()).decode()
         self.writer.write(
-            f"HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Accept: {accept}\r\n\r\n".encode()
+            "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+            f"Sec-WebSocket-Accept: {accept}\r\nSec-WebSocket-Protocol: rois.xml.v1\r\n\r\n".encode()
         )
         await self.message()  # join
         self.send(f'<join_response {rois.NAMES} return_code="OK" window="200"/>'.encode())
@@ -46,6 +47,8 @@ class Link:
         mask = await self.reader.readexactly(4)
         payload = bytes(byte ^ mask[i % 4] for i, byte in enumerate(await self.reader.readexactly(size)))
         self.pongs += first & 0x0F == 10
+        if first & 0x0F == 9:
+            self.send(payload, 10)
         return ElementTree.fromstring(payload) if first & 0x0F == 1 else None
 
     async def read(self):
@@ -87,10 +90,11 @@ class Link:
             f'<rois:parameter rois:name="{name}"><rois:data_type_ref rois:code="{code}"/><rois:value>{text}</rois:value></rois:parameter>'
             for name, (code, text) in arguments.items()
         )
+        given = f"<rois:arguments>{values}</rois:arguments>" if values else ""
         return self.request(
             "execute",
             f'<rois:CommandUnitSequence><rois:command_unit_list xsi:type="rois:CommandMessageType" rois:command_type="{command}" '
-            f'rois:command_id="{id or command}"><rois:component_ref rois:code="{ref}"/><rois:arguments>{values}</rois:arguments>'
+            f'rois:command_id="{id or command}"><rois:component_ref rois:code="{ref}"/>{given}'
             "</rois:command_unit_list></rois:CommandUnitSequence>",
             'check_only="true"' if check_only else "",
         )
@@ -98,11 +102,14 @@ class Link:
     def query(self, ref, name):
         return self.request("query", f"<query_type>{name}</query_type><condition><f:Literal xmlns:f='f'>{ref}</f:Literal></condition>")
 
+    def bind(self, ref):
+        return self.request("bind", f'<component_ref rois:code="{ref}"/>')
+
     def release(self, ref):
         return self.request("release", f'<component_ref rois:code="{ref}"/>')
 
     def subscribe(self, event_type):
-        return self.request("subscribe", f"<event_type>{event_type}</event_type>")
+        return self.request("subscribe", f"<event_type>{event_type}</event_type>", 'inline_results="true"')
 
     async def report(self, name, **texts):
         """Waits for a notification with these texts of its elements."""

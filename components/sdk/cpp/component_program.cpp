@@ -23,6 +23,7 @@ namespace rois::sdk {
 namespace {
 
 constexpr int could_not_start = 70, not_halted = 71;
+constexpr std::size_t most_unsent_events = 10'000;
 
 std::shared_ptr<xml::Schemas const> const& schemas() {
     static xml::Platform const platform;  // outlives the schemas
@@ -65,7 +66,9 @@ bool serve(std::string const& url, std::string const& name, Make const& make) {
     auto const instance = fresh_secret();
     auto const profiles = xml::read_component_profiles(schemas(), files::profiles());
     auto parts = make(profiles);
-    Engine engine{profile_of_program(name, instance, parts.crs), profiles, {}, readers, fresh_secret};
+    EngineSettings limits;
+    limits.max_kept_events = limits.max_waiting_notifications = most_unsent_events;
+    Engine engine{profile_of_program(name, instance, parts.crs), profiles, limits, readers, fresh_secret};
     if (!parts.crs.empty()) engine.describe({.frames = {parts.crs}, .all = {}});
     if (parts.device) engine.add(parts.device, parts.provider, parts.returns_at_once);
     for (auto& component : parts.components) engine.add(std::move(component));

@@ -1,6 +1,7 @@
 // The details of events and errors, kept until they expire, for the sessions that were notified (decisions 21, 24).
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <deque>
@@ -65,6 +66,13 @@ public:
         if (asker.slot >= entry.receivers.size() || !entry.receivers[asker.slot]) return {Found::unknown, {}, {}};
         if (!entry.results) return {Found::expired, {}, {}};
         return {Found::kept, entry.results, entry.message};
+    }
+
+    // Returns whether no other session was notified. Requires that `find` returns the details for this session.
+    bool is_only_receiver(std::string_view id, Asker asker) const {
+        auto const number = to_number<std::uint64_t>(id.substr(prefix_.size())).value();
+        auto const& receivers = kept_[number - first_].receivers;
+        return receivers[asker.slot] && std::count(receivers.begin(), receivers.end(), true) == 1;
     }
 
     void forget_expired(Instant now) {

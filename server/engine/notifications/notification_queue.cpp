@@ -194,6 +194,17 @@ std::size_t NotificationQueue::waiting() const {
     return waiting_;
 }
 
+std::vector<std::shared_ptr<OutgoingNotification const>> NotificationQueue::unread_events() const {
+    std::lock_guard const lock{mutex_};
+    std::vector<std::shared_ptr<OutgoingNotification const>> events;
+    auto const add = [&](auto const& notification) {
+        if (std::holds_alternative<ReceiveEvent>(notification->body)) events.push_back(notification);
+    };
+    for (auto entry = sent_; entry < entries_.size(); ++entry) add(entries_[entry].notification);
+    for (auto const& held : held_) add(held.notification);
+    return events;
+}
+
 bool NotificationQueue::closed() const {
     std::lock_guard const lock{mutex_};
     return shows_closed();

@@ -78,6 +78,9 @@ public:
     // The number of notifications that were never read.
     std::size_t waiting() const;
 
+    // Returns the events that were never read.
+    std::vector<std::shared_ptr<OutgoingNotification const>> unread_events() const;
+
     // Returns whether the session had to end because too many notifications waited.
     bool overflowed() const { return overflowed_; }
 
