@@ -59,6 +59,7 @@ struct Trial {
 
 Trial try_out(Program& program, Action const& action) {
     auto const& ref = action.component.ref;
+    subscribe(program, action.component);
     auto const begun = Clock::now();
     auto const events = program.events_of(ref);
     auto const id = begin(program, action);

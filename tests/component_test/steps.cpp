@@ -134,12 +134,15 @@ void lose_link(Program& program, std::chrono::milliseconds down) {
 void bind(Program& program, std::string const& ref) { require_ok(program.ask(Bind{identifier(ref)}), "bind"); }
 
 void subscribe(Program& program, ComponentEntry const& component) {
+    bool has_new = false;
     for (auto const& event : messages(component, MessageKind::event)) {
         if (program.has_subscribed(event.name)) continue;
+        has_new = true;
         auto const reply = program.ask(Subscribe{.event_type = event.name, .condition = {}, .inline_results = true});
         require_ok(reply, "subscribe to " + event.name);
         require(!reply.subscribe_id.text.empty(), "subscribe: expected a subscribe_id, got none");
     }
+    if (has_new) program.settle();
 }
 
 std::string start(Program& program, std::string const& ref) { return run(program, ref, "start", {}); }

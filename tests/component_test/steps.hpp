@@ -42,7 +42,7 @@ void open_session(Program&, std::chrono::milliseconds with_window);
 void lose_link(Program&, std::chrono::milliseconds down);
 
 void bind(Program&, std::string const& ref);
-// Subscribes to all events of the component, as an engine does.
+// Subscribes to all events of the component, as an engine does. Reads the events that the program has kept for the subscription.
 void subscribe(Program&, ComponentEntry const&);
 // Each returns the id of the command. Throws Skipped if the program refuses it.
 std::string start(Program&, std::string const& ref);
