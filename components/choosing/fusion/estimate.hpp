@@ -1,0 +1,37 @@
+// Positions and velocities with their uncertainty, and how two of them are combined.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace rois::choosing {
+
+using Vector = Eigen::Vector2d;
+using Matrix = Eigen::Matrix2d;
+
+// A value with its covariance.
+struct Gaussian {
+    Vector mean = Vector::Zero();
+    Matrix covariance = Matrix::Identity();
+};
+
+// Where a person is, in metres, and how they move, in metres per second.
+struct Estimate {
+    Gaussian position;
+    Gaussian velocity;
+};
+
+// Whether a matrix is finite, symmetric and positive definite.
+bool is_covariance(Matrix const&);
+
+// Returns the length of a difference in standard deviations (the Mahalanobis distance).
+double deviations(Vector const& difference, Matrix const& covariance);
+
+// Returns the distance of two values in standard deviations of both together.
+double deviations_apart(Gaussian const& a, Gaussian const& b);
+
+// Combines two values of the same thing whose errors may be correlated in an unknown way (covariance intersection). If both
+// covariances are honest, so is the result. The result has nearly the smallest determinant: where both are about equally certain,
+// the weight of `a` is near `share` (0 to 1), so that the result does not jump from one value to the other.
+Gaussian covariance_intersection(Gaussian const& a, Gaussian const& b, double share = 0.5);
+
+}  // namespace rois::choosing
