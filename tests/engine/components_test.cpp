@@ -319,7 +319,7 @@ TEST_F(ComingAndGoing, BringsFramesAndPlacesThatLeaveAgain) {
         .frames = {{.crs = "map", .base = "hall", .position = {1'000, 0, 0}, .orientation = {}, .covariance = {}}},
         .places = {{"lift", box(0, 0, 1'000, 1'000, "map")}}};
     world.engine->change(change_of("robot1", belongings), world.now);
-    auto const at_the_lift = [&] { return desk.ask(Search{equal("location", "lift")}).return_code; };
+    auto const at_the_lift = [&] { return desk.ask(Search{within("location", literal("lift"))}).return_code; };
     EXPECT_EQ(at_the_lift(), ReturnCode::ok);
     EXPECT_ANY_THROW(world.engine->change(change_of("robot2", belongings), world.now)) << "they are known already";
     world.engine->change(change_of("robot1", belongings), world.now);
@@ -341,7 +341,7 @@ TEST_F(ComingAndGoing, LeavesOutFramesAndPlacesOfASubEngineThatAreKnown) {
         return world.engine->change({{}, {}, std::move(belongings), std::move(provider)}, world.now);
     };
     Space const space{{frame("map", "hall"), frame("cart", "map")}, {{"lift", box(0, 0, 1, 1, "cart")}}};
-    auto const at_the_lift = [&] { return desk.ask(Search{equal("location", "lift")}).return_code; };
+    auto const at_the_lift = [&] { return desk.ask(Search{within("location", literal("lift"))}).return_code; };
     EXPECT_THAT(change("robot1", space), IsEmpty());
     EXPECT_EQ(at_the_lift(), ReturnCode::ok);
     EXPECT_THAT(change("robot2", space),

@@ -226,8 +226,8 @@ void Scan::namespace_declaration(StartTag const& tag, std::size_t begin) {
 }  // namespace
 
 bool holds_list_of_numbers(std::string_view local_name) {
-    constexpr std::array<std::string_view, 7> names{"lowerCorner", "upperCorner", "pos",       "posList",
-                                                    "position",    "orientation", "covariance"};
+    constexpr std::array<std::string_view, 9> names{"lowerCorner", "upperCorner", "pos", "posList", "position",
+                                                    "orientation", "covariance",  "low", "high"};
     return std::ranges::find(names, local_name) != names.end();
 }
 
