@@ -1,4 +1,4 @@
-// The components of a sub engine: they come and go with its profile, and each question or command becomes one request.
+// The components of a sub engine come and go with its profile. What they report.
 #include "remote/remote_engine.hpp"
 
 #include <algorithm>
@@ -18,8 +18,6 @@ namespace {
 constexpr int deepest = 8;  // levels of engines
 // Names that a component's profile declares. The engine compares them with one another, while all applications wait.
 constexpr std::size_t most_names = 500;
-constexpr auto is_lost = "its engine is lost";
-constexpr std::chrono::milliseconds between_questions{50};  // whether everything stands still
 
 // The robots of an engine have its instance and no sub engines. They do not count as a level.
 void collect(EngineProfile const& profile, int level, std::string const& instance_above, std::vector<std::string>& instances) {
@@ -70,33 +68,6 @@ void check(ComponentEntry const& entry, std::string const& name) {
     if (auto const names = count_names(*entry.profile); names > most_names)
         refuse("has " + std::to_string(names) + " messages, arguments, results and parameters: expected at most " +
                std::to_string(most_names));
-}
-
-// Removes the place from a sub engine's reason: this engine adds the place in its own sequence.
-std::string without_place(std::string_view reason) {
-    constexpr std::string_view place = "command_unit_list[1]: ";
-    if (reason.starts_with(place)) reason.remove_prefix(place.size());
-    return std::string{reason};
-}
-
-CompletedStatus status_of_refusal(ReturnCode code) {
-    if (code == ReturnCode::out_of_resources) return CompletedStatus::out_of_resources;
-    return code == ReturnCode::timeout ? CompletedStatus::timeout : CompletedStatus::error;
-}
-
-Condition only(std::string const& ref) {
-    return {PropertyComparison{.left = {ValueReference{"component_ref"}}, .right = {Literal{ref}}}};
-}
-
-CommandUnit unit_of(std::string const& ref, std::string type, std::string id, ParameterList arguments) {
-    CommandMessage message{.component_ref = {}, .command_type = std::move(type), .command_id = {std::move(id)}, .arguments = {}};
-    message.component_ref.code = ref;
-    message.arguments = std::move(arguments);
-    return {.delay_time = {}, .unit = std::move(message)};
-}
-
-Outcome outcome_of(Reply const& reply) {
-    return std::visit([](Outcome const& outcome) { return outcome; }, reply);
 }
 
 }  // namespace
@@ -320,204 +291,6 @@ void RemoteEngine::operator()(Completed const& completed) {
         commands_.insert(std::move(command));  // `recover` ends it
         throw;
     }
-}
-
-// --- What this engine asks ---
-
-void RemoteEngine::attach(std::shared_ptr<ComponentRecord> const& record) {
-    auto const state = states_.find(record->entry.ref);
-    if (state != states_.end()) report_state(*record, state->second);
-}
-
-void RemoteEngine::bind(std::shared_ptr<ComponentRecord> const& record, Ticket ticket) {
-    if (!is_open_) return record->answer(ticket, Failed{is_lost});
-    record->is_wanted = true;
-    if (record->is_held && record->binds_asked == 0) return record->answer(ticket, Done{});
-    bind_there(record, [self = shared_from_this(), record, ticket](Reply const* reply) {
-        if (reply == nullptr) return record->answer(ticket, Failed{is_lost});
-        auto const outcome = outcome_of(*reply);
-        if (outcome.return_code == ReturnCode::ok) return record->answer(ticket, Done{});
-        auto reason = "in the engine " + quoted(self->settings_.name) + ": " + outcome.reason;
-        if (outcome.return_code == ReturnCode::out_of_resources) return record->answer(ticket, Refused{std::move(reason)});
-        record->answer(ticket, Failed{std::move(reason)});
-    });
-}
-
-void RemoteEngine::bind_there(std::shared_ptr<ComponentRecord> const& record, Then const& then) {
-    ++record->binds_asked;
-    ask(Bind{{.code = record->entry.ref}}, [self = shared_from_this(), record, then](Reply const* reply) {
-        --record->binds_asked;
-        record->is_held = reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok;
-        then(reply);
-        self->release_unwanted(record);
-    });
-}
-
-void RemoteEngine::released(std::shared_ptr<ComponentRecord> const& record) {
-    record->is_wanted = false;
-    record->stored.clear();
-    release_unwanted(record);
-}
-
-// An answer may be late, and the binding then not wanted any more. The binding is kept until the component stands still: without
-// it, a `stop` that failed could not be repeated.
-void RemoteEngine::release_unwanted(std::shared_ptr<ComponentRecord> const& record) {
-    if (record->is_wanted || record->binds_asked > 0 || record->halt || !std::exchange(record->is_held, false)) return;
-    ask(Release{{.code = record->entry.ref}}, [record](Reply const* reply) {
-        if (reply != nullptr && !record->is_held && record->binds_asked == 0) record->acts_no_more();
-    });
-}
-
-// `start` takes the stored parameters as arguments: they may have been stored while the sub engine was lost.
-void RemoteEngine::prepare(std::shared_ptr<ComponentRecord> const& record, Ticket ticket, std::string const& command_type,
-                           ParameterList const& parameters) {
-    if (!is_open_) return record->answer(ticket, Failed{is_lost});
-    auto unit = unit_of(record->entry.ref, command_type, {}, translation_.to_there(parameters, record->entry));
-    Execute check{.command_unit_list = {{std::move(unit)}}, .check_only = true};
-    ask(std::move(check), [self = shared_from_this(), record, ticket, command_type, parameters](Reply const* reply) {
-        if (reply == nullptr) return record->answer(ticket, Failed{is_lost});
-        auto const outcome = outcome_of(*reply);
-        if (outcome.return_code == ReturnCode::bad_parameter)
-            return record->answer(ticket, Refused{without_place(outcome.reason)});
-        if (outcome.return_code != ReturnCode::ok) return record->answer(ticket, Failed{without_place(outcome.reason)});
-        record->answer(ticket, [self, record, command_type, parameters](CommandHandle command, Instant) {
-            self->run([=](RemoteEngine& engine) {
-                try {
-                    engine.begin(record, command, command_type, parameters);
-                } catch (...) {
-                    record->report(CommandEnded{.command = command, .status = CompletedStatus::error});
-                    throw;
-                }
-            });
-        });
-    });
-}
-
-void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, CommandHandle command, std::string const& command_type,
-                         ParameterList const& parameters) {
-    auto const id = "c" + std::to_string(++last_command_);
-    auto end = [self = shared_from_this(), record, command, command_type, parameters](Completed const& completed) {
-        CommandEnded ended{
-            .command = command, .status = completed.status, .results = {}, .afterwards = {}, .reason = completed.reason};
-        if (completed.results) ended.results = *completed.results;
-        self->translation_.to_here(ended.results);
-        --record->running;
-        if (record->running == 0 && completed.active == false) record->acts_no_more();
-        if (command_type == "set_parameter" && completed.status == CompletedStatus::ok) record->stored = parameters;
-        if (completed.active) ended.afterwards = *completed.active ? Afterwards::active : Afterwards::idle;
-        record->report(std::move(ended));
-    };
-    commands_.emplace(id, std::move(end));
-    record->may_act = true;
-    ++record->running;
-    auto unit = unit_of(record->entry.ref, command_type, id, translation_.to_there(parameters, record->entry));
-    ++record->begins_asked;
-    ask(Execute{{{std::move(unit)}}},
-        [self = shared_from_this(), record, command, id](Reply const* reply) {
-            if (--record->begins_asked == 0)
-                for (auto const& next : std::exchange(record->after_begins, {})) next();
-            bool const is_accepted = reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok;
-            auto const known = self->commands_.find(id);
-            if (known == self->commands_.end()) return;  // it has completed
-            if (is_accepted) return record->report(CommandStarted{command});
-            self->commands_.erase(known);
-            --record->running;
-            auto const status = reply == nullptr ? CompletedStatus::abort : status_of_refusal(outcome_of(*reply).return_code);
-            auto const reason = reply == nullptr ? is_lost : outcome_of(*reply).reason;
-            record->report(CommandEnded{.command = command, .status = status, .results = {}, .afterwards = {}, .reason = reason});
-        },
-        {id});
-}
-
-// Confirmed by the end of `stop`, by the answer to a `release` that was sent before, or by the end of the session there: only the
-// sub engine knows whether its component stands still.
-void RemoteEngine::halt(std::shared_ptr<ComponentRecord> const& record, Ticket ticket) {
-    record->halt = ticket;
-    if (!record->may_act) return everything_is_stopped_ ? ask_to_stop() : record->stands_still();
-    if (!record->is_held || record->is_stopping || is_given_up_) return;
-    record->is_stopping = true;
-    command(record, "stop", {}, [self = shared_from_this(), record](CompletedStatus status, std::string const&) {
-        record->is_stopping = false;
-        if (status != CompletedStatus::ok) return;
-        record->stands_still();
-        self->release_unwanted(record);
-    });
-}
-
-void RemoteEngine::stop_everything() {
-    everything_is_stopped_ = true;
-    ask_to_stop();
-}
-
-// Until then, the halts of components that this engine does not command wait for the sub engine's answer.
-void RemoteEngine::clear_stop() {
-    everything_is_stopped_ = false;
-    if (auto const stop = std::exchange(stop_there_, {})) ask(ClearStop{*stop}, [](Reply const*) {});
-    for (auto const& [ref, record] : records_)
-        if (!record->may_act) record->stands_still();
-}
-
-// Asks until all components there stand still. A component program does not know this request: it has no other applications.
-void RemoteEngine::ask_to_stop() {
-    if (!everything_is_stopped_ || !is_open_ || std::exchange(stop_is_asked_, true)) return;
-    ask(StopEverything{}, [self = shared_from_this()](Reply const* reply) {
-        self->stop_is_asked_ = false;
-        auto const* stopped = reply == nullptr ? nullptr : std::get_if<StopEverything::Reply>(reply);
-        if (stopped == nullptr || !self->everything_is_stopped_) return;
-        if (stopped->stop) self->stop_there_ = stopped->stop;
-        if (stopped->return_code != ReturnCode::ok && stopped->return_code != ReturnCode::unsupported) return;
-        bool is_waiting = false;
-        for (auto const& [ref, record] : self->records_) {
-            if (record->may_act || !record->halt) continue;
-            auto const& moving = stopped->not_halted;
-            if (std::ranges::find(moving, ref) == moving.end())
-                record->stands_still();
-            else
-                is_waiting = true;
-        }
-        if (is_waiting) self->host_->at(self->host_->now() + between_questions, [self] { self->ask_to_stop(); });
-    });
-}
-
-void RemoteEngine::pause(std::shared_ptr<ComponentRecord> const& record, Ticket ticket, std::string const& command_type) {
-    if (record->begins_asked > 0) {
-        record->after_begins.emplace_back([=, self = shared_from_this()] { self->pause(record, ticket, command_type); });
-        return;
-    }
-    command(record, command_type, {}, [record, ticket, command_type](CompletedStatus status, std::string const& reason) {
-        if (status == CompletedStatus::ok)
-            record->answer(ticket, Done{});
-        else
-            record->answer(ticket, Failed{command_type + ": " + std::string{to_text(status)} + ": " + reason});
-    });
-}
-
-// Runs a command. Calls `then` once, with the end.
-void RemoteEngine::command(std::shared_ptr<ComponentRecord> const& record, std::string const& command_type,
-                           ParameterList arguments, std::function<void(CompletedStatus, std::string const& reason)> const& then) {
-    auto const id = "c" + std::to_string(++last_command_);
-    commands_.emplace(id, [then](Completed const& completed) { then(completed.status, completed.reason); });
-    ask(Execute{{{unit_of(record->entry.ref, command_type, id, std::move(arguments))}}},
-        [self = shared_from_this(), then, id](Reply const* reply) {
-            if (reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok) return;
-            if (self->commands_.erase(id) > 0)
-                then(CompletedStatus::error, reply == nullptr ? is_lost : without_place(outcome_of(*reply).reason));
-        },
-        {id});
-}
-
-void RemoteEngine::query(std::shared_ptr<ComponentRecord> const& record, Ticket ticket, std::string const& query_type) {
-    if (!is_open_) return record->answer(ticket, std::vector<Results>{});
-    Query asked{.query_type = query_type, .condition = {}};
-    asked.condition.filter = only(record->entry.ref);
-    ask(std::move(asked), [self = shared_from_this(), record, ticket](Reply const* reply) {
-        auto const* answer = reply == nullptr ? nullptr : std::get_if<Query::Reply>(reply);
-        if (answer == nullptr || answer->return_code != ReturnCode::ok) return record->answer(ticket, std::vector<Results>{});
-        std::vector<Results> rows{answer->results};
-        rows.insert(rows.end(), answer->other_rows.begin(), answer->other_rows.end());
-        for (auto& row : rows) self->translation_.to_here(row);
-        record->answer(ticket, std::move(rows));
-    });
 }
 
 }  // namespace rois::remote

@@ -130,9 +130,6 @@ private:
     // --- remote_engine.cpp: its profile and components ---
     using Records = std::map<std::string, std::shared_ptr<ComponentRecord>, std::less<>>;  // by their refs in the sub engine
     void report_state(ComponentRecord&, ComponentChanged const&) const;
-    void command(std::shared_ptr<ComponentRecord> const&, std::string const& command_type, ParameterList arguments,
-                 std::function<void(CompletedStatus, std::string const& reason)> const& then);
-    void ask_to_stop();
     void ask_profile();
     void take_profile(GetProfile::Reply const&);
     void enter(GetProfile::Reply const&);
@@ -140,8 +137,6 @@ private:
     void report_left_out(std::vector<std::string> const& why) const;
     void subscribe();
     void restore();
-    void bind_there(std::shared_ptr<ComponentRecord> const&, Then const&);
-    void release_unwanted(std::shared_ptr<ComponentRecord> const&);
     ComponentDescription description_of(ComponentEntry const&, ComponentRecord const&, Translation const&) const;
     std::shared_ptr<ComponentRecord> record_of(std::string_view ref) const;
     void operator()(ReceiveEvent const&);
@@ -150,6 +145,13 @@ private:
     void operator()(Lost const&) {}
     void operator()(ProfileChanged const&) { ask_profile(); }
     void operator()(ComponentChanged const&);
+
+    // --- remote_requests.cpp: what this engine asks ---
+    void bind_there(std::shared_ptr<ComponentRecord> const&, Then const&);
+    void release_unwanted(std::shared_ptr<ComponentRecord> const&);
+    void command(std::shared_ptr<ComponentRecord> const&, std::string const& command_type, ParameterList arguments,
+                 std::function<void(CompletedStatus, std::string const& reason)> const& then);
+    void ask_to_stop();
 
     SubEngine settings_;
     std::shared_ptr<RemoteEngineHost> host_;

@@ -10,9 +10,9 @@ namespace rois::house {
 
 namespace {
 
-constexpr std::ptrdiff_t longest_file = 500;  // lines
+constexpr std::ptrdiff_t longest_file = 500;                          // lines
 constexpr auto one_file = "components/sdk/python/rois_component.py";  // may be longer: a program needs nothing else
-constexpr std::ptrdiff_t longest_line = 140;  // characters
+constexpr std::ptrdiff_t longest_line = 140;                          // characters
 
 constexpr auto dependencies = "docs/dependencies.md";
 
