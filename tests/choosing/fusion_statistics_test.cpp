@@ -118,7 +118,7 @@ TEST_P(TwoUnits, KeepTheNames) {
     EXPECT_EQ(record.shared_names, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, TwoUnits, testing::ValuesIn(pairs), [](auto const& info) { return info.param.title; });
+INSTANTIATE_TEST_SUITE_P(Each, TwoUnits, testing::ValuesIn(pairs), [](auto const& each) { return each.param.title; });
 
 TEST(ThreeUnits, GiveAPositionThatIsBetterThanTheBestUnits) {
     Record const record = recorded(
@@ -172,7 +172,7 @@ TEST_P(CalibrationErrors, StayWithinTheReportedEllipse) {
 INSTANTIATE_TEST_SUITE_P(Each, CalibrationErrors,
                          testing::Values(Calibration{"SharedByBothUnits", 0.7, true},
                                          Calibration{"NearlyAllOfTheError", 0.95, true}, Calibration{"OfEachUnit", 0.7, false}),
-                         [](auto const& info) { return info.param.title; });
+                         [](auto const& each) { return each.param.title; });
 
 // Twelve persons in a hall that each of the units sees a part of.
 Record crowd(double noise, double drops) {

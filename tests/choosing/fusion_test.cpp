@@ -251,7 +251,7 @@ TEST_P(Passing, PersonsKeepTheirNamesWhileOneUnitLosesTheHiddenOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AtDistance, Passing, testing::Values(0.4, 0.6, 1.0),
-                         [](auto const& info) { return std::to_string(std::lround(info.param * 10)) + "Decimetres"; });
+                         [](auto const& each) { return std::to_string(std::lround(each.param * 10)) + "Decimetres"; });
 
 TEST_F(Fusing, APersonWhoWalksFromOneViewIntoTheOtherKeepsTheName) {
     auto const place = [&] { return Vector{time * 1.5, 2}; };

@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(Each, WrongPlacement,
                                          Wrong{.title = "TenDegreesOnChange", .turned = 10 * degrees, .reports_from = 0.2},
                                          Wrong{.title = "EightDecimetresBeside", .shifted = {0.8, 0}},
                                          Wrong{.title = "HalfAMetreBeside", .shifted = {0.3, 0.4}, .walkers = 8}),
-                         [](auto const& info) { return info.param.title; });
+                         [](auto const& each) { return each.param.title; });
 
 TEST(Placement, TheReportSaysHowFarThePersonsLieBeside) {
     Simulator world{1};
@@ -213,7 +213,7 @@ INSTANTIATE_TEST_SUITE_P(Each, RightPlacement,
                                          Hour{.title = "OnChange", .from = 4, .to = 8, .reports_from = 0.2},
                                          Hour{.title = "CalibrationErrors", .deviation = 0.1, .from = 4, .to = 8, .bias = 0.7},
                                          Hour{.title = "PoorSensors", .deviation = 0.3, .from = 4, .to = 8, .walkers = 8}),
-                         [](auto const& info) { return info.param.title; });
+                         [](auto const& each) { return each.param.title; });
 
 }  // namespace
 }  // namespace rois::choosing::stage
