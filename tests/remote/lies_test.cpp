@@ -63,7 +63,7 @@ TEST_F(ALyingSubEngine, MayAnswerOutOfOrder) {
     engines.reverse_answers();
     engines.hold_back(false);
     engines.settle();
-    EXPECT_EQ(std::get<Query::Reply>(std::get<Reply>(asked->said.value())).results.parameters.size(), 2u);
+    EXPECT_EQ(std::get<Query::Reply>(std::get<Reply>(asked->said.value())).return_code, ReturnCode::ok);
     EXPECT_EQ(std::get<Bind::Reply>(std::get<Reply>(bound->said.value())).return_code, ReturnCode::ok);
     EXPECT_EQ(engines.execute(desk, go("go", "hall.navigation")).return_code, ReturnCode::ok);
 }

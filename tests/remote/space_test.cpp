@@ -154,6 +154,7 @@ TEST_F(ASubEngineWithASpace, HasItsParametersInOurFrame) {
     begin();
     engines->hall["navigation"].reads = ParameterList{positions("landmarks", {"0, 100"}, "crs1")};
     is_at(0, 0);
+    engines->bind(*desk, "hall.navigation");
     auto const parameters = desk->get_parameter("hall.navigation").parameters;
     ASSERT_NE(find(parameters, "landmarks"), nullptr);
     EXPECT_THAT(find(parameters, "landmarks")->values, ElementsAre("900, 0"));

@@ -40,8 +40,8 @@ class Lamp final : public rois::LocalComponent {
         return {{{rois::boolean("is_on", is_on_)}, {}}};
     }
     void light(bool on) {
+        if (is_on_ != on) port().event("switched", {{rois::boolean("is_on", on)}, {}});
         is_on_ = on;
-        port().event("switched", {{rois::boolean("is_on", on)}, {}});
     }
     rois::ComponentDescription description_ = rois::sdk::describe("lamp", profile);
     bool is_on_ = false;
