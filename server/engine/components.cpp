@@ -184,8 +184,8 @@ std::vector<std::string> Engine::Core::add_space(Places& all, BelongingsOf const
     std::set<std::string> names;
     for (auto const& place : all.all) names.insert(place.name);
     for (auto const& [owner, brought] : belongings) {
-        auto const leave_out = [&, &owner = owner](std::string why) {
-            if (owner == provider) left_out.push_back(std::move(why));
+        auto const leave_out = [&, is_meant = owner == provider](std::string why) {
+            if (is_meant) left_out.push_back(std::move(why));
         };
         std::set<std::string> missing;
         auto const why_missing = [&](std::string const& what, std::string const& crs) -> std::optional<std::string> {

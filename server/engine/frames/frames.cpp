@@ -146,6 +146,7 @@ std::vector<std::string> Frames::names() const {
 
 std::vector<Frame> Frames::others() const {
     std::vector<Frame> frames;
+    frames.reserve(placed_.size());
     for (auto const& [key, placed] : placed_) frames.push_back(placed->frame);
     std::ranges::stable_sort(frames, {}, [&](Frame const& frame) { return ancestry(frame.crs).size(); });
     return frames;
