@@ -152,6 +152,7 @@ private:
     void command(std::shared_ptr<ComponentRecord> const&, std::string const& command_type, ParameterList arguments,
                  std::function<void(CompletedStatus, std::string const& reason)> const& then);
     void ask_to_stop();
+    void clear_stop_there();
 
     SubEngine settings_;
     std::shared_ptr<RemoteEngineHost> host_;

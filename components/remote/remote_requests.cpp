@@ -169,9 +169,17 @@ void RemoteEngine::stop_everything() {
 // Until then, the halts of components that this engine does not command wait for the sub engine's answer.
 void RemoteEngine::clear_stop() {
     everything_is_stopped_ = false;
-    if (auto const stop = std::exchange(stop_there_, {})) ask(ClearStop{*stop}, [](Reply const*) {});
+    clear_stop_there();
     for (auto const& [ref, record] : records_)
         if (!record->may_act) record->stands_still();
+}
+
+// Asked again in the next session if this one ends before the answer.
+void RemoteEngine::clear_stop_there() {
+    if (everything_is_stopped_ || !stop_there_) return;
+    ask(ClearStop{*stop_there_}, [self = shared_from_this()](Reply const* reply) {
+        if (reply != nullptr) self->stop_there_.reset();
+    });
 }
 
 // Asks until all components there stand still. A component program does not know this request: it has no other applications.

@@ -187,6 +187,7 @@ void RemoteEngine::opened(Connect::Reply const& reply) {
     profile_asked_ = stop_is_asked_ = false;
     give_signs_of_life(era_);
     ask_to_stop();
+    clear_stop_there();
     ask_profile();
 }
 

@@ -248,7 +248,7 @@ private:
     bool sessions_must_end_ = false;
     bool shutting_down_ = false;
     bool everything_is_stopped_ = false;
-    std::uint64_t stops_ = 0;  // how often everything was stopped
+    std::uint64_t last_stop_ = 0;  // a number that no other stop has, also not one before the engine was started
     std::function<void(bool)> on_stop_ = [](bool) {};
     std::optional<Steady> stop_reported_;  // when the sessions last received the error of a stop of everything
     bool stop_unreported_ = false;         // a later stop has not been reported yet: a tick will report it

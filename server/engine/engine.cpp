@@ -215,10 +215,11 @@ void Engine::Core::remove(Session& session, Instant now) {
 void Engine::Core::stop_everything(Instant now) {
     everything_is_stopped_ = true;
     stop_unreported_ = true;
-    ++stops_;
+    ++last_stop_;
     Attempts attempts;
     attempts([&] { on_stop_(true); });  // before the components are halted
     attempts([&] { executor_.stop_all("everything was stopped", now); });
+    attempts([&] { last_stop_ = std::hash<std::string>{}(fresh_secret_()); });
     attempts([&] { report_stop_of_everything(now); });
     attempts([&] { settle(now); });
     attempts.rethrow();

@@ -111,16 +111,16 @@ Reply Engine::Core::perform(Session& session, Resume const& resume, Instant) {
 // A session that asks again sees how far the stop is.
 Reply Engine::Core::perform(Session& session, StopEverything const&, Instant now) {
     bool const was_stopped = everything_is_stopped_;
-    if (!was_stopped || session.last_stop != stops_) stop_everything(now);
-    session.last_stop = stops_;
+    if (!was_stopped || session.last_stop != last_stop_) stop_everything(now);
+    session.last_stop = last_stop_;
     StopEverything::Reply reply;
-    if (!was_stopped) reply.stop = stops_;
+    if (!was_stopped) reply.stop = last_stop_;
     reply.not_halted = not_halted();
     return reply;
 }
 
 Reply Engine::Core::perform(Session&, ClearStop const& asked, Instant) {
-    if (asked.stop == stops_) clear();
+    if (asked.stop == last_stop_) clear();
     return ClearStop::Reply{};
 }
 

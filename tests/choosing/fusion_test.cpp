@@ -1,4 +1,4 @@
-// What the fusion does with the lists of units: who is the same, names, translation, bad input.
+// Lists of units become persons: who is the same, names, translation, bad input.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -277,7 +277,7 @@ TEST_F(Fusing, ALostPersonIsRememberedForFiveSeconds) {
     repeat(4, [&] { list("robot1", {}); });
     ASSERT_THAT(persons(), SizeIs(1));
     EXPECT_THAT(persons()[0].sensed_by, IsEmpty());
-    EXPECT_GT(persons()[0].covariance(0, 0), 1) << "nobody knows where the person is";
+    EXPECT_GT(persons()[0].covariance(0, 0), 1) << "no unit knows where the person is";
     repeat(1, [&] { list("robot1", {{"other-name", {1.2, 2}}}); });
     EXPECT_EQ(own("robot1", "other-name"), "person-1");
     repeat(6, [&] { list("robot1", {}); });

@@ -135,13 +135,19 @@ TEST(Placement, TheReportSaysHowMuchThePersonsAreTurned) {
     EXPECT_THAT(reports[0].text, AllOf(HasSubstr("beside those of the other units"), HasSubstr("turned by 10 degrees")));
 }
 
-TEST(Placement, AUnitThatIsPlacedRightAgainIsNoLongerReported) {
+// Two units, of which the second is turned by 10 degrees, after a minute.
+Simulator world_with_a_turned_unit() {
     Simulator world{2};
     world.add(unit("robot1"));
     world.add(unit("robot2"));
     world.units[1].turned = 10 * degrees;
     world.add_walkers(4);
     world.run(60);
+    return world;
+}
+
+TEST(Placement, AUnitThatIsPlacedRightAgainIsNoLongerReported) {
+    auto world = world_with_a_turned_unit();
     ASSERT_THAT(misplaced(world), SizeIs(2));
     world.units[1].turned = 0;
     world.run(60);
@@ -149,12 +155,7 @@ TEST(Placement, AUnitThatIsPlacedRightAgainIsNoLongerReported) {
 }
 
 TEST(Placement, ALostUnitIsForgotten) {
-    Simulator world{2};
-    world.add(unit("robot1"));
-    world.add(unit("robot2"));
-    world.units[1].turned = 10 * degrees;
-    world.add_walkers(4);
-    world.run(60);
+    auto world = world_with_a_turned_unit();
     ASSERT_THAT(misplaced(world), SizeIs(2));
     world.units[1].works = false;
     world.fusion.lost("robot2", world.when());

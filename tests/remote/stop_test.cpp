@@ -29,7 +29,7 @@ struct AStopOfEverything : testing::Test {
 
 TEST_F(AStopOfEverything, StopsWhatApplicationsOfTheSubEngineHaveBegun) {
     stop(engines.main);
-    EXPECT_THAT(not_halted(), testing::Contains("hall.navigation")) << "nobody has confirmed it yet";
+    EXPECT_THAT(not_halted(), testing::Contains("hall.navigation")) << "the hall has not confirmed it yet";
     engines.advance(200ms);
     EXPECT_THAT(guard.received(), testing::Contains(HasSubstr("completed go ABORT")));
     EXPECT_THAT(not_halted(), IsEmpty());
@@ -85,6 +85,29 @@ TEST_F(AStopOfEverything, MayBeClearedWhileTheLinkIsLost) {
     engines.repair();
     engines.advance(1s);
     EXPECT_FALSE(hall_is_stopped());
+}
+
+TEST_F(AStopOfEverything, MayBeClearedWhileTheSessionIsGivenUp) {
+    stop(engines.main);
+    engines.advance(200ms);
+    engines.cut();
+    engines.advance(5s);
+    clear(engines.main);
+    engines.repair();
+    engines.advance(10s);
+    EXPECT_FALSE(hall_is_stopped());
+}
+
+TEST_F(AStopOfEverything, DoesNotEndOneThatARestartedSubEngineHas) {
+    stop(engines.main);
+    engines.advance(200ms);
+    engines.cut();
+    clear(engines.main);
+    engines.restart_hall();
+    stop(engines.hall);
+    engines.repair();
+    engines.advance(10s);
+    EXPECT_TRUE(hall_is_stopped());
 }
 
 // A component program does not know the request.

@@ -14,7 +14,7 @@ struct Gaussian {
     Matrix covariance = Matrix::Identity();
 };
 
-// Where a person is, in metres, and how they move, in metres per second.
+// The position of a person in metres, and the velocity in metres per second.
 struct Estimate {
     Gaussian position;
     Gaussian velocity;

@@ -79,15 +79,15 @@ class Fusion {
 public:
     explicit Fusion(FusionSettings settings = {});
 
-    // Sets what is known of a unit. Persons whom it lists already keep the earlier settings. Without a call, the unit has default
-    // settings.
+    // Sets the properties of a unit. Persons whom it lists already keep the earlier settings. Without a call, the unit has
+    // default settings.
     void configure(std::string_view unit, UnitSettings const&);
 
     // Takes the list of all persons whom a unit senses at `when`. It replaces the unit's previous list. It stays valid until the
-    // next one, but at most for `longest_age`. A silent unit says that nobody has moved (UnitSettings::period).
+    // next one, but at most for `longest_age`. A silent unit says that no person has moved (UnitSettings::period).
     Received sensed(std::string_view unit, Steady when, std::span<Sighting const> list);
 
-    // A unit has left: it senses nobody until its next list.
+    // A unit has left: it senses no person until its next list.
     void lost(std::string_view unit, Steady when);
 
     // Lets time pass. Call it at least every 0.1 s; otherwise decisions wait for the next list. Earlier times are ignored.

@@ -165,8 +165,8 @@ void People::move_tracks(Person& from, Person& to, Steady when) {
     all_.erase(from.id);
 }
 
-// Gives names to new persons who are near nobody, or have waited for too long: the name of a lost person if they appear where
-// that one may be, or a new one.
+// Gives names to new persons who are not near another person, or have waited for too long: the name of a lost person if they
+// appear where that one may be, or a new one.
 void People::settle(Steady when) {
     std::vector<Person*> found;
     std::vector<Person*> lost;

@@ -38,7 +38,7 @@ public:
     // different; call it with the smaller unit first. Call it a few times per second.
     void compare(Track const& first, Track const& second, Relation, Steady when);
 
-    // Evaluates what has been compared. Call it about once per second.
+    // Evaluates the comparisons so far. Call it about once per second.
     void judge(Steady when);
 
     // Forgets a unit, because it has been lost: it may stand elsewhere when it comes back.
