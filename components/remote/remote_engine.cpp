@@ -1,4 +1,4 @@
-// The components of a sub engine come and go with its profile. What they report.
+// The components of a sub engine: how they come and go with its profile, and what they report.
 #include "remote/remote_engine.hpp"
 
 #include <algorithm>

@@ -67,8 +67,8 @@ public:
     void joined(std::shared_ptr<client::Link> link);
     bool has_link() const { return link_ != nullptr; }
 
-    // Everything is stopped in this engine, or this has ended. The sub engine stops everything too, also what its own
-    // applications have begun.
+    // Called when everything is stopped in this engine, and when that stop is cleared. The sub engine does the same, also with
+    // what its own applications have begun.
     void stop_everything();
     void clear_stop();
 

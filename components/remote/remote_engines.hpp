@@ -38,7 +38,7 @@ public:
     // for its programs.
     void set(std::vector<SubEngine>, std::string const& own_url);
 
-    // Everything is stopped in this engine, or this has ended. Any thread; returns at once.
+    // Call it when everything is stopped in this engine, and when that stop is cleared. Any thread; returns at once.
     void everything_stopped(bool is_stopped);
 
     // What is known of each sub engine, by their names.

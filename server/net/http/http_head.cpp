@@ -76,7 +76,10 @@ std::optional<Fault> find_fault(std::string_view text, Settings const& settings,
     bool is_encoded = false;
     for (auto const& field : head.message) {
         ++fields;
-        if (field.name() == http::field::host) ++hosts, host = field.value();
+        if (field.name() == http::field::host) {
+            ++hosts;
+            host = field.value();
+        }
         if (field.name() == http::field::content_length) lengths += field.value().contains(',') ? 2 : 1;
         if (field.name() == http::field::transfer_encoding) is_encoded = true;
     }
