@@ -40,9 +40,9 @@ struct Hall {
         world.engine->add(std::move(second));
         world.engine->add(hand);
         world.engine->keep_within(budget);
-        for (int i = 1; i <= most_sessions; ++i) world.notified[SessionId{"secret-" + std::to_string(i)}] = 0;
+        for (int i = 1; i <= most_secrets; ++i) world.notified[SessionId{"secret-" + std::to_string(i)}] = 0;
     }
-    static constexpr int most_sessions = 200;
+    static constexpr int most_secrets = 400;  // of sessions and stops
 
     void tick(std::function<void()> what = {}) {
         hand->next = std::move(what);
@@ -138,7 +138,7 @@ struct Hall {
     }
     // Drops the applications of all rounds.
     void end_all() {
-        for (int i = 1; i <= most_sessions; ++i) lose_links({"secret-" + std::to_string(i)});
+        for (int i = 1; i <= most_secrets; ++i) lose_links({"secret-" + std::to_string(i)});
     }
     void lose_links(SessionId const& session) {
         constexpr int most_links = 3;
