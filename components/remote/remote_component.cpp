@@ -13,7 +13,7 @@ void RemoteComponent::attach(ComponentPort& port) {
     engine_->run([record = record_](RemoteEngine& engine) { engine.attach(record); });
 }
 
-void RemoteComponent::bind(Ticket ticket, Instant) {
+void RemoteComponent::bind(Ticket ticket, Binding const&, Instant) {
     engine_->run([=, record = record_](RemoteEngine& engine) { engine.bind(record, ticket); });
 }
 

@@ -15,7 +15,7 @@ public:
 
     ComponentDescription const& description() const override { return description_; }
     void attach(ComponentPort&) override;
-    void bind(Ticket, Instant now) override;
+    void bind(Ticket, Binding const&, Instant now) override;
     void released(Instant now) override;
     void prepare(Ticket, std::string_view command_type, ParameterList const&, Instant now) override;
     void halt(Ticket, Instant now) override;

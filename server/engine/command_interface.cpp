@@ -27,6 +27,12 @@ std::string why_not_free(RegisteredComponent const& component) {
     return component.bound_to == nullptr ? why_not_halted(component) : held(component);
 }
 
+// A logical component must also know of a binding with another `switching`.
+bool must_confirm(RegisteredComponent const& component, Session const& session) {
+    if (!component.confirms_binding()) return false;
+    return component.is_free() || (component.is_logical() && component.bound_to == &session && !component.has_failed_to_halt());
+}
+
 std::string did_not_answer(RegisteredComponent const& component, std::chrono::milliseconds deadline) {
     return "the component " + quoted(component.ref().code) + " did not answer within " + in_seconds(deadline);
 }
@@ -92,10 +98,12 @@ Reply Engine::Core::perform(Session& session, Search const& search, Instant) {
     return reply;
 }
 
-Reply Engine::Core::bind(Session& session, RegisteredComponent& component, Instant now) {
+Reply Engine::Core::bind(Session& session, ToBindNow const& wanted, Instant now) {
+    auto& component = *wanted.component;
     bool const mine = component.bound_to == &session;
     switch (Registry::bind(component, session, now)) {
         case Registry::Bound::ok:
+            component.switching = wanted.as.switching;
             if (!mine) journal_->bound(session.number, component.ref().code);
             return Bind::Reply{};
         case Registry::Bound::not_halted:
@@ -109,32 +117,34 @@ Reply Engine::Core::bind(Session& session, RegisteredComponent& component, Insta
 Engine::Core::Later Engine::Core::perform(Session& session, Bind const& bind_, SharedAsked const& asked, Instant now) {
     auto [component, problem] = registry_.meant(bind_.component_ref);
     if (component == nullptr) return refused<Bind::Reply>(ReturnCode::bad_parameter, std::move(problem));
-    if (!component->confirms_binding() || !component->is_free()) return bind(session, *component, now);
-    auto then = [this, asked, shared = component->shared_from_this()](std::optional<ComponentAnswer>& answer, Instant when) {
+    ToBindNow wanted{component->shared_from_this(), {.session = session.number, .switching = bind_.switching}};
+    if (!must_confirm(*component, session)) return bind(session, wanted, now);
+    auto then = [this, asked, wanted](std::optional<ComponentAnswer>& answer, Instant when) {
+        auto& bound = *wanted.component;
         auto const make = [&](Session& asker) -> Later {
             if (!answer)
                 return refused<Bind::Reply>(ReturnCode::timeout,
-                                            did_not_answer(*shared, settings_.question_deadline) + "; it is not bound");
+                                            did_not_answer(bound, settings_.question_deadline) + "; it is not bound");
             if (auto* refusal = std::get_if<Refused>(&*answer))
                 return refused<Bind::Reply>(ReturnCode::out_of_resources, std::move(refusal->reason));
-            if (!std::holds_alternative<Done>(*answer) || shared->has_departed()) {
+            if (!std::holds_alternative<Done>(*answer) || bound.has_departed()) {
                 auto const* failed = std::get_if<Failed>(&*answer);
-                auto const why = failed != nullptr        ? failed->reason
-                                 : shared->has_departed() ? "it has left"
-                                                          : "it answered another question";
+                auto const why = failed != nullptr      ? failed->reason
+                                 : bound.has_departed() ? "it has left"
+                                                        : "it answered another question";
                 return refused<Bind::Reply>(ReturnCode::error,
-                                            "the component " + quoted(shared->ref().code) + " is not bound: " + why);
+                                            "the component " + quoted(bound.ref().code) + " is not bound: " + why);
             }
-            return bind(asker, *shared, when);
+            return bind(asker, wanted, when);
         };
-        --shared->binds_asked;
+        --bound.binds_asked;
         answer_later(*asked, make);
-        notify_of_release(*shared, when);
+        notify_of_release(bound, when);
     };
     auto const ticket = questions_.ask(*component, now.steady + settings_.question_deadline,
                                        "the component did not answer whether it can be bound", std::move(then));
     ++component->binds_asked;
-    component->hosted().bind(ticket, now);
+    component->hosted().bind(ticket, wanted.as, now);
     return {};
 }
 
@@ -145,14 +155,20 @@ Engine::Core::Later Engine::Core::perform(Session& session, BindAny const& bind,
     if (auto* problem = std::get_if<std::string>(&compiled))
         return refused<BindAny::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     auto const& selection = std::get<Selection>(compiled);
-    if (!may_ever_match(selection.filter(), registry_.possible(selection.filter().demand()), session))
+    if (!may_ever_match(selection.filter(), registry_.possible(selection.filter().demand(), seen_by(selection.filter())),
+                        session))
         return refused<BindAny::Reply>(ReturnCode::unsupported, "no component of this engine can match the condition");
     auto const [matches, held_of_group] = select_to_bind(selection, session);
-    std::vector<SharedComponent> candidates;
+    std::vector<ToBindNow> candidates;
+    auto const add = [&](RegisteredComponent& match) {
+        candidates.push_back(
+            {match.shared_from_this(),
+             {.session = session.number, .switching = bind.switching, .order = members_in_order(match, selection, session)}});
+    };
     for (auto* match : matches)
-        if (match->is_free()) candidates.push_back(match->shared_from_this());
+        if (match->is_free()) add(*match);
     for (auto* match : matches)
-        if (match->bound_to == &session && !match->has_failed_to_halt()) candidates.push_back(match->shared_from_this());
+        if (match->bound_to == &session && !match->has_failed_to_halt()) add(*match);
     if (candidates.empty() && held_of_group != nullptr)
         return refused<BindAny::Reply>(ReturnCode::out_of_resources,
                                        "no robot can give all components of the group now; " + held(*held_of_group));
@@ -164,24 +180,26 @@ Engine::Core::Later Engine::Core::perform(Session& session, BindAny const& bind,
 }
 
 // Binds the first candidate that confirms it. Each may take half of the remaining time, the last one all of it.
-Engine::Core::Later Engine::Core::bind_first(Session& session, SharedAsked const& asked, std::vector<SharedComponent> candidates,
+Engine::Core::Later Engine::Core::bind_first(Session& session, SharedAsked const& asked, std::vector<ToBindNow> candidates,
                                              Steady until, Instant now) {
-    auto const component = candidates.front();
+    auto const wanted = candidates.front();
+    auto& candidate = *wanted.component;
     candidates.erase(candidates.begin());
-    if (!component->confirms_binding() || component->bound_to == &session) {
-        auto const bound = bind(session, *component, now);
+    if (!must_confirm(candidate, session)) {
+        auto const bound = bind(session, wanted, now);
         auto const& outcome = std::get<Bind::Reply>(bound);
         if (outcome.return_code != ReturnCode::ok) return refused<BindAny::Reply>(outcome.return_code, outcome.reason);
         BindAny::Reply reply;
-        reply.component_ref = component->ref();
+        reply.component_ref = candidate.ref();
         return reply;
     }
     auto const due = candidates.empty() ? until : now.steady + (until - now.steady) / 2;
-    auto then = [this, asked, component, candidates = std::move(candidates), until](std::optional<ComponentAnswer>& answer,
-                                                                                    Instant when) {
+    auto then = [this, asked, wanted, candidates = std::move(candidates), until](std::optional<ComponentAnswer>& answer,
+                                                                                 Instant when) {
+        auto const& component = wanted.component;
         auto const make = [&](Session& asker) -> Later {
             if (answer && std::holds_alternative<Done>(*answer) && !component->has_departed()) {
-                auto const bound = this->bind(asker, *component, when);
+                auto const bound = this->bind(asker, wanted, when);
                 if (std::get<Bind::Reply>(bound).return_code == ReturnCode::ok) {
                     BindAny::Reply reply;
                     reply.component_ref = component->ref();
@@ -201,9 +219,9 @@ Engine::Core::Later Engine::Core::bind_first(Session& session, SharedAsked const
         answer_later(*asked, make);
         notify_of_release(*component, when);
     };
-    auto const ticket = questions_.ask(*component, due, "the component did not answer whether it can be bound", std::move(then));
-    ++component->binds_asked;
-    component->hosted().bind(ticket, now);
+    auto const ticket = questions_.ask(candidate, due, "the component did not answer whether it can be bound", std::move(then));
+    ++candidate.binds_asked;
+    candidate.hosted().bind(ticket, wanted.as, now);
     return {};
 }
 
@@ -220,6 +238,7 @@ Reply Engine::Core::perform(Session& session, Release const& release_, Instant n
 void Engine::Core::unbind(Session& session, RegisteredComponent& component, Instant now) {
     session.bound.erase(&component);
     component.bound_to = nullptr;
+    component.switching = Switching::none;
     component.restore_defaults(now);
     notify_of_release(component, now);
     journal_->released(session.number, component.ref().code);

@@ -14,6 +14,7 @@
 
 #include "types/codes.hpp"
 #include "types/instant.hpp"
+#include "types/messages.hpp"
 #include "types/profiles.hpp"
 #include "types/values.hpp"
 
@@ -56,6 +57,17 @@ struct ComponentDescription {
     bool moves = false;
     // Whether `bind` must be asked before the component is bound.
     bool confirms_binding = false;
+    // Of a logical component (docs/choosing.md): the refs of its members, which need not be there. Only conditions that name
+    // units match them. The component uses them as an application does, in a session of its own: see ComponentPort::ask.
+    std::vector<std::string> members{};
+};
+
+// A binding that an application asks for. `order`: the members of a logical component, in the sort order of the application's
+// condition; empty: it has none.
+struct Binding {
+    std::uint64_t session = 0;  // the number of the application's session
+    Switching switching = Switching::none;
+    std::vector<std::string> order{};
 };
 
 // What the engine knows of a component's state between two reports.
@@ -128,8 +140,23 @@ struct Answered {
 
 using StateChanged = std::shared_ptr<ComponentState const>;
 
-using ComponentReport =
-    std::variant<CommandStarted, CommandEnded, HaltConfirmed, EventOccurred, ErrorOccurred, StateChanged, Answered>;
+// An operation in the component's own session. `then` is called later, as the engine calls the component. Null: the operation was
+// not performed.
+struct OperationAsked {
+    using Then = std::function<void(Reply const*)>;
+    Operation operation;
+    Then then;
+};
+
+// A logical component goes on with another member.
+struct MemberSwitched {
+    std::string from;  // refs
+    std::string to;
+    std::string reason;
+};
+
+using ComponentReport = std::variant<CommandStarted, CommandEnded, HaltConfirmed, EventOccurred, ErrorOccurred, StateChanged,
+                                     Answered, OperationAsked, MemberSwitched>;
 
 // The component's way to report to the engine, which owns the port. Thread-safe. All functions return at once: the engine handles
 // the reports of a provider in their order. The port lives as long as the component.
@@ -170,6 +197,12 @@ public:
     void error(ErrorType type, std::string text, Report each = Report::each) {
         report(ErrorOccurred{type, std::move(text), each});
     }
+
+    // For logical components: an operation in the component's own session, and a switch.
+    void ask(Operation operation, OperationAsked::Then then) { report(OperationAsked{std::move(operation), std::move(then)}); }
+    void switched(std::string from, std::string to, std::string reason) {
+        report(MemberSwitched{std::move(from), std::move(to), std::move(reason)});
+    }
 };
 
 // A component. The engine calls it from one thread at a time, and is not locked meanwhile. A question, which has a ticket, is
@@ -188,7 +221,7 @@ public:
     virtual void attach(ComponentPort&) = 0;
 
     // Asks whether an application may bind the component now; only if the description has `confirms_binding`.
-    virtual void bind(Ticket, Instant now);
+    virtual void bind(Ticket, Binding const&, Instant now);
     // The binding has ended, or was not made after `bind`.
     virtual void released(Instant) {}
 
@@ -214,6 +247,12 @@ public:
     // Asks a query of the profile, except component_status and get_parameter. The answer is one row of results for each match,
     // such as one for each stream; none if it cannot answer. The engine answers with the first row that meets the condition.
     virtual void query(Ticket, std::string_view query_type, Instant now) = 0;
+
+    // For logical components. Their session has begun: it has no bindings, commands and subscriptions. Usually called once.
+    virtual void session_began(Instant) {}
+    // A notification of the session, which receives what the session of an engine receives (decision 39), but component_changed
+    // only for the members. UNINITIALIZED: the member is not there.
+    virtual void notified(Notification const&, Instant) {}
 
     // Called after all calls except queries and questions, and after each advance of a device of its provider.
     virtual void after_call() {}

@@ -25,10 +25,16 @@ void remove_from(Components& components, RegisteredComponent const& component) {
 
 }  // namespace
 
-ComponentsInOrder::ComponentsInOrder(std::vector<RegisteredComponent*> own, std::vector<List> others)
-    : own_{std::move(own)}, first_{own_}, others_{std::move(others)} {}
+ComponentsInOrder::ComponentsInOrder(Members members, std::vector<RegisteredComponent*> own, std::vector<List> others)
+    : members_{members}, own_{std::move(own)}, first_{own_}, others_{std::move(others)} {}
 
 RegisteredComponent* ComponentsInOrder::next() {
+    auto* component = next_of_all();
+    while (component != nullptr && component->is_member && members_ == Members::hidden) component = next_of_all();
+    return component;
+}
+
+RegisteredComponent* ComponentsInOrder::next_of_all() {
     auto* lowest = first_.empty() ? nullptr : first_.front();
     for (auto const& list : others_)
         if (!list.empty() && (lowest == nullptr || ref_of(list.front()) < ref_of(lowest))) lowest = list.front();
@@ -59,8 +65,8 @@ void ComponentIndex::remove(RegisteredComponent const& component) {
     if (alike->second.empty()) by_type_.erase(alike);
 }
 
-ComponentsInOrder ComponentIndex::possible(std::optional<Demand> const& demand) const {
-    if (!demand) return ComponentsInOrder{all_};
+ComponentsInOrder ComponentIndex::possible(std::optional<Demand> const& demand, Members members) const {
+    if (!demand) return {members, all_};
     Components named;
     named.reserve(demand->refs.size());
     for (auto const ref : demand->refs) {
@@ -70,7 +76,7 @@ ComponentsInOrder ComponentIndex::possible(std::optional<Demand> const& demand) 
     std::vector<ComponentsInOrder::List> of_types;
     for (auto const type : demand->types)
         if (auto const alike = by_type_.find(type); alike != by_type_.end()) of_types.emplace_back(alike->second);
-    return {std::move(named), std::move(of_types)};
+    return {members, std::move(named), std::move(of_types)};
 }
 
 }  // namespace rois

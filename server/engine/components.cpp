@@ -133,6 +133,7 @@ std::shared_ptr<EngineProfile const> Engine::Core::profile() const {
 
 void Engine::Core::enter(SharedComponent const& component) {
     auto const& entry = registry_.add(component).entry();
+    registry_.mark_members();
     list(profile_, entry.engine, entry.ref);
     shared_profile_.reset();
     expect_providers(registry_.all().size() + devices_.size());
@@ -147,7 +148,7 @@ void Engine::Core::leave(SharedComponent const& component, Instant now) {
         session->bound.erase(component.get());
         attempts([&] { journal_->released(session->number, component->ref().code); });
     }
-    for (auto* engine : engines_) engine->notified.erase(component.get());
+    attempts([&] { forget_in_sessions_of_engines(*component, now); });
     attempts([&] { questions_.fail_all(*component, now); });
     attempts([&] { settle(now); });
     attempts([&] { component->depart(); });
@@ -263,6 +264,7 @@ std::vector<std::string> Engine::Core::change(ComponentChange change, Instant no
     expect_providers(registry.all().size() + going.size() + devices_.size());
 
     std::swap(registry_, registry);
+    registry_.mark_members();
     std::swap(profile_, profile);
     std::swap(belongings_, belongings);
     std::swap(places_, places);

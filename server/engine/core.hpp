@@ -48,6 +48,7 @@ public:
 
     void on_report(std::function<void()> wake) { inbox_->on_arrival(std::move(wake)); }
     void handle(std::shared_ptr<Asked> const&, Instant now);
+    void take(std::shared_ptr<Asked> const&, Instant now);
     void work(std::unique_lock<std::mutex>&, Instant now, Provider::Runner);
     void begin(Instant now);
     void tick(Instant now);
@@ -93,9 +94,18 @@ private:
     // Sessions of other engines (engine_sessions.cpp)
     void serve_engines(Instant now);
     void notify_of_states(Session&, Instant now);
+    void notify_of_state(Session&, RegisteredComponent const&, Instant now);
+    void forget_in_sessions_of_engines(RegisteredComponent const& gone, Instant now);
+
+    // Sessions of logical components (own_sessions.cpp)
+    Session& own_session(RegisteredComponent&, Instant now);
+    void perform(RegisteredComponent&, OperationAsked&&, Instant now);
+    void call_owners(Instant now);
+    void publish(RegisteredComponent const&, MemberSwitched&&);
 
     // System interface (system_interface.cpp)
     void connect(Asked&, Connect const&, Instant now);
+    Session& open(std::unique_ptr<Session>, Instant now);
     Reply perform(Session&, Connect const&, Instant now);
     Reply perform(Session&, Resume const&, Instant now);
     Reply perform(Session&, Disconnect const&, Instant now);
@@ -116,8 +126,12 @@ private:
     Later perform(Session&, BindAny const&, SharedAsked const&, Instant now);
     Later perform(Session&, SetParameter const&, SharedAsked const&, Instant now);
     Later perform(Session&, Execute const&, SharedAsked const&, Instant now);
-    Reply bind(Session&, RegisteredComponent&, Instant now);
-    Later bind_first(Session&, SharedAsked const&, std::vector<SharedComponent> candidates, Steady until, Instant now);
+    struct ToBindNow {
+        SharedComponent component;
+        Binding as;
+    };
+    Reply bind(Session&, ToBindNow const&, Instant now);
+    Later bind_first(Session&, SharedAsked const&, std::vector<ToBindNow> candidates, Steady until, Instant now);
     std::optional<Objection> why_not_now(Session const&, bool begins, bool lasts, std::size_t commands);
     template <class Op, class Then>
     Later prepare(Session&, SharedAsked const&, std::vector<Preparation>, Then, Instant now);
@@ -168,6 +182,8 @@ private:
     // Returns the components that match. If the selection neither sorts nor has a group, stops at the first free component. A
     // group condition selects components of one robot, if the asker has bound or can bind all that the group asks for.
     ToBind select_to_bind(Selection const&, Session const& asker) const;
+    // The members of a logical component in the order of the selection.
+    std::vector<std::string> members_in_order(RegisteredComponent const&, Selection const&, Session const& asker) const;
     // Removes the results that do not match (decision 19). Returns why the condition is invalid, or nullopt.
     std::optional<std::string> choose(Results&, QueryExpression const&, Declarations const& known, std::string_view id) const;
     // The reply to get_event_detail or get_error_detail. `kind` is "event" or "error".
@@ -250,9 +266,10 @@ private:
     bool everything_is_stopped_ = false;
     std::uint64_t last_stop_ = 0;  // a number that no other stop has, also not one before the engine was started
     std::function<void(bool)> on_stop_ = [](bool) {};
-    std::optional<Steady> stop_reported_;  // when the sessions last received the error of a stop of everything
-    bool stop_unreported_ = false;         // a later stop has not been reported yet: a tick will report it
-    std::vector<Session*> engines_;        // sessions of other engines
+    std::optional<Steady> stop_reported_;    // when the sessions last received the error of a stop of everything
+    bool stop_unreported_ = false;           // a later stop has not been reported yet: a tick will report it
+    std::vector<Session*> engines_;          // sessions of other engines and of logical components
+    std::uint64_t pushed_at_last_call_ = 0;  // of the owners: Notifier::pushed
     std::optional<Steady> profile_change_reported_;
     bool profile_change_unreported_ = false;
     std::uint64_t events_published_ = 0;

@@ -34,8 +34,14 @@ constexpr std::chrono::milliseconds signs_of_life_wanted{1'000};
 
 }  // namespace
 
-// Refuses the operation, if there is a reason, before it changes anything.
 void Engine::Core::handle(std::shared_ptr<Asked> const& asked, Instant now) {
+    take(asked, now);
+    Attempts attempts;
+    if (!attempts([&] { settle(now); })) unsettled_ = attempts.failure();
+}
+
+// Refuses the operation, if there is a reason, before it changes anything.
+void Engine::Core::take(std::shared_ptr<Asked> const& asked, Instant now) {
     auto const& operation = asked->operation();
     if (shutting_down_) return asked->refuse(Refusal::shutting_down);
     if (auto const* connection = std::get_if<Connect>(&operation)) return connect(*asked, *connection, now);
@@ -54,8 +60,6 @@ void Engine::Core::handle(std::shared_ptr<Asked> const& asked, Instant now) {
         },
         operation);
     if (reply) answer(*asked, *session, std::move(*reply));
-    Attempts attempts;
-    if (!attempts([&] { settle(now); })) unsettled_ = attempts.failure();
 }
 
 void Engine::Core::answer(Asked& asked, Session const& session, Reply&& reply) {
@@ -209,6 +213,7 @@ void Engine::Core::remove(Session& session, Instant now) {
     journal_->session_ended(session.number, session.why_it_ends);
     free_slots_.push_back(session.events.slot);  // cannot throw: `connect` reserved the room
     std::erase(engines_, &session);
+    if (session.owner != nullptr) session.owner->own_session = nullptr;
     sessions_.erase(sessions_.find(session.id));
 }
 

@@ -1,4 +1,4 @@
-// Sessions of other engines (decision 39): component_changed, and the end after silence.
+// Sessions of other engines (decision 39) and of logical components: component_changed, and the end after silence.
 #include "engine/core.hpp"
 
 namespace rois {
@@ -14,10 +14,11 @@ constexpr std::chrono::seconds silence{2};  // after which a link counts as lost
 // A silent link counts as lost, even if it is open: the other engine counts the same times, and has given up the session then.
 void Engine::Core::serve_engines(Instant now) {
     Attempts attempts;
+    for (auto* component : std::vector{registry_.logical()}) attempts([&] { own_session(*component, now); });
     for (auto* session : std::vector{engines_}) {
         if (session->ending) continue;
-        session->notifications->want_signs_of_life(now.steady + signs_of_life_wanted);
-        bool const silent = session->lease.last_received() + silence + session->window <= now.steady;
+        if (session->owner == nullptr) session->notifications->want_signs_of_life(now.steady + signs_of_life_wanted);
+        bool const silent = session->owner == nullptr && session->lease.last_received() + silence + session->window <= now.steady;
         attempts([&] {
             if (silent)
                 end(*session, "its engine was silent for too long", now);
@@ -29,18 +30,36 @@ void Engine::Core::serve_engines(Instant now) {
 }
 
 void Engine::Core::notify_of_states(Session& session, Instant now) {
-    for (auto const& [ref, component] : registry_.all()) {
-        auto const status = component->status_for(&session);
-        auto const state = component->reported_states();
-        auto const last = session.notified.find(component.get());
-        if (last != session.notified.end()) {
-            auto const& before = last->second;
-            bool const changed = before.status != status || before.state != state;
-            if (!changed || now.steady - before.at < between_states) continue;
-        }
-        notifier_.notify(session, ComponentChanged{component->ref(), status, component->reported()});
-        session.notified[component.get()] = {now.steady, status, state};
+    if (session.owner == nullptr) {
+        for (auto const& [ref, component] : registry_.all()) notify_of_state(session, *component, now);
+        return;
     }
+    for (auto const& ref : session.owner->members())
+        if (auto const* member = registry_.find(ref)) notify_of_state(session, *member, now);
+}
+
+void Engine::Core::notify_of_state(Session& session, RegisteredComponent const& component, Instant now) {
+    auto const status = component.status_for(&session);
+    auto const state = component.reported_states();
+    auto const last = session.notified.find(&component);
+    if (last != session.notified.end()) {
+        auto const& before = last->second;
+        bool const changed = before.status != status || before.state != state;
+        if (!changed || now.steady - before.at < between_states) return;
+    }
+    notifier_.notify(session, ComponentChanged{component.ref(), status, component.reported()});
+    session.notified[&component] = {now.steady, status, state};
+}
+
+void Engine::Core::forget_in_sessions_of_engines(RegisteredComponent const& component, Instant now) {
+    Attempts attempts;
+    for (auto* session : engines_) {
+        bool const was_known = session->notified.erase(&component) > 0;
+        if (!was_known || session->owner == nullptr || session->ending) continue;
+        attempts([&] { notifier_.notify(*session, ComponentChanged{component.ref(), ComponentStatus::uninitialized, {}}); });
+    }
+    if (component.own_session != nullptr) attempts([&] { end(*component.own_session, "its logical component has left", now); });
+    attempts.rethrow();
 }
 
 }  // namespace rois

@@ -14,7 +14,7 @@ Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instan
     if (auto* problem = std::get_if<std::string>(&filter))
         return refused<Subscribe::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     auto& wanted = std::get<Filter>(filter);
-    if (!may_ever_match(wanted, components.possible(wanted.demand()), session))
+    if (!may_ever_match(wanted, components.possible(wanted.demand(), seen_by(wanted)), session))
         return refused<Subscribe::Reply>(ReturnCode::unsupported, "no component that has the event can match the condition");
     auto* const known = subscriptions_.find(subscribe.event_type, wanted);
     bool const again = known != nullptr && session.subscriptions.contains(known);

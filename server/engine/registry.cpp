@@ -126,7 +126,8 @@ RegisteredComponent::RegisteredComponent(ComponentDescription const& description
       codebooks_{description.codebooks},
       alternatives_{description.alternatives},
       status_when_stopped_{description.status_when_stopped},
-      confirms_binding_{description.confirms_binding} {
+      confirms_binding_{description.confirms_binding},
+      members_{description.members} {
     declare_codebooks(profile, codebooks_);
     declare_frame(profile.parameters, positions_, frames_.own());
     for (auto& message : profile.messages) declare_frame(message.arguments, positions_, frames_.own());
@@ -378,6 +379,7 @@ RegisteredComponent& Registry::add(std::shared_ptr<RegisteredComponent> componen
     parameters_.reset();
     index_.add(registered);
     if (registered.moves()) moving_.push_back(&registered);
+    if (registered.is_logical()) logical_.push_back(&registered);
     for (auto const& message : registered.profile().messages) change(message).components.add(registered);
     return registered;
 }
@@ -385,9 +387,17 @@ RegisteredComponent& Registry::add(std::shared_ptr<RegisteredComponent> componen
 void Registry::remove(RegisteredComponent const& component) {
     index_.remove(component);
     std::erase(moving_, &component);
+    std::erase(logical_, &component);
     for (auto const& message : component.profile().messages) change(message).components.remove(component);
     components_.erase(component.ref().code);
     parameters_.reset();
+}
+
+void Registry::mark_members() noexcept {
+    for (auto const& [ref, component] : components_) component->is_member = false;
+    for (auto const* component : logical_)
+        for (auto const& ref : component->members())
+            if (auto* member = find(ref)) member->is_member = true;
 }
 
 // Marks the collected results of the message as outdated.

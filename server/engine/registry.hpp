@@ -118,8 +118,16 @@ public:
     CompletedStatus status_when_stopped() const { return status_when_stopped_; }
     bool confirms_binding() const { return confirms_binding_; }
 
+    // A logical component stands for it (docs/choosing.md). Only conditions that name units can match it.
+    bool is_member = false;
+    // Of a logical component: the refs of its members.
+    std::vector<std::string> const& members() const { return members_; }
+    bool is_logical() const { return !members_.empty(); }
+    Session* own_session = nullptr;
+
     Session* bound_to = nullptr;
-    std::size_t binds_asked = 0;  // questions whether it can be bound, without an answer
+    Switching switching = Switching::none;  // as agreed in the binding
+    std::size_t binds_asked = 0;            // questions whether it can be bound, without an answer
     bool is_free() const { return bound_to == nullptr && !has_failed_to_halt(); }
     ParameterList parameters;  // stored for the session that has bound it; the defaults without a binding
     Activity activity = Activity::idle;
@@ -188,6 +196,7 @@ private:
     std::vector<std::vector<std::string>> alternatives_;
     CompletedStatus status_when_stopped_;
     bool confirms_binding_;
+    std::vector<std::string> members_;
 };
 
 // All components of the engine, by ref.
@@ -199,6 +208,10 @@ public:
     RegisteredComponent& add(std::shared_ptr<RegisteredComponent>);
 
     void remove(RegisteredComponent const&);
+
+    // Sets RegisteredComponent::is_member. Call it after components were added or removed.
+    void mark_members() noexcept;
+    std::vector<RegisteredComponent*> const& logical() const { return logical_; }
 
     RegisteredComponent* find(std::string_view ref) const;  // null when unknown
 
@@ -215,7 +228,9 @@ public:
     std::vector<RegisteredComponent*> const& moving() const { return moving_; }
 
     // Returns the components that can meet the demand; all of them without a demand.
-    ComponentsInOrder possible(std::optional<Demand> const& demand) const { return index_.possible(demand); }
+    ComponentsInOrder possible(std::optional<Demand> const& demand, Members members) const {
+        return index_.possible(demand, members);
+    }
 
     // The components whose profile has this message.
     ComponentIndex const& with(MessageKind kind, std::string_view message) const { return providers(kind, message).components; }
@@ -242,6 +257,7 @@ private:
 
     Components components_;
     std::vector<RegisteredComponent*> moving_;
+    std::vector<RegisteredComponent*> logical_;
     ComponentIndex index_;
     mutable std::optional<Declarations> parameters_;  // nullopt if they must be collected again
     std::map<MessageKind, ByName> by_message_;

@@ -56,8 +56,12 @@ struct Session {
 
     std::uint64_t last_stop = 0;  // number of the last stop of everything that it has asked for
 
-    // The client is another engine (decision 39).
+    bool receives_switches = false;  // of all components
+
+    // The client is another engine (decision 39), or a logical component.
     bool is_engine = false;
+    RegisteredComponent* owner = nullptr;  // the logical component (own_sessions.cpp)
+    std::uint64_t delivered = 0;           // sequence of the last notification that the owner was called with
     struct Notified {
         Steady at;
         ComponentStatus status = ComponentStatus::uninitialized;

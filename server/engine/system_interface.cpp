@@ -62,11 +62,16 @@ void Engine::Core::connect(Asked& asked, Connect const& connection, Instant now)
         settle(now);
     }
     auto session = std::make_unique<Session>(terms, now.steady);
-    session->id.text = fresh_secret_();
-    session->number = ++last_session_;
     session->window = window;
     session->is_engine = connection.is_engine;
-    if (connection.is_engine) engines_.reserve(engines_.size() + 1);
+    session->receives_switches = connection.switches;
+    asked.answer(perform(open(std::move(session), now), connection, now));
+}
+
+Session& Engine::Core::open(std::unique_ptr<Session> session, Instant now) {
+    session->id.text = fresh_secret_();
+    session->number = ++last_session_;
+    if (session->is_engine) engines_.reserve(engines_.size() + 1);
     bool const new_slot = free_slots_.empty();
     auto const slot = new_slot ? static_cast<std::uint32_t>(sessions_.size()) : free_slots_.back();
     if (new_slot) free_slots_.reserve(slot + 1);  // the end of a session must not allocate
@@ -88,7 +93,7 @@ void Engine::Core::connect(Asked& asked, Connect const& connection, Instant now)
         errors_.add_receiver(opened.errors.slot);
         notifier_.notify(opened, std::move(error));
     }
-    asked.answer(perform(opened, connection, now));
+    return opened;
 }
 
 Reply Engine::Core::perform(Session& session, Connect const& connection, Instant) {

@@ -86,6 +86,7 @@ void Engine::Core::settle(Instant now) {
         end_marked_sessions(now, attempts);
         handle_reports(now, attempts);
     }
+    attempts([&] { call_owners(now); });
     attempts.rethrow();
 }
 
@@ -124,6 +125,8 @@ void Engine::Core::handle(InboxEntry& entry, Instant now, Attempts& deliveries) 
         void operator()(EventOccurred const& report) { core.publish(component, report, now, deliveries); }
         void operator()(ErrorOccurred const& report) { component.report(report.type, report.text, report.report); }
         void operator()(StateChanged const& state) { component.accept(*state); }
+        void operator()(OperationAsked& report) { core.perform(component, std::move(report), now); }
+        void operator()(MemberSwitched& report) { core.publish(component, std::move(report)); }
         void operator()(Answered& report) {
             if (!core.questions_.answered(report.ticket, std::move(report.answer), now)) core.executor_.count_stray_answer();
         }

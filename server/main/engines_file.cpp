@@ -228,14 +228,15 @@ std::vector<SubEngine> read_engines_file(std::string const& file, TakenNames con
     auto const text = text_of_file(file);
     auto const object = parse_json(file, text);
     for (auto const& [name, value] : object.items())
-        if (name != "engines" || !value.is_array())
+        if (name != "choosing" && (name != "engines" || !value.is_array()))
             throw BadSettings{file + ":" + place_of_key(text, name) +
-                              ": expected only \"engines\": [ ... ], a list of sub engines"};
+                              ": expected only \"engines\": [ ... ], a list of sub engines, and \"choosing\""};
     if (!object.contains("engines")) throw BadSettings{file + ":1:1: expected \"engines\": [ ... ], a list of sub engines"};
     std::vector<SubEngine> engines;
     std::set<std::string> names, joining;
     auto entries = objects_in(text);
-    std::erase_if(entries, [](ObjectInText const& each) { return each.depth != 2; });
+    auto const list = std::ranges::find(entries.front().keys, "engines", &ObjectInText::Key::name)->at;
+    std::erase_if(entries, [&](ObjectInText const& each) { return each.depth != 2 || each.begin < list; });
     auto const folder = std::filesystem::absolute(file).parent_path();
     for (auto const& entry : object["engines"]) {
         if (!entry.is_object())

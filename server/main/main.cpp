@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "basic/base/component_names.hpp"
+#include "choosing/choosing.hpp"
 #include "engine/engine.hpp"
 #include "files/files.hpp"
 #include "gateway/access/host_names.hpp"
 #include "gateway/access/secrets.hpp"
 #include "gateway/gateway.hpp"
 #include "gateway/process/memory.hpp"
+#include "main/choosing_section.hpp"
 #include "main/command_line.hpp"
 #include "main/configuration_file.hpp"
 #include "main/engines_file.hpp"
@@ -197,10 +199,14 @@ TakenNames names_of_engines(GatewaySettings const& settings, simulation::FloorPl
 }
 
 // Reads the file of sub engines again. If that fails, logs why and changes nothing.
-void read_again(std::string const& file, TakenNames const& taken, remote::RemoteEngines& engines, std::string const& own_url) {
+void read_again(std::string const& file, TakenNames const& taken, choosing::Settings const& choosing,
+                remote::RemoteEngines& engines, std::string const& own_url) {
     try {
         spdlog::info("engines: reading {} again after SIGHUP", file);
-        engines.set(read_engines_file(file, taken), own_url);
+        auto const sub_engines = read_engines_file(file, taken);
+        if (read_choosing(file, sub_engines) != choosing)
+            spdlog::warn("engines: a change of \"choosing\" has no effect before the gateway starts again");
+        engines.set(sub_engines, own_url);
     } catch (std::exception const& error) {
         spdlog::warn("engines: nothing was changed: {}", error.what());
     }
@@ -226,6 +232,7 @@ int serve(CommandLine const& command) {
     auto const taken = names_of_engines(settings, simulation->hall().plan());
     auto const sub_engines =
         settings.engines.empty() ? std::vector<remote::SubEngine>{} : read_engines_file(settings.engines, taken);
+    auto const choosing_settings = settings.engines.empty() ? choosing::Settings{} : read_choosing(settings.engines, sub_engines);
     if (command.wish == CommandLine::Wish::check_config) {
         for (auto const& warning : command.warnings) std::fprintf(stderr, "rois-gateway: warning: %s\n", warning.c_str());
         std::puts("configuration ok");
@@ -259,6 +266,7 @@ int serve(CommandLine const& command) {
     if (!settings.profiles.empty()) gateway.change(user_components.read());
     user_components.keep();
     std::vector<EngineState> const none;
+    choosing::Choosing choosing{choosing_settings, [](std::string const& line) { spdlog::warn("choosing: {}", line); }};
     std::optional<remote::RemoteEngines> remote_engines;
     net::Documents const documents{gateway,
                                    telemetry,
@@ -271,7 +279,11 @@ int serve(CommandLine const& command) {
         remote_engines.emplace(remote::RemoteEngines::Host{
             .instance = instance,
             .schemas = schemas,
-            .change = [&](ComponentChange change) { return gateway.change(std::move(change)); },
+            .change =
+                [&](ComponentChange change) {
+                    return choosing.change(std::move(change),
+                                           [&](ComponentChange all) { return gateway.change(std::move(all)); });
+                },
             .report = [](std::string const& name, std::string const& what) { spdlog::info("{}: {}", name, what); }});
         engine.add(remote_engines->pulse(), "pulse");
         engine.on_stop([&](bool is_stopped) { remote_engines->everything_stopped(is_stopped); });
@@ -284,7 +296,7 @@ int serve(CommandLine const& command) {
     if (!settings.profiles.empty() || !settings.engines.empty())
         server.on_hang_up([&] {
             if (!settings.profiles.empty()) read_again(user_components, gateway);
-            if (!settings.engines.empty()) read_again(settings.engines, taken, *remote_engines, server.url());
+            if (!settings.engines.empty()) read_again(settings.engines, taken, choosing_settings, *remote_engines, server.url());
         });
     if (!settings.engines.empty()) remote_engines->set(sub_engines, server.url());
     if (!settings.join.empty()) {

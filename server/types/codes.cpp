@@ -26,6 +26,7 @@ std::optional<Code> code_in(std::array<std::string_view, N> const& names, std::s
 constexpr std::array<std::string_view, 6> return_codes{"OK",     "ERROR", "BAD_PARAMETER", "UNSUPPORTED", "OUT_OF_RESOURCES",
                                                        "TIMEOUT"};
 constexpr std::array<std::string_view, 5> completed_statuses{"OK", "ERROR", "ABORT", "OUT_OF_RESOURCES", "TIMEOUT"};
+constexpr std::array<std::string_view, 3> switchings{"none", "abort", "restart"};
 constexpr std::array<std::string_view, 4> error_types{"ENGINE_INTERNAL_ERROR", "COMPONENT_INTERNAL_ERROR",
                                                       "COMPONENT_NOT_RESPONDING", "USER_DEFINED_ERROR"};
 constexpr std::array<std::string_view, 5> component_statuses{"UNINITIALIZED", "READY", "BUSY", "WARNING", "ERROR"};
@@ -41,6 +42,7 @@ constexpr std::array<std::string_view, 17> fault_codes{
 
 std::string_view to_text(ReturnCode code) { return name_in(return_codes, code); }
 std::string_view to_text(CompletedStatus status) { return name_in(completed_statuses, status); }
+std::string_view to_text(Switching switching) { return name_in(switchings, switching); }
 std::string_view to_text(ErrorType type) { return name_in(error_types, type); }
 std::string_view to_text(ComponentStatus status) { return name_in(component_statuses, status); }
 std::string_view to_text(StreamStatus status) { return name_in(stream_statuses, status); }
@@ -58,6 +60,10 @@ std::optional<EngineState::Is> to_code(std::string_view text) {
 template <>
 std::optional<CompletedStatus> to_code(std::string_view text) {
     return code_in<CompletedStatus>(completed_statuses, text);
+}
+template <>
+std::optional<Switching> to_code(std::string_view text) {
+    return code_in<Switching>(switchings, text);
 }
 template <>
 std::optional<ErrorType> to_code(std::string_view text) {

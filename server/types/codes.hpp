@@ -13,6 +13,10 @@ enum class ReturnCode : std::uint8_t { ok, error, bad_parameter, unsupported, ou
 // How a command ended (table 8).
 enum class CompletedStatus : std::uint8_t { ok, error, abort, out_of_resources, timeout };
 
+// What happens when the member that carries out a `start` for a logical component fails (docs/choosing.md). none: the command
+// ends as it ended there. abort: it ends with ABORT. restart: another member goes on.
+enum class Switching : std::uint8_t { none, abort, restart };
+
 // The kind of error in a receive_error (table 7).
 enum class ErrorType : std::uint8_t {
     engine_internal_error,
@@ -33,9 +37,10 @@ enum class StreamStatus : std::uint8_t {
     resumed  // running again after a suspension
 };
 
-// Return the specification's text of a code.
+// Return the text of a code in messages.
 std::string_view to_text(ReturnCode);
 std::string_view to_text(CompletedStatus);
+std::string_view to_text(Switching);
 std::string_view to_text(ErrorType);
 std::string_view to_text(ComponentStatus);
 std::string_view to_text(StreamStatus);

@@ -41,6 +41,7 @@ struct Connect {
     bool is_engine = false;  // the client is another engine, which receives more (decision 39)
     // After this time without a link, the session ends.
     std::optional<std::chrono::milliseconds> window{};
+    bool switches = false;  // notify the session of each `Switched`
     struct Reply : Outcome {
         SessionId session;
         std::optional<std::chrono::milliseconds> window{};  // if one was requested
@@ -95,11 +96,13 @@ struct Search {
 
 struct Bind {
     Identifier component_ref;
+    Switching switching = Switching::none;
     struct Reply : Outcome {};
 };
 
 struct BindAny {
     QueryExpression condition;
+    Switching switching = Switching::none;
     struct Reply : Outcome {
         Identifier component_ref;
     };
@@ -245,6 +248,14 @@ struct ComponentChanged {
     Results results;
 };
 
+// A logical component goes on with another member: the refs of the two, and why (docs/choosing.md).
+struct Switched {
+    Identifier component_ref;
+    std::string from;
+    std::string to;
+    std::string reason;
+};
+
 // `count` notifications were dropped. This notification has the sequence of the last one.
 struct Lost {
     std::uint64_t count = 0;
@@ -252,7 +263,7 @@ struct Lost {
 
 struct ProfileChanged {};
 
-using Notification = std::variant<ReceiveEvent, ReceiveError, Completed, Lost, ProfileChanged, ComponentChanged>;
+using Notification = std::variant<ReceiveEvent, ReceiveError, Completed, Lost, ProfileChanged, ComponentChanged, Switched>;
 
 // --- Stop for everything: the answer to /rois/stop and /rois/clear (docs/safety.md, decision 34) ---
 

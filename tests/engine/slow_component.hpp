@@ -56,7 +56,7 @@ public:
         port_ = &port;
         port.changed({.status = ComponentStatus::ready, .location = {}, .parameters = {}});
     }
-    void bind(Ticket ticket, Instant) override { questions.push_back({"bind", ticket}); }
+    void bind(Ticket ticket, Binding const&, Instant) override { questions.push_back({"bind", ticket}); }
     void prepare(Ticket ticket, std::string_view, ParameterList const&, Instant) override {
         questions.push_back({"prepare", ticket});
         if (answers_prepare) let_prepare();

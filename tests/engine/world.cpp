@@ -22,6 +22,9 @@ struct InWords {
     std::string operator()(ComponentChanged const& changed) const {
         return "component_changed " + changed.component_ref.code + " " + std::string{to_text(changed.status)};
     }
+    std::string operator()(Switched const& switched) const {
+        return "switched " + switched.component_ref.code + " from " + switched.from + " to " + switched.to;
+    }
 };
 
 }  // namespace
@@ -130,7 +133,7 @@ void World::change(std::vector<std::string> going, std::vector<Part> const& comi
         change.coming.push_back(std::move(component));
     }
     auto const gone = change.going;
-    engine->change(std::move(change), now);
+    between(std::move(change), [this](ComponentChange all) { return engine->change(std::move(all), now); });
     for (auto const& ref : gone) components_.erase(ref);
     components_.merge(added);
 }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <functional>
 #include <initializer_list>
 #include <map>
 #include <memory>
@@ -109,7 +110,11 @@ public:
     // The process has died and begun again: the engine has no sessions, and components in their first state.
     void restart(std::vector<Part> const& parts, EngineSettings settings = {});
 
-    // Removes and adds components in one step.
+    // Removes and adds components in one step. `between` may add to the change.
+    using Change = std::function<std::vector<std::string>(ComponentChange)>;
+    std::function<void(ComponentChange, Change const&)> between = [](ComponentChange change, Change const& perform) {
+        perform(std::move(change));
+    };
     void change(std::vector<std::string> going, std::vector<Part> const& coming);
     // This component has been removed in another way.
     void forget(std::string const& ref);

@@ -68,7 +68,7 @@ std::vector<Layer> const layers{
      {"simulation/", "basic/", "engine/", "types/", "media/media.hpp", "xml/profiles/document.hpp", "xml/validation/schemas.hpp"},
      {eigen},
      Time::passed_in},
-    {"components/choosing/", {"choosing/", "types/"}, {eigen}, Time::passed_in},
+    {"components/choosing/", {"choosing/", "engine/", "types/"}, {eigen}, Time::passed_in},
     {"components/remote/",
      {"remote/", "engine/engine.hpp", "engine/component.hpp", "types/", "xml/codec/codec.hpp", "xml/validation/joining.hpp",
       "xml/validation/schemas.hpp", "links/", "core/loop.hpp"},

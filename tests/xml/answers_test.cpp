@@ -306,6 +306,7 @@ std::vector<Notification> notifications() {
             Completed{CommandId{"c"}, CompletedStatus::ok, std::make_shared<Results const>(), {}, true},
             ComponentChanged{component, ComponentStatus::warning, results()},
             ComponentChanged{component, ComponentStatus::busy, {}},
+            Switched{component, "robot1.navigation", strange, strange},
             Lost{12},
             ProfileChanged{}};
 }

@@ -66,6 +66,19 @@ TEST(Request, AnEngineConnectsWithItsRole) {
     EXPECT_THAT(encode(Request{engine, {}}), HasSubstr(" role=\"engine\" window=\"3000\""));
 }
 
+TEST(Request, BindingsAndSessionsAskForSwitches) {
+    std::string const ref = "<component_ref rois:code='navigation'/>";
+    EXPECT_EQ(operation<Bind>(document("bind", ref)).switching, Switching::none);
+    EXPECT_EQ(operation<Bind>(document("bind", ref, " switching='abort'")).switching, Switching::abort);
+    EXPECT_EQ(operation<BindAny>(document("bind_any", {}, " switching='restart'")).switching, Switching::restart);
+    EXPECT_THAT(encode(Request{BindAny{{}, Switching::restart}, {}}), HasSubstr(" switching=\"restart\""));
+    EXPECT_THAT(encode(Request{Bind{}, {}}), Not(HasSubstr("switching")));
+    Connect connect;
+    EXPECT_THAT(encode(Request{connect, {}}), Not(HasSubstr("switches")));
+    connect.switches = operation<Connect>(document("connect", {}, " switches='true'")).switches;
+    EXPECT_THAT(encode(Request{connect, {}}), HasSubstr(" switches=\"true\""));
+}
+
 TEST(Request, CommandsMayBeCheckedOnly) {
     std::string const unit = "<rois:command_unit_list rois:delay_time='5'/>";
     std::string const sequence = "<rois:CommandUnitSequence>" + unit + "</rois:CommandUnitSequence>",

@@ -131,6 +131,10 @@ struct NotificationText {
         return headline("component_changed", changed.component_ref.code, Colour::name, coloured) + "  " +
                std::string{to_text(changed.status)};
     }
+    std::string operator()(Switched const& switched) const {
+        return headline("switched", switched.component_ref.code, Colour::name, coloured) + "  from " + switched.from + " to " +
+               switched.to + ": " + switched.reason;
+    }
 };
 
 void add_declared(std::string& text, std::vector<ParameterProfile> const& parameters, std::string_view indent, bool coloured) {

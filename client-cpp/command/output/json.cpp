@@ -186,6 +186,13 @@ struct NotificationFields {
         object["status"] = to_text(changed.status);
         add_results(object, changed.results);
     }
+    void operator()(Switched const& switched) const {
+        object["notification"] = "switched";
+        object["component_ref"] = switched.component_ref.code;
+        object["from"] = switched.from;
+        object["to"] = switched.to;
+        object["reason"] = switched.reason;
+    }
 };
 
 }  // namespace

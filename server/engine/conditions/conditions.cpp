@@ -35,7 +35,7 @@ std::vector<RegisteredComponent*> Engine::Core::select(Selection const& selectio
     auto const does_not_match = [&](auto const* component) {
         return selection.match(present.candidate(*component)) != Match::yes;
     };
-    auto found = registry_.possible(selection.filter().demand()).rest();
+    auto found = registry_.possible(selection.filter().demand(), seen_by(selection.filter())).rest();
     std::erase_if(found, does_not_match);
     if (present.knows_groups()) {
         auto preferred = found;
@@ -55,7 +55,7 @@ std::vector<RegisteredComponent*> Engine::Core::select(Selection const& selectio
 Engine::Core::ToBind Engine::Core::select_to_bind(Selection const& selection, Session const& asker) const {
     Perspective present{registry_, places_, &asker, Perspective::Of::present};
     Preference const preference{asker};
-    auto possible = registry_.possible(selection.filter().demand()).rest();
+    auto possible = registry_.possible(selection.filter().demand(), seen_by(selection.filter())).rest();
     preference.order(possible);
     ToBind to_bind;
     auto& found = to_bind.components;
@@ -75,6 +75,19 @@ Engine::Core::ToBind Engine::Core::select_to_bind(Selection const& selection, Se
     std::erase_if(found, [&](auto const* component) { return selection.match(present.candidate(*component)) != Match::yes; });
     std::ranges::stable_partition(found, [&](auto const* component) { return present.is_lacked(*component); });
     return to_bind;
+}
+
+std::vector<std::string> Engine::Core::members_in_order(RegisteredComponent const& logical, Selection const& selection,
+                                                        Session const& asker) const {
+    std::vector<std::string> refs;
+    if (!logical.is_logical() || !selection.sorts()) return refs;
+    Perspective present{registry_, places_, &asker, Perspective::Of::present};
+    std::vector<RegisteredComponent*> members;
+    for (auto const& ref : logical.members())
+        if (auto* member = registry_.find(ref)) members.push_back(member);
+    sort(members, selection, present);
+    for (auto const* member : members) refs.push_back(member->ref().code);
+    return refs;
 }
 
 std::optional<std::string> Engine::Core::choose(Results& results, QueryExpression const& condition, Declarations const& known,

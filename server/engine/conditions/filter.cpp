@@ -29,6 +29,7 @@ std::variant<Filter, std::string> Filter::compile(std::optional<Condition> const
     filter.results_ = compiler.results();
     if (filter.predicate_->met_by_everything()) return Filter{};
     filter.depends_on_asker_ = compiler.depends_on_asker();
+    filter.names_units_ = compiler.names_units();
     return filter;
 }
 

@@ -58,6 +58,10 @@ public:
     // (decisions 7 and 30).
     bool depends_on_asker() const { return depends_on_asker_; }
 
+    // Returns whether the condition refers to refs, engines or robots. Only then can it match the members of logical components
+    // (docs/choosing.md).
+    bool names_units() const { return names_units_; }
+
 private:
     friend class Selection;
     static std::variant<Filter, std::string> compile(std::optional<Condition> const&, Vocabulary const&);
@@ -67,6 +71,7 @@ private:
     std::size_t text_bytes_ = 0;
     std::vector<Reference> results_;
     bool depends_on_asker_ = false;
+    bool names_units_ = false;
 };
 
 // A filter with a sort order.

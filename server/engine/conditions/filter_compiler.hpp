@@ -85,6 +85,7 @@ public:
 
     std::optional<std::string> const& problem() const { return problem_; }
     bool depends_on_asker() const { return depends_on_asker_; }
+    bool names_units() const { return names_units_; }
     std::size_t predicates() const { return predicates_; }
     std::size_t text_bytes() const { return text_bytes_; }
     std::vector<Reference> const& results() const { return results_; }
@@ -112,6 +113,7 @@ private:
     std::optional<std::string> problem_;
     std::vector<Reference> results_;  // the references to results found so far
     bool depends_on_asker_ = false;
+    bool names_units_ = false;
     std::size_t predicates_ = 0;
     std::size_t text_bytes_ = 0;
 };

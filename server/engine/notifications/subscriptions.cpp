@@ -137,6 +137,7 @@ std::vector<Subscription*> Subscriptions::possible(std::string_view event_type, 
     if (auto const alike = of_type.by_type.find(component.type_key()); alike != of_type.by_type.end()) add(alike->second);
     auto const again = std::ranges::unique(all);
     all.erase(again.begin(), again.end());
+    if (component.is_member) std::erase_if(all, [](auto const* each) { return seen_by(each->filter) == Members::hidden; });
     return all;
 }
 

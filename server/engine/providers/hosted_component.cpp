@@ -16,9 +16,9 @@ void HostedComponent::attach() {
     add({}, [](Component*) {});
 }
 
-void HostedComponent::bind(Ticket ticket, Instant now) {
+void HostedComponent::bind(Ticket ticket, Binding binding, Instant now) {
     add(
-        ticket, [=](Component* component) { component->bind(ticket, now); }, true);
+        ticket, [=, binding = std::move(binding)](Component* component) { component->bind(ticket, binding, now); }, true);
 }
 
 void HostedComponent::released(Instant now) {
@@ -61,6 +61,10 @@ void HostedComponent::query(Ticket ticket, std::string query_type, Instant now) 
                     .now = now,
                     .is_question = true,
                     .report = Report::once});
+}
+
+void HostedComponent::call(std::function<void(Component&)> what) {
+    add({}, [what = std::move(what)](Component* component) { what(*component); });
 }
 
 void HostedComponent::depart() {

@@ -19,7 +19,7 @@ public:
     HostedComponent(std::unique_ptr<Component>, std::shared_ptr<Provider>);
 
     void attach();
-    void bind(Ticket, Instant now);
+    void bind(Ticket, Binding, Instant now);
     void released(Instant now);
     void prepare(Ticket, std::string command_type, ParameterList parameters, Instant now);
     void begin(CommandHandle, Begin, Instant now);
@@ -28,6 +28,7 @@ public:
     void resume(Ticket, Instant now);
     void parameters_changed(ParameterList, Instant now);
     void query(Ticket, std::string query_type, Instant now);
+    void call(std::function<void(Component&)>);
 
     // Destroys the component, which has left the engine. Its later reports are ignored.
     void depart();
@@ -38,6 +39,9 @@ public:
     // Returns whether a report was lost, because memory was short, since the last call.
     bool take_lost_report() { return lost_report_.exchange(false); }
 
+    // A report, or a call, was lost because memory was short.
+    void lose_report() noexcept;
+
     void report(ComponentReport&&) override;
     bool is_full() const override { return provider_->is_full(); }
 
@@ -45,7 +49,6 @@ private:
     friend class Provider;
     void carry_out(Provider::Call const&);
     void after_call();
-    void lose_report() noexcept;
     void add(Provider::Awaited, std::function<void(Component*)> what, bool is_question = false);
 
     std::unique_ptr<Component> component_;  // only the provider uses it, and the next member

@@ -24,6 +24,8 @@ Identifier component_ref(Node node) { return decode_identifier(node.child("compo
 
 QueryExpression condition(Node node) { return decode_condition(node.child("condition")); }
 
+Switching switching(Node node) { return to_code<Switching>(node.attribute_text("switching")).value_or(Switching::none); }
+
 std::optional<std::chrono::milliseconds> decode_lease(std::optional<std::string_view> text) {
     if (!text) return {};
     constexpr std::uint64_t more_than_any_lease = 1'000'000'000;
@@ -38,6 +40,7 @@ Operation decode_connect(Node node) {
         connect.motion_proof = *proof == "request" ? MotionProof::request : MotionProof::pong;
     connect.is_engine = node.attribute_text("role") == "engine";
     connect.window = decode_lease(node.attribute("window"));
+    connect.switches = decode_boolean(node.attribute("switches").value_or("false"));
     return connect;
 }
 
@@ -72,8 +75,8 @@ constexpr std::array<std::pair<std::string_view, Decode>, std::variant_size_v<Op
          return GetErrorDetail{child_id<ErrorTag>(n, "error_id"), condition(n)};
      }},
     {"search", [](Node n) -> Operation { return Search{condition(n)}; }},
-    {"bind", [](Node n) -> Operation { return Bind{component_ref(n)}; }},
-    {"bind_any", [](Node n) -> Operation { return BindAny{condition(n)}; }},
+    {"bind", [](Node n) -> Operation { return Bind{component_ref(n), switching(n)}; }},
+    {"bind_any", [](Node n) -> Operation { return BindAny{condition(n), switching(n)}; }},
     {"release", [](Node n) -> Operation { return Release{component_ref(n)}; }},
     {"get_parameter", [](Node n) -> Operation { return GetParameter{component_ref(n)}; }},
     {"set_parameter", decode_set_parameter},

@@ -233,6 +233,9 @@ std::optional<Notification> read_notification(Node root) {
     if (name == "receive_error") return read_error(root);
     if (name == "completed") return read_completed(root);
     if (name == "component_changed") return read_change(root);
+    if (name == "switched")
+        return Switched{decode_identifier(root.child("component_ref")), root.child_text("from"), root.child_text("to"),
+                        root.child_text("reason")};
     if (name == "lost") return Lost{decode_unsigned(root.attribute("count").value_or(""))};
     if (name == "profile_changed") return ProfileChanged{};
     return std::nullopt;

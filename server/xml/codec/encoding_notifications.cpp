@@ -11,6 +11,7 @@ constexpr std::string_view head_of(ReceiveEvent const&) { return R"(<receive_eve
 constexpr std::string_view head_of(ReceiveError const&) { return R"(<receive_error sequence=")"; }
 constexpr std::string_view head_of(Completed const&) { return R"(<completed sequence=")"; }
 constexpr std::string_view head_of(ComponentChanged const&) { return R"(<component_changed sequence=")"; }
+constexpr std::string_view head_of(Switched const&) { return R"(<switched sequence=")"; }
 constexpr std::string_view head_of(Lost const&) { return R"(<lost sequence=")"; }
 constexpr std::string_view head_of(ProfileChanged const&) { return R"(<profile_changed sequence=")"; }
 
@@ -42,6 +43,12 @@ void write(Writer& out, ComponentChanged const& changed) {
     write_identifier(out, "component_ref", changed.component_ref);
     out.element("status", to_text(changed.status));
     write_results(out, changed.results);
+}
+
+void write(Writer& out, Switched const& switched) {
+    declare_rois(out);
+    write_identifier(out, "component_ref", switched.component_ref);
+    out.element("from", switched.from).element("to", switched.to).element("reason", switched.reason);
 }
 
 void write(Writer& out, Lost const& lost) { out.attribute("count", lost.count); }

@@ -43,6 +43,7 @@ void write_attributes(Writer& out, Connect const& op) {
     if (op.motion_lease) out.attribute("motion_lease", static_cast<std::uint64_t>(op.motion_lease->count()));
     if (op.motion_lease_http) out.attribute("motion_lease_http", static_cast<std::uint64_t>(op.motion_lease_http->count()));
     if (op.is_engine) out.attribute("role", "engine");
+    if (op.switches) out.attribute("switches", "true");
     if (op.window) out.attribute("window", static_cast<std::uint64_t>(op.window->count()));
     if (op.motion_proof) out.attribute("motion_proof", *op.motion_proof == MotionProof::request ? "request" : "pong");
 }
@@ -54,6 +55,11 @@ template <class Op>
 requires requires(Op op) { op.check_only; }
 void write_attributes(Writer& out, Op const& op) {
     if (op.check_only) out.attribute("check_only", "true");
+}
+template <class Op>
+requires requires(Op op) { op.switching; }
+void write_attributes(Writer& out, Op const& op) {
+    if (op.switching != Switching::none) out.attribute("switching", to_text(op.switching));
 }
 void write_attributes(Writer& out, Subscribe const& op) {
     if (op.inline_results) out.attribute("inline_results", "true");

@@ -1,0 +1,58 @@
+#include "choosing/choosing.hpp"
+
+#include <utility>
+
+#include "choosing/acting.hpp"
+#include "choosing/common_profile.hpp"
+#include "types/text/listing.hpp"
+
+namespace rois::choosing {
+
+Choosing::Choosing(Settings const& settings, std::function<void(std::string const&)> report)
+    : settings_{settings}, report_{std::move(report)}, roster_{std::make_shared<Roster>(settings)} {}
+
+std::vector<std::string> Choosing::change(ComponentChange change, Perform const& perform) {
+    std::lock_guard const lock{mutex_};
+    auto members = members_;
+    auto shown = shown_;
+    for (auto const& ref : change.going) members.erase(ref);
+    for (auto const& component : change.coming) {
+        auto const& description = component->description();
+        if (roster_->find(description.ref.code) != nullptr) members.insert_or_assign(description.ref.code, description);
+    }
+    for (auto const& name : settings_.logical) change_logical(name, members, shown, change);
+    auto left_out = perform(std::move(change));
+    members_ = std::move(members);
+    shown_ = std::move(shown);
+    return left_out;
+}
+
+void Choosing::change_logical(std::string const& name, Members const& members, Profiles& shown, ComponentChange& change) {
+    std::vector<std::string> refs;
+    std::vector<ComponentDescription const*> present;
+    for (auto const& engine : settings_.engines) {
+        auto const& ref = refs.emplace_back(engine + "." + name);
+        if (auto const member = members.find(ref); member != members.end()) present.push_back(&member->second);
+    }
+    auto const before = shown.find(name);
+    if (present.empty()) {
+        if (before == shown.end()) return;
+        change.going.push_back(name);
+        shown.erase(before);
+        return;
+    }
+    auto [description, left_out] = common(name, present);
+    if (before != shown.end()) {
+        if (*before->second == *description.profile) return;
+        change.going.push_back(name);
+    }
+    shown[name] = description.profile;
+    for (auto const& what : left_out) report_(name + " is offered without " + what);
+    description.provider = "choosing";
+    description.returns_at_once = true;
+    description.confirms_binding = true;
+    description.members = std::move(refs);
+    change.coming.push_back(std::make_unique<Acting>(std::move(description), roster_));
+}
+
+}  // namespace rois::choosing

@@ -1,0 +1,43 @@
+// Shows components of several sub engines as one logical component (docs/choosing.md).
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "choosing/roster.hpp"
+#include "choosing/settings.hpp"
+#include "engine/component.hpp"
+#include "engine/engine.hpp"
+
+namespace rois::choosing {
+
+// Stands between the providers of components and Engine::change. Thread-safe.
+class Choosing {
+public:
+    // `report` receives lines for the log, within calls of `change`.
+    Choosing(Settings const&, std::function<void(std::string const& line)> report);
+
+    // Calls `perform` with the change, and logical components that come with their first member and go with their last. A logical
+    // component whose common profile changes is replaced. Exceptions of `perform` are passed on; then nothing has changed.
+    using Perform = std::function<std::vector<std::string>(ComponentChange)>;
+    std::vector<std::string> change(ComponentChange, Perform const& perform);
+
+private:
+    using Members = std::map<std::string, ComponentDescription>;                      // by ref; those that are there
+    using Profiles = std::map<std::string, std::shared_ptr<ComponentProfile const>>;  // by name of the logical component
+
+    void change_logical(std::string const& name, Members const&, Profiles& shown, ComponentChange&);
+
+    Settings const settings_;
+    std::function<void(std::string const&)> const report_;
+    std::shared_ptr<Roster> const roster_;
+    std::mutex mutex_;
+    Members members_;
+    Profiles shown_;
+};
+
+}  // namespace rois::choosing

@@ -1,0 +1,20 @@
+// What all members of a logical component have in common (docs/choosing.md).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/component.hpp"
+
+namespace rois::choosing {
+
+struct Common {
+    // `ref` and the profile's messages and parameters; traits that concern the members' positions and commands.
+    ComponentDescription description;
+    std::vector<std::string> left_out;  // what some members lack, each with the ref of one that lacks it
+};
+
+// `members` is not empty. The first one counts most: its profile gives the type and the texts.
+Common common(std::string const& ref, std::vector<ComponentDescription const*> const& members);
+
+}  // namespace rois::choosing

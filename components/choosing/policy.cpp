@@ -1,0 +1,41 @@
+#include "choosing/policy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace rois::choosing {
+
+namespace {
+
+double way(Member const& member, Occasion const& occasion) {
+    if (!occasion.target) return 0;
+    if (!member.location) return std::numeric_limits<double>::max();
+    auto const& position = member.location->position;
+    auto const& target = *occasion.target;
+    double const direct = std::hypot(position[0] - target[0], position[1] - target[1]);
+    return member.ref == occasion.current ? std::max(0.0, direct - hysteresis) : direct;
+}
+
+}  // namespace
+
+std::vector<Member*> in_order(std::vector<Member*> members, Occasion const& occasion, Roster const& roster) {
+    std::erase_if(members, [](Member const* each) { return !each->can_act(); });
+    std::ranges::sort(members, {}, [&](Member const* member) {
+        auto const sorted = std::ranges::find(occasion.order, member->ref) - occasion.order.begin();
+        // The one that acts at a target is chosen by its distance; the other components of the application follow it.
+        auto const crew = occasion.target ? 0 : roster.beside(occasion.session, member->logical, member->engine);
+        return std::tuple{member->status != ComponentStatus::ready,
+                          sorted,
+                          -static_cast<std::ptrdiff_t>(crew),
+                          way(*member, occasion),
+                          member->ref != occasion.current,
+                          roster.load(member->engine),
+                          member->preference,
+                          member->ref};
+    });
+    return members;
+}
+
+}  // namespace rois::choosing

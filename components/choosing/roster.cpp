@@ -1,0 +1,94 @@
+#include "choosing/roster.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/frames/space.hpp"
+
+namespace rois::choosing {
+
+namespace {
+
+// Counts how often a ray from the point to the right crosses the border.
+bool is_inside(Area const& area, double x, double y) {
+    bool inside = false;
+    for (std::size_t i = 0, before = area.size() - 1; i < area.size(); before = i++) {
+        auto const& [ax, ay] = area[i];
+        auto const& [bx, by] = area[before];
+        if ((ay > y) != (by > y) && x < (bx - ax) * (y - ay) / (by - ay) + ax) inside = !inside;
+    }
+    return inside;
+}
+
+}  // namespace
+
+Roster::Roster(Settings const& settings) : areas_{settings.areas} {
+    for (auto const& logical : settings.logical)
+        for (std::size_t i = 0; i < settings.engines.size(); ++i) {
+            auto const ref = settings.engines[i] + "." + logical;
+            members_[ref] = {.ref = ref, .engine = settings.engines[i], .logical = logical, .preference = i};
+        }
+}
+
+Member* Roster::find(std::string_view ref) {
+    auto const found = members_.find(ref);
+    return found == members_.end() ? nullptr : &found->second;
+}
+
+std::vector<Member*> Roster::members_of(std::string_view logical) {
+    std::vector<Member*> members;
+    for (auto& [ref, member] : members_)
+        if (member.logical == logical) members.push_back(&member);
+    return members;
+}
+
+void Roster::note(Member& member, ComponentStatus status, Results const& state) const {
+    member.status = status;
+    member.parameters = state.parameters;
+    member.location.reset();
+    if (!state.located.empty()) member.location = state.located.front();
+    auto const area = areas_.find(member.engine);
+    member.is_outside = area != areas_.end() && member.location &&
+                        !is_inside(area->second, member.location->position[0], member.location->position[1]);
+}
+
+std::size_t Roster::load(std::string_view engine) const {
+    return static_cast<std::size_t>(std::ranges::count_if(members_, [&](auto const& each) {
+        auto const& member = each.second;
+        return member.engine == engine && (member.is_bound || member.status == ComponentStatus::busy);
+    }));
+}
+
+void Roster::use(std::uint64_t session, std::string const& logical, std::string const& engine) {
+    auto& engines = engines_in_use_[session];
+    if (engine.empty())
+        engines.erase(logical);
+    else
+        engines[logical] = engine;
+    if (engines.empty()) engines_in_use_.erase(session);
+}
+
+std::size_t Roster::beside(std::uint64_t session, std::string_view logical, std::string_view engine) const {
+    auto const found = engines_in_use_.find(session);
+    if (found == engines_in_use_.end()) return 0;
+    return static_cast<std::size_t>(
+        std::ranges::count_if(found->second, [&](auto const& each) { return each.first != logical && each.second == engine; }));
+}
+
+void Roster::know(Space const& space, std::string const& own_frame) {
+    frames_ = Frames{own_frame, space.frames};
+    places_ = space.places;
+}
+
+std::optional<std::array<double, 2>> Roster::position_of(std::string const& target) const {
+    if (auto const given = point(target, {})) return std::array{given->low[0], given->low[1]};
+    auto const place = std::ranges::find(places_, target, &NamedPlace::name);
+    if (place == places_.end()) return {};
+    auto const& area = place->area;
+    Located middle{.of = {}, .ref = {}, .crs = area.crs, .orientation = {}, .certainty = {}};
+    for (std::size_t axis = 0; axis < area.low.size(); ++axis) middle.position[axis] = (area.low[axis] + area.high[axis]) / 2;
+    if (frames_.change(middle, frames_.own())) return {};
+    return std::array{middle.position[0], middle.position[1]};
+}
+
+}  // namespace rois::choosing

@@ -1,0 +1,69 @@
+// The members of the logical components: what is known about them, and who uses them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "choosing/settings.hpp"
+#include "engine/frames/frames.hpp"
+#include "types/codes.hpp"
+#include "types/values.hpp"
+
+namespace rois::choosing {
+
+// A component that a logical component stands for.
+struct Member {
+    std::string ref;
+    std::string engine;
+    std::string logical;         // name of the logical component
+    std::size_t preference = 0;  // 0: of the preferred engine
+    // As the session of the logical component sees it. BUSY: an application has bound it. UNINITIALIZED: it is not there.
+    ComponentStatus status = ComponentStatus::uninitialized;
+    std::optional<Located> location{};  // in the main engine's frame
+    ParameterList parameters{};         // those that only the component sets
+    bool is_bound = false;              // by the logical component
+    bool is_outside = false;            // of its area
+
+    bool is_there() const { return status != ComponentStatus::uninitialized; }
+    bool can_act() const { return (status == ComponentStatus::ready || status == ComponentStatus::warning) && !is_outside; }
+};
+
+// Shared by all logical components, which the engine calls one at a time.
+class Roster {
+public:
+    explicit Roster(Settings const& settings);
+
+    // Returns null for a component that is not a member.
+    Member* find(std::string_view ref);
+    std::vector<Member*> members_of(std::string_view logical);
+    // Sets the status, location and parameters of a member.
+    void note(Member&, ComponentStatus, Results const&) const;
+
+    // The number of members of this engine that are in use.
+    std::size_t load(std::string_view engine) const;
+
+    // Notes the engine whose member a logical component uses for the session of an application. An empty engine: it uses none.
+    void use(std::uint64_t session, std::string const& logical, std::string const& engine);
+    // How many other logical components use this engine for the session.
+    std::size_t beside(std::uint64_t session, std::string_view logical, std::string_view engine) const;
+
+    // The frames and named places of the main engine.
+    void know(Space const&, std::string const& own_frame);
+    // Returns where a target is, in the main engine's frame: a position or a named place. Nothing if that is unknown.
+    std::optional<std::array<double, 2>> position_of(std::string const& target) const;
+
+private:
+    std::map<std::string, Area> areas_;
+    std::map<std::string, Member, std::less<>> members_;                          // by ref
+    std::map<std::uint64_t, std::map<std::string, std::string>> engines_in_use_;  // by session and logical component
+    Frames frames_;
+    std::vector<NamedPlace> places_;
+};
+
+}  // namespace rois::choosing

@@ -1,0 +1,92 @@
+// The sessions of logical components, in which they use their members as applications do (docs/choosing.md).
+#include <utility>
+
+#include "engine/core.hpp"
+
+namespace rois {
+
+namespace {
+
+// An operation of a logical component. The answer is a call to the component.
+class OwnOperation final : public Asked {
+public:
+    OwnOperation(Session const& session, OperationAsked&& asked)
+        : Asked{session.notifications, 0},
+          operation_{std::move(asked.operation)},
+          then_{std::move(asked.then)},
+          owner_{session.owner->hosted().shared_from_this()} {}
+
+    Operation const& operation() const override { return operation_; }
+    void answer(Reply&& reply) override { call(std::make_shared<Reply>(std::move(reply))); }
+    void refuse(Refusal) override { call(nullptr); }
+
+private:
+    // Without memory for the call the component is halted (Executor::repair), which ends what waits for the answer.
+    void call(std::shared_ptr<Reply const> reply) {
+        try {
+            owner_->call([then = std::move(then_), reply = std::move(reply)](Component&) { then(reply.get()); });
+        } catch (...) {
+            owner_->lose_report();
+            throw;
+        }
+    }
+
+    Operation const operation_;
+    OperationAsked::Then then_;
+    std::shared_ptr<HostedComponent> const owner_;
+};
+
+}  // namespace
+
+// Returns the session of a logical component; opens it if necessary. The component proves its own application's signs of life by
+// `halt` and `suspend`, so its link never ends.
+Session& Engine::Core::own_session(RegisteredComponent& component, Instant now) {
+    if (component.own_session != nullptr) return *component.own_session;
+    auto session = std::make_unique<Session>(MotionLease::Terms{settings_.motion_lease, settings_.motion_lease_http}, now.steady);
+    session->window = settings_.resume_window;
+    session->is_engine = true;
+    session->owner = &component;
+    session->lease.opened(LinkKind::stream, now.steady);
+    component.hosted().call([now](Component& owner) { owner.session_began(now); });
+    component.own_session = &open(std::move(session), now);
+    return *component.own_session;
+}
+
+void Engine::Core::perform(RegisteredComponent& component, OperationAsked&& asked, Instant now) {
+    auto const& session = own_session(component, now);
+    take(std::make_shared<OwnOperation>(session, std::move(asked)), now);
+}
+
+// Calls the logical components with the notifications of their sessions.
+void Engine::Core::call_owners(Instant now) {
+    constexpr std::size_t most = 1'000;
+    if (registry_.logical().empty() || notifier_.pushed() == pushed_at_last_call_) return;
+    auto const pushed = notifier_.pushed();
+    for (auto* component : registry_.logical()) {
+        auto* session = component->own_session;
+        if (session == nullptr) continue;
+        for (auto next = NotificationQueue::Next::more; next == NotificationQueue::Next::more;) {
+            std::vector<Numbered> read;
+            next = session->notifications->read(session->delivered, most, read);
+            if (read.empty()) break;
+            auto const last = read.back().sequence;
+            component->hosted().call([now, read = std::move(read)](Component& owner) {
+                for (auto const& each : read) owner.notified(each.notification->body, now);
+            });
+            session->delivered = last;
+        }
+    }
+    pushed_at_last_call_ = pushed;
+}
+
+// To the session that has agreed on switching, and to those that receive all switches.
+void Engine::Core::publish(RegisteredComponent const& component, MemberSwitched&& switched) {
+    auto const notification = std::make_shared<OutgoingNotification const>(
+        Switched{component.ref(), std::move(switched.from), std::move(switched.to), std::move(switched.reason)});
+    for (auto const& [id, session] : sessions_) {
+        bool const agreed = component.bound_to == session.get() && component.switching != Switching::none;
+        if (agreed || session->receives_switches) notifier_.notify(*session, notification);
+    }
+}
+
+}  // namespace rois

@@ -1,0 +1,89 @@
+#include "main/choosing_section.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "main/configuration_file.hpp"
+#include "main/json_file.hpp"
+#include "main/settings.hpp"
+#include "types/text/texts.hpp"
+
+namespace rois {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view expected_key =
+    "expected \"logical\" (names of components), \"engines\" (names of sub engines) and, if wanted, \"areas\"";
+
+bool is_list_of_names(json const& value) {
+    auto const is_name = [](json const& each) { return each.is_string() && !each.get_ref<std::string const&>().empty(); };
+    if (!value.is_array() || value.empty() || !std::ranges::all_of(value, is_name)) return false;
+    auto const names = value.get<std::vector<std::string>>();
+    return std::set<std::string>{names.begin(), names.end()}.size() == names.size();
+}
+
+bool is_area(json const& value) {
+    auto const is_corner = [](json const& each) {
+        return each.is_array() && each.size() == 2 && each[0].is_number() && each[1].is_number();
+    };
+    return value.is_array() && value.size() >= 3 && std::ranges::all_of(value, is_corner);
+}
+
+// Reads the section. Errors are reported by `bad(key, text)`, which does not return.
+template <class Bad>
+choosing::Settings read(json const& section, std::vector<remote::SubEngine> const& engines, Bad const& bad) {
+    choosing::Settings settings;
+    auto const must_be = [&](std::string const& key, std::string const& expected) {
+        bad(key, key + " must be " + expected + ", not " + rois::quoted(section[key].dump(), 100));
+    };
+    for (auto const& [key, value] : section.items())
+        if (key != "logical" && key != "engines" && key != "areas")
+            bad(key, rois::quoted(key) + " is not a key of \"choosing\": " + std::string{expected_key});
+    for (auto const* key : {"logical", "engines"}) {
+        if (!section.contains(key)) bad("", "\"choosing\" has no \"" + std::string{key} + "\": " + std::string{expected_key});
+        if (!is_list_of_names(section[key]))
+            must_be(key, "a list of different names, none of them empty, such as [\"robot1\", \"robot2\"]");
+    }
+    settings.logical = section["logical"].get<std::vector<std::string>>();
+    for (auto const& name : settings.logical)
+        if (name.find('.') != name.npos)
+            bad("logical", rois::quoted(name) + " must be the name of a component without its engine, such as \"navigation\"");
+    settings.engines = section["engines"].get<std::vector<std::string>>();
+    for (auto const& name : settings.engines)
+        if (std::ranges::find(engines, name.substr(0, name.find('.')), &remote::SubEngine::name) == engines.end())
+            bad("engines", rois::quoted(name) + " is not a sub engine of this file, or one of its engines");
+    if (!section.contains("areas")) return settings;
+    if (!section["areas"].is_object()) must_be("areas", "an object with the name and the area of an engine");
+    for (auto const& [name, corners] : section["areas"].items()) {
+        if (std::ranges::find(settings.engines, name) == settings.engines.end())
+            bad("areas", "areas: " + rois::quoted(name) + " is not in \"engines\"");
+        if (!is_area(corners))
+            bad("areas", "the area of " + rois::quoted(name) + " must have at least three corners, [x, y] in mm, not " +
+                             rois::quoted(corners.dump(), 100));
+        settings.areas[name] = corners.template get<choosing::Area>();
+    }
+    return settings;
+}
+
+}  // namespace
+
+choosing::Settings read_choosing(std::string const& file, std::vector<remote::SubEngine> const& engines) {
+    auto const text = text_of_file(file);
+    auto const object = parse_json(file, text);
+    if (!object.contains("choosing")) return {};
+    auto const objects = objects_in(text);
+    auto const& keys = objects.front().keys;
+    auto const at = std::ranges::find(keys, "choosing", &ObjectInText::Key::name)->at;
+    auto const in_text = std::ranges::find_if(objects, [&](auto const& each) { return each.begin > at; });
+    auto const bad = [&](std::string const& key, std::string const& what) {
+        throw BadSettings{file + ":" + place_of_key(text, *in_text, key) + ": " + what};
+    };
+    if (!object["choosing"].is_object())
+        throw BadSettings{file + ":" + place_of_key(text, "choosing") + ": choosing must be an object, { ... }"};
+    if (auto const* twice = in_text->repeated()) bad(twice->name, rois::quoted(twice->name) + " is given twice in \"choosing\"");
+    return read(object["choosing"], engines, bad);
+}
+
+}  // namespace rois

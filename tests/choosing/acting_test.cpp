@@ -1,0 +1,334 @@
+#include <algorithm>
+
+#include "choosing/team.hpp"
+
+namespace rois::choosing::test {
+
+namespace {
+
+using testing::Contains;
+using testing::Not;
+
+class TwoRobots : public testing::Test {
+protected:
+    TwoRobots() {
+        team.place("robot1", 0, 0);
+        team.place("robot2", 10'000, 0);
+    }
+
+    Team team{{"robot1", "robot2"}};
+    World& world = team.world;
+    Application desk = world.connect();
+};
+
+}  // namespace
+
+// --- What applications see ---
+
+TEST_F(TwoRobots, AreOneForThoseWhoDoNotAskForUnits) {
+    EXPECT_THAT(desk.search(), ElementsAre("navigation", "speech"));
+    EXPECT_THAT(desk.search(equal("component_type", "urn:x-rois:def:component:OMG::Navigation")), ElementsAre("navigation"));
+    EXPECT_EQ(desk.bind_any(equal("component_type", "urn:x-rois:def:component:OMG::Navigation")), "navigation");
+}
+
+TEST_F(TwoRobots, AreSeenByThoseWhoAskByRefOrEngine) {
+    EXPECT_THAT(desk.search(equal("engine", "robot2")), ElementsAre("robot2.navigation", "robot2.speech"));
+    EXPECT_THAT(desk.search(equal("component_ref", "robot1.speech")), ElementsAre("robot1.speech"));
+    EXPECT_EQ(desk.bind("robot1.navigation"), ReturnCode::ok);
+}
+
+TEST_F(TwoRobots, FireOneEventForThoseWhoDoNotAskForUnits) {
+    desk.subscribe("reached_target");
+    desk.bind("navigation");
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    team.drive("robot1").fires("reached_target", {text("target", "1000, 0, 0"), boolean("is_final_target", true)});
+    EXPECT_THAT(desk.received(), ElementsAre("1 reached_target navigation"));
+}
+
+TEST(ATeam, AppearsWithItsFirstMemberAndGoesWithItsLast) {
+    Team team{{"robot1", "robot2"}};
+    auto desk = team.world.connect();
+    team.go("robot1");
+    EXPECT_THAT(desk.search(), ElementsAre("navigation", "speech"));
+    team.go("robot2");
+    EXPECT_THAT(desk.search(), IsEmpty());
+    team.come("robot2");
+    EXPECT_THAT(desk.search(), ElementsAre("navigation", "speech"));
+    EXPECT_EQ(desk.bind("navigation"), ReturnCode::ok);
+}
+
+TEST(ATeam, OffersWhatAllItsMembersHave) {
+    Team team{{"robot1", "robot2"}};
+    team.go("robot2");
+    auto simple = Team::driving("robot2");
+    std::erase_if(simple.profile.messages, [](auto const& message) { return message.name == "dock"; });
+    std::erase_if(simple.profile.parameters, [](auto const& parameter) { return parameter.name == "routing_policy"; });
+    team.world.change({}, {simple});
+    EXPECT_THAT(team.log,
+                ElementsAre("navigation is offered without the command 'dock', which robot2.navigation lacks",
+                            "navigation is offered without the parameter 'routing_policy', which robot2.navigation lacks"));
+    auto desk = team.world.connect();
+    desk.bind("navigation");
+    EXPECT_EQ(desk.execute(command("dock", "navigation")).return_code, ReturnCode::bad_parameter);
+    team.go("robot1");
+    EXPECT_EQ(desk.bind("navigation"), ReturnCode::ok) << "it was replaced";
+}
+
+// --- Choosing ---
+
+TEST_F(TwoRobots, ActIfTheyAreNearest) {
+    desk.bind("navigation");
+    desk.execute(drive_to("near2", {"9000, 0, 0"}));
+    EXPECT_EQ(team.starts_of("robot1"), 0);
+    EXPECT_EQ(team.starts_of("robot2"), 1);
+    EXPECT_EQ(desk.result_of("near2"), "RUNNING");
+    team.drive("robot2").finishes();
+    EXPECT_EQ(desk.result_of("near2"), "OK");
+    desk.execute(drive_to("near1", {"1000, 0, 0"}));
+    EXPECT_EQ(team.starts_of("robot1"), 1);
+}
+
+TEST_F(TwoRobots, ChangeOnlyForMoreThanAMetre) {
+    desk.bind("navigation");
+    desk.execute(drive_to("first", {"9000, 0, 0"}));
+    team.drive("robot2").finishes();
+    desk.execute(drive_to("middle", {"4800, 0, 0"}));  // robot2 is 0.4 m farther away
+    EXPECT_EQ(team.starts_of("robot2"), 2);
+    team.drive("robot2").finishes();
+    desk.execute(drive_to("beyond", {"4000, 0, 0"}));
+    EXPECT_EQ(team.starts_of("robot1"), 1);
+}
+
+TEST_F(TwoRobots, SpeakIfTheyDrive) {
+    desk.bind("navigation");
+    desk.bind("speech");
+    desk.execute(drive_to("go", {"9000, 0, 0"}));
+    desk.execute(say("hello"));
+    EXPECT_THAT(world["robot2.speech"].calls, Contains("start"));
+    EXPECT_THAT(world["robot1.speech"].calls, Not(Contains("start")));
+}
+
+TEST_F(TwoRobots, AreChosenInTheOrderOfTheCondition) {
+    QueryExpression farthest{
+        equal("component_type", "urn:x-rois:def:component:OMG::Navigation"),
+        {{{Function{"distance", {{ValueReference{"location"}}, {Literal{"0, 0"}}}}}, SortOrder::descending}}};
+    ASSERT_EQ(desk.bind_any(farthest), "navigation");
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    EXPECT_EQ(team.starts_of("robot2"), 1);
+}
+
+TEST_F(TwoRobots, AreNotChosenIfAnotherApplicationHasBoundThem) {
+    auto other = world.connect();
+    other.bind("robot1.navigation");
+    desk.bind("navigation");
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    EXPECT_EQ(team.starts_of("robot2"), 1);
+    EXPECT_EQ(other.bind("robot2.navigation"), ReturnCode::out_of_resources);
+    desk.release("navigation");
+    EXPECT_EQ(other.bind("robot2.navigation"), ReturnCode::ok);
+    team.look();
+    EXPECT_EQ(desk.bind("navigation"), ReturnCode::out_of_resources);
+}
+
+TEST_F(TwoRobots, AreChosenIfTheOtherRefusesTheParameters) {
+    world["robot1.navigation"].throws_in = {"prepare"};
+    desk.bind("navigation");
+    EXPECT_EQ(desk.execute(drive_to("go", {"1000, 0, 0"})).return_code, ReturnCode::ok);
+    EXPECT_EQ(team.starts_of("robot2"), 1);
+}
+
+TEST_F(TwoRobots, RefuseTogether) {
+    desk.bind("navigation");
+    auto const reply = desk.execute(start("navigation"));
+    EXPECT_EQ(reply.return_code, ReturnCode::bad_parameter);
+    EXPECT_THAT(reply.reason, HasSubstr("robot1.navigation: "));
+    auto other = world.connect();
+    EXPECT_EQ(other.bind("robot1.navigation"), ReturnCode::ok) << "nothing was kept";
+}
+
+TEST_F(TwoRobots, AnswerQueriesByTheOneThatActs) {
+    desk.bind("navigation");
+    desk.execute(drive_to("go", {"9000, 0, 0"}));
+    Results route;
+    route.parameters = {Parameter{"length", {"double", {}, {}, {}}, {"7.5"}}};
+    world["robot2.navigation"].knows = {route};
+    auto const reply = desk.query("route");
+    EXPECT_EQ(reply.component_ref.code, "navigation");
+    EXPECT_EQ(in_words(reply.results.parameters), "length=7.5");
+}
+
+// --- Switching ---
+
+TEST_F(TwoRobots, EndTheCommandAsTheMemberEndedItWithoutSwitching) {
+    desk.bind("navigation");
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    team.drive("robot1").finishes(CompletedStatus::error);
+    EXPECT_EQ(desk.result_of("go"), "ERROR");
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go ERROR"));
+}
+
+TEST_F(TwoRobots, AbortTheCommandIfThatWasAgreed) {
+    bind(desk, "navigation", Switching::abort);
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    team.drive("robot1").finishes(CompletedStatus::error);
+    EXPECT_EQ(desk.result_of("go"), "ABORT");
+    EXPECT_EQ(team.starts_of("robot2"), 0);
+}
+
+TEST_F(TwoRobots, GoOnWithWhatIsLeft) {
+    bind(desk, "navigation", Switching::restart);
+    desk.execute(drive_to("go", {"1000, 0, 0", "2000, 0, 0", "3000, 0, 0"}));
+    team.drive("robot1").fires("reached_target", {text("target", "1000, 0, 0"), boolean("is_final_target", false)});
+    team.drive("robot1").finishes(CompletedStatus::error);
+    EXPECT_EQ(desk.result_of("go"), "RUNNING");
+    EXPECT_THAT(in_words(team.drive("robot2").started_with), testing::StartsWith("target_position=2000, 0, 0|3000, 0, 0 "));
+    team.drive("robot2").finishes();
+    EXPECT_THAT(desk.received(),
+                ElementsAre("1 switched navigation from robot1.navigation to robot2.navigation", "2 completed go OK"));
+}
+
+TEST_F(TwoRobots, GoOnIfOneIsLost) {
+    bind(desk, "navigation", Switching::restart);
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    team.go("robot1");
+    EXPECT_EQ(team.starts_of("robot2"), 1);
+    team.drive("robot2").finishes();
+    EXPECT_EQ(desk.result_of("go"), "OK");
+}
+
+TEST_F(TwoRobots, DoNotGoOnBeforeTheOtherStandsStill) {
+    bind(desk, "navigation", Switching::restart);
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    team.drive("robot1").halts_later = true;
+    team.drive("robot1").finishes(CompletedStatus::error);
+    EXPECT_EQ(team.starts_of("robot2"), 0);
+    team.drive("robot1").stands_still();
+    EXPECT_EQ(team.starts_of("robot2"), 1);
+}
+
+TEST_F(TwoRobots, DoNotGoOnIfTheOtherNeverStandsStill) {
+    bind(desk, "navigation", Switching::restart);
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    team.drive("robot1").halts_later = true;
+    team.drive("robot1").finishes(CompletedStatus::error);
+    world.advance(1s);
+    EXPECT_EQ(team.starts_of("robot2"), 0);
+    EXPECT_EQ(desk.result_of("go"), "ERROR");
+    EXPECT_THAT(desk.reason_of("go"), HasSubstr("robot1.navigation has not confirmed that it stands still"));
+}
+
+TEST_F(TwoRobots, SwitchAtMostOnceInFiveSeconds) {
+    bind(desk, "navigation", Switching::restart);
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    team.drive("robot1").finishes(CompletedStatus::error);
+    team.drive("robot2").finishes(CompletedStatus::error);
+    EXPECT_EQ(desk.result_of("go"), "ABORT");
+    EXPECT_THAT(desk.reason_of("go"), HasSubstr("switched less than 5 s ago"));
+    EXPECT_EQ(team.starts_of("robot1"), 1);
+}
+
+TEST_F(TwoRobots, EndTheCommandIfNoneIsLeft) {
+    bind(desk, "navigation", Switching::restart);
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    team.go("robot2");
+    team.drive("robot1").finishes(CompletedStatus::error);
+    EXPECT_EQ(desk.result_of("go"), "ABORT");
+    EXPECT_THAT(desk.reason_of("go"), HasSubstr("no other component can go on"));
+}
+
+TEST(ARobotThatLeavesItsArea, IsStoppedAndAnotherGoesOn) {
+    Team team{{"robot1", "robot2"}, {{"robot1", {{-1'000, -1'000}, {2'000, -1'000}, {2'000, 1'000}, {-1'000, 1'000}}}}};
+    team.place("robot1", 0, 0);
+    team.place("robot2", 10'000, 0);
+    auto desk = team.world.connect();
+    bind(desk, "navigation", Switching::restart);
+    desk.execute(drive_to("go", {"5000, 0, 0"}));
+    EXPECT_EQ(team.starts_of("robot1"), 1);
+    team.drive("robot1").calls.clear();
+    team.place("robot1", 2'100, 0);
+    EXPECT_THAT(team.drive("robot1").calls, Contains("halt"));
+    EXPECT_EQ(team.starts_of("robot2"), 1);
+    team.drive("robot2").finishes();
+    EXPECT_EQ(desk.result_of("go"), "OK");
+    desk.execute(drive_to("back", {"2100, 0, 0"}));
+    EXPECT_EQ(team.starts_of("robot2"), 2) << "robot1 is outside of its area";
+}
+
+TEST_F(TwoRobots, SwitchInTheMiddleOfAParallelUnit) {
+    bind(desk, "navigation", Switching::restart);
+    desk.bind("speech");
+    desk.execute(in_parallel({drive_to("go", {"1000, 0, 0"}), say("hello")}));
+    team.drive("robot1").finishes(CompletedStatus::error);
+    world["robot1.speech"].finishes();
+    EXPECT_EQ(desk.result_of("hello"), "OK");
+    team.drive("robot2").finishes();
+    EXPECT_EQ(desk.result_of("go"), "OK");
+}
+
+TEST_F(TwoRobots, ReportSwitchesToThoseWhoAskForAll) {
+    Connect connect;
+    connect.switches = true;
+    auto console = world.connect(connect);
+    auto other = world.connect();
+    bind(desk, "navigation", Switching::restart);
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    team.drive("robot1").finishes(CompletedStatus::error);
+    EXPECT_THAT(console.received(), ElementsAre("1 switched navigation from robot1.navigation to robot2.navigation"));
+    EXPECT_THAT(other.received(), IsEmpty());
+}
+
+// --- Stopping ---
+
+TEST_F(TwoRobots, StopWithTheLogicalComponent) {
+    desk.bind("navigation");
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    team.drive("robot1").halts_later = true;
+    desk.execute(named("stop", stop("navigation")));
+    EXPECT_EQ(desk.result_of("stop"), "RUNNING");
+    team.drive("robot1").stands_still();
+    EXPECT_EQ(desk.result_of("stop"), "OK");
+    EXPECT_EQ(desk.result_of("go"), "ABORT");
+}
+
+TEST_F(TwoRobots, StopAndAreFreeWhenTheirApplicationHasLeft) {
+    desk.bind("navigation");
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    team.drive("robot1").calls.clear();
+    desk.leave();
+    EXPECT_THAT(team.drive("robot1").calls, Contains("halt"));
+    auto other = world.connect();
+    EXPECT_EQ(other.bind("robot1.navigation"), ReturnCode::ok);
+}
+
+TEST_F(TwoRobots, ArePausedWithoutSignsOfLife) {
+    desk.bind("navigation");
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    world.advance(5s);
+    EXPECT_THAT(team.drive("robot1").calls, Contains("suspend"));
+    bind(desk, "navigation", Switching::restart);
+    team.drive("robot1").finishes(CompletedStatus::error);
+    EXPECT_EQ(team.starts_of("robot2"), 0) << "nothing moves for an application that is silent";
+}
+
+TEST_F(TwoRobots, StandStillAfterAStopOfEverything) {
+    bind(desk, "navigation", Switching::restart);
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    world.engine->stop_everything(world.now);
+    EXPECT_EQ(desk.result_of("go"), "ABORT");
+    world.advance(1s);
+    EXPECT_EQ(team.starts_of("robot2"), 0);
+    world.engine->clear();
+    EXPECT_EQ(desk.execute(drive_to("again", {"1000, 0, 0"})).return_code, ReturnCode::ok);
+    EXPECT_EQ(desk.result_of("again"), "RUNNING");
+}
+
+TEST_F(TwoRobots, AreNotChosenIfAllAreLost) {
+    desk.bind("navigation");
+    world["robot1.navigation"].status_now = ComponentStatus::error;
+    world["robot2.navigation"].status_now = ComponentStatus::error;
+    team.look();
+    EXPECT_EQ(desk.status_of("navigation"), "ERROR");
+    EXPECT_EQ(desk.execute(drive_to("go", {"1000, 0, 0"})).return_code, ReturnCode::error);
+}
+
+}  // namespace rois::choosing::test

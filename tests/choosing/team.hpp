@@ -1,0 +1,72 @@
+// Robots behind one engine that shows their components as one.
+//     Team team{{"robot1", "robot2"}};
+//     auto desk = team.world.connect();
+//     desk.bind("navigation");
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "choosing/choosing.hpp"
+#include "engine/world.hpp"
+
+namespace rois::choosing::test {
+
+using namespace rois;
+
+class Team {
+public:
+    // Each robot has a navigation and a speech.
+    explicit Team(std::vector<std::string> const& robots, std::map<std::string, Area> areas = {}, EngineSettings engine = {})
+        : choosing{{.logical = {"navigation", "speech"}, .engines = robots, .areas = std::move(areas)},
+                   [this](std::string const& line) { log.push_back(line); }},
+          world{std::vector<Part>{}, engine} {
+        world.between = [this](ComponentChange change, World::Change const& perform) {
+            choosing.change(std::move(change), perform);
+        };
+        for (auto const& robot : robots) come(robot);
+    }
+
+    static Part driving(std::string const& robot) {
+        auto part = in_engine(robot, navigation);
+        part.moves = true;
+        return part;
+    }
+    void come(std::string const& robot) {
+        world.change({}, {driving(robot), in_engine(robot, speech)});
+        world.advance(50ms);
+    }
+    // The link to the robot is lost for good.
+    void go(std::string const& robot) { world.change({robot + ".navigation", robot + ".speech"}, {}); }
+
+    void place(std::string const& robot, double x, double y) {
+        for (auto const* part : {".navigation", ".speech"})
+            world[robot + part].where =
+                Located{.of = {}, .ref = robot, .crs = "crs1", .position = {x, y, 0}, .orientation = {}, .certainty = {}};
+        look();
+    }
+    // The logical components notice what has changed.
+    void look() {
+        world.happen([] {});
+        world.advance(200ms);
+    }
+    ScriptedComponent& drive(std::string const& robot) { return world[robot + ".navigation"]; }
+    std::size_t starts_of(std::string const& robot) {
+        return static_cast<std::size_t>(std::ranges::count(drive(robot).calls, "start"));
+    }
+
+    std::vector<std::string> log;
+    Choosing choosing;
+    World world;
+};
+
+inline CommandUnit drive_to(std::string const& id, std::vector<std::string> targets, std::string const& ref = "navigation") {
+    return named(id, start(ref, {texts("target_position", std::move(targets))}));
+}
+
+inline ReturnCode bind(Application& application, std::string const& ref, Switching switching) {
+    return application.ask(Bind{Application::identifier(ref), switching}).return_code;
+}
+
+}  // namespace rois::choosing::test
