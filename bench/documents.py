@@ -109,6 +109,11 @@ def all_documents():
     documents["bind-probe0"] = documents["bind"].replace("{connection}", "0")
     for name in ("bind-probe0", "fire-100"):
         documents[f"{name}-hall"] = documents[name].replace("probe0", "hall.probe0")
+    for name, component in (("logical", "probe"), ("member", "robot0.probe")):
+        documents[f"reading-0.6kB-{name}"] = query_of_size(SIZES["0.6"], "reading", component)
+        documents[f"subscribe-{name}"] = subscribe("probed", [is_equal("component_ref", component)])
+        for each in ("bind-probe0", "fire-100"):
+            documents[f"{each.removesuffix('-probe0')}-{name}"] = documents[each].replace("probe0", component)
     documents["subscribe"] = subscribe("probed")
     documents["subscribe-conditioned"] = subscribe("probed", [is_equal("value", 42), is_equal("stamp", "nowhere")])
     documents["subscribe-elsewhere"] = subscribe("probed", [is_equal("value", "1{number}"), is_equal("stamp", "{number}")])

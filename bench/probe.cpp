@@ -54,9 +54,11 @@ std::string stamp() {
 
 class Probe final : public LocalComponent {
 public:
-    Probe(std::string ref, std::shared_ptr<ComponentProfile const> profile) : event_{profile->messages[1].name} {
+    Probe(std::string ref, std::shared_ptr<ComponentProfile const> profile, std::string engine)
+        : event_{profile->messages[1].name} {
         description_.ref = {.code = std::move(ref), .authority = {}, .codebook_ref = profile->object.identifier, .version = {}};
         description_.profile = std::move(profile);
+        description_.engine = std::move(engine);
         description_.returns_at_once = true;
     }
 
@@ -92,8 +94,8 @@ ComponentProfile bystander_profile() { return profile("Bystander", "other_readin
 
 std::vector<ComponentProfile> known_profiles() { return {common_profile(), probe_profile(), bystander_profile()}; }
 
-std::unique_ptr<Component> probe(std::string ref, std::shared_ptr<ComponentProfile const> profile) {
-    return std::make_unique<Probe>(std::move(ref), std::move(profile));
+std::unique_ptr<Component> probe(std::string ref, std::shared_ptr<ComponentProfile const> profile, std::string engine) {
+    return std::make_unique<Probe>(std::move(ref), std::move(profile), std::move(engine));
 }
 
 }  // namespace rois::bench

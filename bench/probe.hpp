@@ -20,6 +20,7 @@ ComponentProfile bystander_profile();
 // The profiles that probe and bystander include as sub components.
 std::vector<ComponentProfile> known_profiles();
 
-std::unique_ptr<Component> probe(std::string ref, std::shared_ptr<ComponentProfile const> profile);
+// `engine`: name of the sub engine that it belongs to; empty: the main engine.
+std::unique_ptr<Component> probe(std::string ref, std::shared_ptr<ComponentProfile const> profile, std::string engine = {});
 
 }  // namespace rois::bench

@@ -102,8 +102,8 @@ def gateway(threads=1, *arguments, free=False, name=None):
     return Server(name or f"gateway-{threads}{'-free' * free}", command, "/readyz", len(CORES) if free else threads)
 
 
-def stage(threads=1, probes=10, bystanders=0):
-    return Server("stage", [BIN / "rois-stage", "{port}", threads, probes, bystanders], "/readyz", threads)
+def stage(threads=1, probes=10, bystanders=0, members=0):
+    return Server("stage", [BIN / "rois-stage", "{port}", threads, probes, bystanders, members], "/readyz", threads)
 
 
 @contextlib.contextmanager

@@ -4,9 +4,9 @@ import collections
 import json
 import statistics
 
-from parts import client, console, crowd, engines, fanout, floods, growth, memory, requests
+from parts import choosing, client, console, crowd, engines, fanout, floods, growth, memory, requests
 
-AGAINST = collections.ChainMap(requests.AGAINST, fanout.AGAINST, client.AGAINST, engines.AGAINST)  # row -> the row that it is compared with
+AGAINST = collections.ChainMap(requests.AGAINST, fanout.AGAINST, client.AGAINST, engines.AGAINST, choosing.AGAINST)  # row -> the row that it is compared with
 
 
 def medians(rounds):
@@ -170,6 +170,10 @@ def goals(rounds):
         ),
         at_most("11 memory of a further sub engine", value_of(crowd.AT_REST, "kb_each"), 300, "kB"),
         at_most("11 threads of 100 further sub engines", value_of(crowd.AT_REST, "threads"), 0, ""),
+        *(
+            at_most(f"12 {logical}, compared with one", ratio(rounds, logical, member), 1.3, "times")
+            for logical, member in choosing.QUERIES + choosing.EVENTS
+        ),
     ]
 
 

@@ -12,7 +12,7 @@ import processes
 import report
 from parts import Settings
 
-PARTS = ("requests", "fanout", "memory", "growth", "micro", "client", "console", "floods", "engines", "crowd")
+PARTS = ("requests", "fanout", "memory", "growth", "micro", "client", "console", "floods", "engines", "crowd", "choosing")
 
 
 def read_arguments():

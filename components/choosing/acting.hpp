@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -11,30 +10,21 @@
 #include <string_view>
 #include <vector>
 
+#include "choosing/logical.hpp"
 #include "choosing/policy.hpp"
-#include "choosing/roster.hpp"
-#include "engine/component.hpp"
+#include "choosing/sightings.hpp"
 
 namespace rois::choosing {
 
-// Commands its members in its own session of the engine. Which member acts is decided when a command begins; only then, and until
-// another one is chosen or the application releases the logical component, is the member bound.
-class Acting final : public Component {
+// Which member acts is decided when a command begins; only then, and until another one is chosen or the application releases the
+// logical component, is the member bound.
+class Acting final : public Logical {
 public:
-    Acting(ComponentDescription, std::shared_ptr<Roster>);
+    Acting(ComponentDescription, std::shared_ptr<Roster>, std::shared_ptr<Sightings>);
 
-    ComponentDescription const& description() const override { return description_; }
-    void attach(ComponentPort&) override;
-    void session_began(Instant now) override;
-    void notified(Notification const&, Instant now) override;
-
-    void bind(Ticket, Binding const&, Instant now) override;
-    void released(Instant now) override;
     void prepare(Ticket, std::string_view command_type, ParameterList const& parameters, Instant now) override;
-    void halt(Ticket, Instant now) override;
     void suspend(Ticket, Instant now) override;
     void resume(Ticket, Instant now) override;
-    void query(Ticket, std::string_view query_type, Instant now) override;
 
 private:
     // A command of the application.
@@ -60,19 +50,11 @@ private:
     void choose(SharedAction const&, Chosen);
     void try_next(SharedAction const&, std::vector<std::string> candidates, std::optional<Outcome> why_not, Chosen);
     std::vector<Member*> best_members(ParameterList const& parameters = {});
+    // What the member is to do: what is left, with its own names of persons. Nothing: it does not sense the person.
+    std::optional<ParameterList> arguments_for(Action const&, Member const&) const;
 
-    using Answered = std::function<void(Outcome const&)>;
-    void ask(Operation, Answered);
-    void use(std::string const& ref, Answered);
-    void give_back(std::string const& ref);
-    void forget(Member&);
     bool is_used(std::string const& ref) const;
     void note_current(std::string const& ref);
-
-    using Ended = std::function<void(Completed const&, Instant now)>;
-    void command(std::string const& ref, std::string const& type, ParameterList const& arguments, Answered begun, Ended ended);
-    // `then` is called with whether the member has confirmed that it stands still.
-    void stop(std::string const& ref, std::function<void(bool stands)> then);
 
     void begin(SharedAction const&);
     void carry_out(SharedAction const&, std::string const& ref);
@@ -81,27 +63,18 @@ private:
     void leave(SharedAction const&, Completed const& as, Instant now);
     void go_on_with_another(SharedAction const&, Completed const&, Instant now);
     void finish(SharedAction const&, Completed const&);
-    void pause(Ticket, std::string const& command_type);
 
-    void notified_of(ReceiveEvent const&);
-    void notified_of(Completed const&, Instant now);
-    void notified_of(ComponentChanged const&, Instant now);
-    void learn_space();
-    void subscribe_to(std::string const& ref);
-    void show();
+    void forget_commands(Instant now) override;
+    void abort_commands(Instant now) override;
+    void is_free() override { current_.clear(); }
+    void happened(ReceiveEvent const&, Member const&, Instant now) override;
+    void changed(Member&, Instant now) override { leave_outside(now); }
+    Member const* shown() override;
 
-    ComponentDescription const description_;
-    std::string const& name_;  // in description_
-    std::shared_ptr<Roster> const roster_;
-    ComponentPort* port_ = nullptr;
-    Binding binding_{};
+    std::shared_ptr<Sightings> const sightings_;
     std::string current_;  // ref of the member that was chosen last
     std::vector<SharedAction> actions_;
     bool is_suspended_ = false;
-    std::set<std::string> halting_;         // refs of the members that have not confirmed a halt
-    std::map<std::string, Ended> running_;  // commands of the own session, by id
-    std::set<std::string> subscribed_;      // refs of the members whose events are subscribed to
-    std::optional<ComponentState> shown_;
 };
 
 }  // namespace rois::choosing

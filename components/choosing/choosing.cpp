@@ -4,6 +4,7 @@
 
 #include "choosing/acting.hpp"
 #include "choosing/common_profile.hpp"
+#include "choosing/sensing.hpp"
 #include "types/text/listing.hpp"
 
 namespace rois::choosing {
@@ -20,14 +21,16 @@ std::vector<std::string> Choosing::change(ComponentChange change, Perform const&
         auto const& description = component->description();
         if (roster_->find(description.ref.code) != nullptr) members.insert_or_assign(description.ref.code, description);
     }
-    for (auto const& name : settings_.logical) change_logical(name, members, shown, change);
+    for (auto const& name : settings_.logical) change_logical(name, false, members, shown, change);
+    for (auto const& name : settings_.sensing) change_logical(name, true, members, shown, change);
     auto left_out = perform(std::move(change));
     members_ = std::move(members);
     shown_ = std::move(shown);
     return left_out;
 }
 
-void Choosing::change_logical(std::string const& name, Members const& members, Profiles& shown, ComponentChange& change) {
+void Choosing::change_logical(std::string const& name, bool senses, Members const& members, Profiles& shown,
+                              ComponentChange& change) {
     std::vector<std::string> refs;
     std::vector<ComponentDescription const*> present;
     for (auto const& engine : settings_.engines) {
@@ -48,11 +51,18 @@ void Choosing::change_logical(std::string const& name, Members const& members, P
     }
     shown[name] = description.profile;
     for (auto const& what : left_out) report_(name + " is offered without " + what);
-    description.provider = "choosing";
+    description.provider = provider;
     description.returns_at_once = true;
     description.confirms_binding = true;
     description.members = std::move(refs);
-    change.coming.push_back(std::make_unique<Acting>(std::move(description), roster_));
+    if (senses) {
+        change.coming.push_back(std::make_unique<Sensing>(std::move(description), roster_, sightings_));
+        return;
+    }
+    if (!settings_.sensing.empty())
+        for (auto& parameter : description.codebooks)
+            parameter.known.insert(parameter.known.begin(), std::string{fused_codebook});
+    change.coming.push_back(std::make_unique<Acting>(std::move(description), roster_, sightings_));
 }
 
 }  // namespace rois::choosing

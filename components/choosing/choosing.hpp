@@ -10,6 +10,7 @@
 
 #include "choosing/roster.hpp"
 #include "choosing/settings.hpp"
+#include "choosing/sightings.hpp"
 #include "engine/component.hpp"
 #include "engine/engine.hpp"
 
@@ -26,15 +27,20 @@ public:
     using Perform = std::function<std::vector<std::string>(ComponentChange)>;
     std::vector<std::string> change(ComponentChange, Perform const& perform);
 
+    // A device by which the logical components see time pass. Add it to the engine, with this provider.
+    static constexpr char const* provider = "choosing";
+    std::shared_ptr<Device> device() const { return sightings_; }
+
 private:
     using Members = std::map<std::string, ComponentDescription>;                      // by ref; those that are there
     using Profiles = std::map<std::string, std::shared_ptr<ComponentProfile const>>;  // by name of the logical component
 
-    void change_logical(std::string const& name, Members const&, Profiles& shown, ComponentChange&);
+    void change_logical(std::string const& name, bool senses, Members const&, Profiles& shown, ComponentChange&);
 
     Settings const settings_;
     std::function<void(std::string const&)> const report_;
     std::shared_ptr<Roster> const roster_;
+    std::shared_ptr<Sightings> const sightings_ = std::make_shared<Sightings>();
     std::mutex mutex_;
     Members members_;
     Profiles shown_;

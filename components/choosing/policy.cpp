@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <tuple>
 
 namespace rois::choosing {
@@ -22,7 +23,7 @@ double way(Member const& member, Occasion const& occasion) {
 
 std::vector<Member*> in_order(std::vector<Member*> members, Occasion const& occasion, Roster const& roster) {
     std::erase_if(members, [](Member const* each) { return !each->can_act(); });
-    std::ranges::sort(members, {}, [&](Member const* member) {
+    auto const rank = [&](Member* member) {
         auto const sorted = std::ranges::find(occasion.order, member->ref) - occasion.order.begin();
         // The one that acts at a target is chosen by its distance; the other components of the application follow it.
         auto const crew = occasion.target ? 0 : roster.beside(occasion.session, member->logical, member->engine);
@@ -33,8 +34,14 @@ std::vector<Member*> in_order(std::vector<Member*> members, Occasion const& occa
                           member->ref != occasion.current,
                           roster.load(member->engine),
                           member->preference,
-                          member->ref};
-    });
+                          std::string_view{member->ref},
+                          member};
+    };
+    std::vector<decltype(rank(nullptr))> ranked;
+    ranked.reserve(members.size());
+    for (auto* member : members) ranked.push_back(rank(member));
+    std::ranges::sort(ranked);
+    std::ranges::transform(ranked, members.begin(), [](auto const& each) { return std::get<Member*>(each); });
     return members;
 }
 

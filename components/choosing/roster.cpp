@@ -23,11 +23,12 @@ bool is_inside(Area const& area, double x, double y) {
 }  // namespace
 
 Roster::Roster(Settings const& settings) : areas_{settings.areas} {
-    for (auto const& logical : settings.logical)
-        for (std::size_t i = 0; i < settings.engines.size(); ++i) {
-            auto const ref = settings.engines[i] + "." + logical;
-            members_[ref] = {.ref = ref, .engine = settings.engines[i], .logical = logical, .preference = i};
-        }
+    for (auto const* names : {&settings.logical, &settings.sensing})
+        for (auto const& logical : *names)
+            for (std::size_t i = 0; i < settings.engines.size(); ++i) {
+                auto const ref = settings.engines[i] + "." + logical;
+                members_[ref] = {.ref = ref, .engine = settings.engines[i], .logical = logical, .preference = i};
+            }
 }
 
 Member* Roster::find(std::string_view ref) {

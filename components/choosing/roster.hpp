@@ -37,7 +37,7 @@ struct Member {
 // Shared by all logical components, which the engine calls one at a time.
 class Roster {
 public:
-    explicit Roster(Settings const& settings);
+    explicit Roster(Settings const&);
 
     // Returns null for a component that is not a member.
     Member* find(std::string_view ref);
@@ -55,6 +55,7 @@ public:
 
     // The frames and named places of the main engine.
     void know(Space const&, std::string const& own_frame);
+    std::string const& frame() const { return frames_.own(); }
     // Returns where a target is, in the main engine's frame: a position or a named place. Nothing if that is unknown.
     std::optional<std::array<double, 2>> position_of(std::string const& target) const;
 

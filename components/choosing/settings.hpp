@@ -13,7 +13,8 @@ using Area = std::vector<std::array<double, 2>>;
 
 // The members of the logical component `navigation` are the components `<engine>.navigation` of these engines.
 struct Settings {
-    std::vector<std::string> logical;   // the plain names
+    std::vector<std::string> logical;   // the plain names of those that act
+    std::vector<std::string> sensing;   // the plain names of those that sense
     std::vector<std::string> engines;   // the preferred ones first
     std::map<std::string, Area> areas;  // by engine: where its components may act; without an area, everywhere
 

@@ -25,6 +25,7 @@ public:
     bool is_wanted = false;
     bool is_held = false;  // the sub engine has accepted `bind`
     int binds_asked = 0;   // `bind` requests that are not answered yet
+    Switching switching = Switching::none;
 
     ParameterList stored;  // by `set_parameter` in the sub engine, for the application that has bound the component
 

@@ -13,8 +13,9 @@ void RemoteComponent::attach(ComponentPort& port) {
     engine_->run([record = record_](RemoteEngine& engine) { engine.attach(record); });
 }
 
-void RemoteComponent::bind(Ticket ticket, Binding const&, Instant) {
-    engine_->run([=, record = record_](RemoteEngine& engine) { engine.bind(record, ticket); });
+void RemoteComponent::bind(Ticket ticket, Binding const& binding, Instant) {
+    engine_->run(
+        [=, record = record_, switching = binding.switching](RemoteEngine& engine) { engine.bind(record, ticket, switching); });
 }
 
 void RemoteComponent::released(Instant) {

@@ -281,6 +281,13 @@ void RemoteEngine::report_state(ComponentRecord& record, ComponentChanged const&
     record.report(std::make_shared<ComponentState const>(std::move(state)));
 }
 
+// A component that is logical in the sub engine goes on with another of its members.
+void RemoteEngine::operator()(Switched const& switched) {
+    if (auto const record = record_of(switched.component_ref.code))
+        record->report(MemberSwitched{translation_.component_here(switched.from), translation_.component_here(switched.to),
+                                      switched.reason});
+}
+
 void RemoteEngine::operator()(Completed const& completed) {
     auto const found = commands_.find(completed.command_id.text);
     if (found == commands_.end()) return;  // it ended before, or never began

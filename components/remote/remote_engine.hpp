@@ -80,7 +80,7 @@ public:
 
     // What the engine asks of a component.
     void attach(std::shared_ptr<ComponentRecord> const&);
-    void bind(std::shared_ptr<ComponentRecord> const&, Ticket);
+    void bind(std::shared_ptr<ComponentRecord> const&, Ticket, Switching);
     void released(std::shared_ptr<ComponentRecord> const&);
     void prepare(std::shared_ptr<ComponentRecord> const&, Ticket, std::string const& command_type, ParameterList const&);
     void begin(std::shared_ptr<ComponentRecord> const&, CommandHandle, std::string const& command_type, ParameterList const&);
@@ -145,6 +145,7 @@ private:
     void operator()(Lost const&) {}
     void operator()(ProfileChanged const&) { ask_profile(); }
     void operator()(ComponentChanged const&);
+    void operator()(Switched const&);
 
     // --- remote_requests.cpp: what this engine asks ---
     void bind_there(std::shared_ptr<ComponentRecord> const&, Then const&);

@@ -46,10 +46,11 @@ void RemoteEngine::attach(std::shared_ptr<ComponentRecord> const& record) {
     if (state != states_.end()) report_state(*record, state->second);
 }
 
-void RemoteEngine::bind(std::shared_ptr<ComponentRecord> const& record, Ticket ticket) {
+void RemoteEngine::bind(std::shared_ptr<ComponentRecord> const& record, Ticket ticket, Switching switching) {
     if (!is_open_) return record->answer(ticket, Failed{is_lost});
     record->is_wanted = true;
-    if (record->is_held && record->binds_asked == 0) return record->answer(ticket, Done{});
+    bool const is_same = std::exchange(record->switching, switching) == switching;
+    if (record->is_held && record->binds_asked == 0 && is_same) return record->answer(ticket, Done{});
     bind_there(record, [self = shared_from_this(), record, ticket](Reply const* reply) {
         if (reply == nullptr) return record->answer(ticket, Failed{is_lost});
         auto const outcome = outcome_of(*reply);
@@ -62,7 +63,7 @@ void RemoteEngine::bind(std::shared_ptr<ComponentRecord> const& record, Ticket t
 
 void RemoteEngine::bind_there(std::shared_ptr<ComponentRecord> const& record, Then const& then) {
     ++record->binds_asked;
-    ask(Bind{{.code = record->entry.ref}}, [self = shared_from_this(), record, then](Reply const* reply) {
+    ask(Bind{{.code = record->entry.ref}, record->switching}, [self = shared_from_this(), record, then](Reply const* reply) {
         --record->binds_asked;
         record->is_held = reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok;
         then(reply);

@@ -131,11 +131,25 @@ std::shared_ptr<EngineProfile const> Engine::Core::profile() const {
     return shared_profile_;
 }
 
+// As applications see it that do not ask for units.
+std::shared_ptr<EngineProfile const> Engine::Core::profile_without_members() const {
+    if (registry_.logical().empty()) return profile();
+    if (!shared_profile_without_members_) {
+        auto shown = profile_;
+        std::set<std::string_view> members;
+        for (auto const* component : registry_.logical())
+            members.insert(component->members().begin(), component->members().end());
+        unlist(shown, members);
+        shared_profile_without_members_ = std::make_shared<EngineProfile const>(std::move(shown));
+    }
+    return shared_profile_without_members_;
+}
+
 void Engine::Core::enter(SharedComponent const& component) {
     auto const& entry = registry_.add(component).entry();
     registry_.mark_members();
     list(profile_, entry.engine, entry.ref);
-    shared_profile_.reset();
+    forget_shared_profiles();
     expect_providers(registry_.all().size() + devices_.size());
     component->hosted().attach();
 }
@@ -268,7 +282,7 @@ std::vector<std::string> Engine::Core::change(ComponentChange change, Instant no
     std::swap(profile_, profile);
     std::swap(belongings_, belongings);
     std::swap(places_, places);
-    shared_profile_.reset();
+    forget_shared_profiles();
     if (going.empty() && coming.empty() && !has_new_space && profile == profile_) return left_out;
     Attempts attempts;
     for (auto const& component : going) attempts([&] { leave(component, now); });

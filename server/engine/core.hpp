@@ -69,6 +69,7 @@ public:
     void link_closed(SessionId const&, LinkKind, Closing, Instant now);
 
     std::shared_ptr<EngineProfile const> profile() const;
+    std::shared_ptr<EngineProfile const> profile_without_members() const;
     std::vector<ComponentEntry> components() const;
     EngineStatistics statistics() const;
 
@@ -225,8 +226,13 @@ private:
     FreshSecret fresh_secret_;
     BelongingsOf belongings_;
     EngineProfile profile_;
-    mutable std::shared_ptr<EngineProfile const>
-        shared_profile_;  // the copy that callers share; null until the first call of profile()
+    // The copies that callers share; null until the first call.
+    mutable std::shared_ptr<EngineProfile const> shared_profile_;
+    mutable std::shared_ptr<EngineProfile const> shared_profile_without_members_;
+    void forget_shared_profiles() {
+        shared_profile_.reset();
+        shared_profile_without_members_.reset();
+    }
     Agenda agenda_;
     Places own_places_;
     Places places_;  // the own ones, and those of all providers

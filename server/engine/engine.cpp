@@ -126,6 +126,7 @@ void Engine::Core::hold_unproven_motion(Instant now) {
     Attempts attempts;
     for (auto* component : registry_.moving()) {
         auto const* session = component->bound_to;
+        if (session != nullptr && session->owner != nullptr) continue;  // held with its logical component
         if (session == nullptr || (!component->works() && session->live_commands() == 0)) continue;
         session->notifications->want_signs_of_life(now.steady + signs_of_life_wanted);
         if (!component->works() || component->is_being_held) continue;

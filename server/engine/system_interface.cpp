@@ -161,7 +161,8 @@ Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
         if (session.is_engine) reply.components.back().traits = component->traits();
     }
     if (session.is_engine) reply.space = space();
-    reply.profile = selected.filter().restricts() ? profile_of_engine_with(profile(), reply.components) : profile();
+    auto const whole = selected.filter().names_units() ? profile() : profile_without_members();
+    reply.profile = selected.filter().restricts() ? profile_of_engine_with(whole, reply.components) : whole;
     return reply;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "main/configuration_file.hpp"
 #include "main/json_file.hpp"
@@ -15,7 +16,8 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view expected_key =
-    "expected \"logical\" (names of components), \"engines\" (names of sub engines) and, if wanted, \"areas\"";
+    "expected \"engines\" (names of sub engines), \"logical\" and \"sensing\" (names of components, at least one of the two) "
+    "and, if wanted, \"areas\"";
 
 bool is_list_of_names(json const& value) {
     auto const is_name = [](json const& each) { return each.is_string() && !each.get_ref<std::string const&>().empty(); };
@@ -39,18 +41,26 @@ choosing::Settings read(json const& section, std::vector<remote::SubEngine> cons
         bad(key, key + " must be " + expected + ", not " + rois::quoted(section[key].dump(), 100));
     };
     for (auto const& [key, value] : section.items())
-        if (key != "logical" && key != "engines" && key != "areas")
+        if (key != "logical" && key != "sensing" && key != "engines" && key != "areas")
             bad(key, rois::quoted(key) + " is not a key of \"choosing\": " + std::string{expected_key});
-    for (auto const* key : {"logical", "engines"}) {
-        if (!section.contains(key)) bad("", "\"choosing\" has no \"" + std::string{key} + "\": " + std::string{expected_key});
+    if (!section.contains("engines") || (!section.contains("logical") && !section.contains("sensing")))
+        bad("", "\"choosing\" is not complete: " + std::string{expected_key});
+    std::set<std::string> taken;
+    auto const names_of = [&](std::string const& key) {
         if (!is_list_of_names(section[key]))
             must_be(key, "a list of different names, none of them empty, such as [\"robot1\", \"robot2\"]");
+        return section[key].template get<std::vector<std::string>>();
+    };
+    for (auto [key, names] : {std::pair{"logical", &settings.logical}, std::pair{"sensing", &settings.sensing}}) {
+        if (!section.contains(key)) continue;
+        *names = names_of(key);
+        for (auto const& name : *names) {
+            if (name.find('.') != name.npos)
+                bad(key, rois::quoted(name) + " must be the name of a component without its engine, such as \"navigation\"");
+            if (!taken.insert(name).second) bad(key, rois::quoted(name) + " is in \"logical\" already");
+        }
     }
-    settings.logical = section["logical"].get<std::vector<std::string>>();
-    for (auto const& name : settings.logical)
-        if (name.find('.') != name.npos)
-            bad("logical", rois::quoted(name) + " must be the name of a component without its engine, such as \"navigation\"");
-    settings.engines = section["engines"].get<std::vector<std::string>>();
+    settings.engines = names_of("engines");
     for (auto const& name : settings.engines)
         if (std::ranges::find(engines, name.substr(0, name.find('.')), &remote::SubEngine::name) == engines.end())
             bad("engines", rois::quoted(name) + " is not a sub engine of this file, or one of its engines");

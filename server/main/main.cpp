@@ -267,6 +267,7 @@ int serve(CommandLine const& command) {
     user_components.keep();
     std::vector<EngineState> const none;
     choosing::Choosing choosing{choosing_settings, [](std::string const& line) { spdlog::warn("choosing: {}", line); }};
+    if (!choosing_settings.engines.empty()) engine.add(choosing.device(), choosing::Choosing::provider);
     std::optional<remote::RemoteEngines> remote_engines;
     net::Documents const documents{gateway,
                                    telemetry,

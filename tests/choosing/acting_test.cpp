@@ -31,6 +31,16 @@ TEST_F(TwoRobots, AreOneForThoseWhoDoNotAskForUnits) {
     EXPECT_EQ(desk.bind_any(equal("component_type", "urn:x-rois:def:component:OMG::Navigation")), "navigation");
 }
 
+TEST_F(TwoRobots, AreNotInTheProfileForThoseWhoDoNotAskForUnits) {
+    auto const whole = desk.ask(GetProfile{});
+    EXPECT_THAT(whole.profile->components, ElementsAre("navigation", "speech"));
+    EXPECT_THAT(whole.profile->sub_profiles, IsEmpty());
+    EXPECT_EQ(whole.components.size(), 2u);
+    auto const of_robot = desk.ask(GetProfile{equal("engine", "robot1")});
+    EXPECT_EQ(of_robot.profile->object.name, "robot1");
+    EXPECT_EQ(of_robot.components.size(), 2u);
+}
+
 TEST_F(TwoRobots, AreSeenByThoseWhoAskByRefOrEngine) {
     EXPECT_THAT(desk.search(equal("engine", "robot2")), ElementsAre("robot2.navigation", "robot2.speech"));
     EXPECT_THAT(desk.search(equal("component_ref", "robot1.speech")), ElementsAre("robot1.speech"));

@@ -19,9 +19,13 @@ class Team {
 public:
     // Each robot has a navigation and a speech.
     explicit Team(std::vector<std::string> const& robots, std::map<std::string, Area> areas = {}, EngineSettings engine = {})
-        : choosing{{.logical = {"navigation", "speech"}, .engines = robots, .areas = std::move(areas)},
+        : choosing{{.logical = {"navigation", "speech"},
+                    .sensing = {"localization", "detection"},
+                    .engines = robots,
+                    .areas = std::move(areas)},
                    [this](std::string const& line) { log.push_back(line); }},
           world{std::vector<Part>{}, engine} {
+        world.engine->Engine::add(choosing.device(), Choosing::provider);
         world.between = [this](ComponentChange change, World::Change const& perform) {
             choosing.change(std::move(change), perform);
         };

@@ -6,7 +6,7 @@ std::vector<Clause> all_clauses() {
     return {http_clause(),    websocket_clause(), notification_clause(), session_clause(),    profile_clause(),
             binding_clause(), parameter_clause(), execution_clause(),    completion_clause(), sequence_clause(),
             query_clause(),   event_clause(),     condition_clause(),    component_clause(),  stream_clause(),
-            motion_clause(),  action_clause(),    people_clause(),       system_clause()};
+            motion_clause(),  action_clause(),    people_clause(),       system_clause(),     choosing_clause()};
 }
 
 void require(bool holds, std::string const& message) {

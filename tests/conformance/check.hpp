@@ -64,6 +64,7 @@ Clause motion_clause();
 Clause action_clause();
 Clause people_clause();
 Clause system_clause();
+Clause choosing_clause();
 
 // A name that no gateway has: for unknown components, commands, queries, events and parameters.
 inline constexpr auto unknown_name = "conformance_unknown";

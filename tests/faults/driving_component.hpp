@@ -16,6 +16,7 @@ class DrivingComponent final : public LocalComponent {
 public:
     explicit DrivingComponent(std::string const& ref, Part const& like) {
         description_.ref = Application::identifier(ref);
+        description_.engine = like.engine;
         description_.profile = std::make_shared<ComponentProfile const>(like.profile);
         description_.moves = true;
         description_.provider = "stage";
@@ -27,9 +28,10 @@ public:
     bool confirms_late = false;
 
     // Reports of the component.
-    void arrive(Results results) {
+    void arrive(Results results) { end(CompletedStatus::ok, std::move(results)); }
+    void end(CompletedStatus status, Results results = {}) {
         drives = false;
-        port().completed(std::exchange(command_, {}), CompletedStatus::ok, std::move(results));
+        port().completed(std::exchange(command_, {}), status, std::move(results));
     }
     void pass(std::string const& target) {
         port().event("reached_target", {{text("target", target), value("is_final_target", "bool", {"false"})}, {}});

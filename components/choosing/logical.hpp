@@ -1,0 +1,96 @@
+// What all logical components have in common: they use their members in their own session of the engine (docs/choosing.md).
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "choosing/roster.hpp"
+#include "engine/component.hpp"
+
+namespace rois::choosing {
+
+Identifier identifier(std::string const& ref);
+// The answer's common part. Null: the operation was not performed.
+Outcome outcome_of(Reply const*);
+Execute execution(std::string const& ref, std::string const& type, ParameterList const& arguments, bool check_only = false);
+
+class Logical : public Component {
+public:
+    Logical(ComponentDescription, std::shared_ptr<Roster>);
+
+    ComponentDescription const& description() const final { return description_; }
+    void attach(ComponentPort&) override;
+    void session_began(Instant now) final;
+    void notified(Notification const&, Instant now) final;
+
+    void bind(Ticket, Binding const&, Instant now) final;
+    void released(Instant now) final;
+    void halt(Ticket, Instant now) final;
+    void suspend(Ticket, Instant now) override;
+    void resume(Ticket, Instant now) override;
+    void query(Ticket, std::string_view query_type, Instant now) final;
+
+protected:
+    // --- For the kinds of logical components ---
+
+    // Ends all commands without a report: the engine has ended them.
+    virtual void forget_commands(Instant now) = 0;
+    // The same with ABORT.
+    virtual void abort_commands(Instant now) = 0;
+    // The application has released the component, and its members are free.
+    virtual void is_free() {}
+    // An event of a member.
+    virtual void happened(ReceiveEvent const&, Member const&, Instant now) = 0;
+    // The state of a member has changed.
+    virtual void changed(Member&, Instant now) = 0;
+    // The member whose position, parameters and errors are shown, and that answers queries; null: none.
+    virtual Member const* shown() = 0;
+    // What changes the status from READY to WARNING.
+    virtual bool has_warning() const { return false; }
+
+    std::string const& name() const { return description_.ref.code; }
+    std::vector<Member*> members() const { return roster_->members_of(name()); }
+    Roster& roster() const { return *roster_; }
+    ComponentPort& port() const { return *port_; }
+    Binding const& binding() const { return binding_; }
+    void show();
+
+    // `then` is called later, as the engine calls the component.
+    using Answered = std::function<void(Outcome const&)>;
+    void ask(Operation, Answered then);
+    // Binds the member, unless it is bound.
+    void use(std::string const& ref, Answered then);
+    void give_back(std::string const& ref);
+
+    // Performs a command. `ended` follows `begun` with OK, once.
+    using Ended = std::function<void(Completed const&, Instant now)>;
+    void command(std::string const& ref, std::string const& type, ParameterList const& arguments, Answered begun, Ended ended);
+    // `then` is called with whether the member has confirmed that it stands still.
+    void stop(std::string const& ref, std::function<void(bool stands)> then);
+
+private:
+    void forget(Member&);
+    void pause(Ticket, std::string const& command_type);
+    void notified_of(Completed const&, Instant now);
+    void notified_of(ComponentChanged const&, Instant now);
+    void learn_space();
+    void subscribe_to(std::string const& ref);
+
+    ComponentDescription const description_;
+    std::shared_ptr<Roster> const roster_;
+    ComponentPort* port_ = nullptr;
+    Binding binding_{};
+    std::set<std::string> halting_;         // refs of the members that have not confirmed a halt
+    std::map<std::string, Ended> running_;  // commands of the own session, by id
+    std::set<std::string> subscribed_;      // refs of the members whose events are subscribed to
+    std::string shown_member_;              // ref; empty: none
+    std::optional<ComponentState> shown_;
+};
+
+}  // namespace rois::choosing

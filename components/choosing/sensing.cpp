@@ -1,0 +1,326 @@
+#include "choosing/sensing.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "engine/frames/space.hpp"
+#include "types/text/to_number.hpp"
+
+namespace rois::choosing {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double metre = 1'000;                             // mm
+constexpr std::chrono::milliseconds default_interval{250};  // of minimum_interval
+constexpr std::chrono::milliseconds longest_pause{1'250};   // between the lists of a unit whose persons move
+
+std::chrono::milliseconds interval_of(ParameterList const& parameters) {
+    auto const* given = find(parameters, "minimum_interval");
+    if (given == nullptr || given->values.empty()) return default_interval;
+    return std::chrono::milliseconds{to_number<std::int64_t>(given->values.front()).value_or(default_interval.count())};
+}
+
+std::string rounded(double millimetres) { return std::to_string(static_cast<std::int64_t>(std::lround(millimetres))); }
+
+// The first two rows and columns of a covariance, in square metres.
+std::optional<Matrix> covariance_of(Located const& located) {
+    auto const* given = std::get_if<Located::Covariance>(&located.certainty);
+    if (given == nullptr) return {};
+    auto const size = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(given->rows.size()))));
+    if (size < 2 || size * size != given->rows.size()) return {};
+    Matrix matrix;
+    matrix << given->rows[0], given->rows[1], given->rows[size], given->rows[size + 1];
+    return matrix / (metre * metre);
+}
+
+}  // namespace
+
+Sensing::Sensing(ComponentDescription description, std::shared_ptr<Roster> roster, std::shared_ptr<Sightings> sightings)
+    : Logical{std::move(description), std::move(roster)},
+      sightings_{std::move(sightings)},
+      events_{events_of(*Logical::description().profile)} {
+    sightings_->add(*this);
+}
+
+Sensing::~Sensing() {
+    end_sensing();
+    sightings_->remove(*this);
+}
+
+std::vector<Sensing::Event> Sensing::events_of(ComponentProfile const& profile) {
+    std::vector<Event> events;
+    for (auto const& message : profile.messages) {
+        if (message.kind != MessageKind::event) continue;
+        auto& event = events.emplace_back(Event{.type = message.name, .kind = message.name.substr(0, message.name.find('_'))});
+        bool const has_names = find_parameter(message.results, event.kind + "_ref") != nullptr;
+        if (has_names)
+            event.reports = find_parameter(message.results, "position_data") != nullptr ? Reports::positions : Reports::names;
+        else if (find_parameter(message.results, "number") != nullptr)
+            event.reports = Reports::number;
+    }
+    return events;
+}
+
+Sensing::Event const* Sensing::find(std::string_view type) const {
+    auto const found = std::ranges::find(events_, type, &Event::type);
+    return found == events_.end() ? nullptr : &*found;
+}
+
+// --- Commands ---
+
+void Sensing::prepare(Ticket ticket, std::string_view command_type, ParameterList const& parameters, Instant) {
+    if (command_type != "start" && command_type != "set_parameter")
+        return port().answered(ticket, Refused{"only one of its members could carry it out; use the member's ref"});
+    std::vector<std::string> refs;
+    for (auto const* member : members())
+        if (member->can_act()) refs.push_back(member->ref);
+    try_next(std::move(refs), std::string{command_type}, parameters, ticket,
+             {ReturnCode::error, "none of its members is free and READY"});
+}
+
+// The command is possible if one member accepts it.
+void Sensing::try_next(std::vector<std::string> refs, std::string type, ParameterList parameters, Ticket ticket,
+                       Outcome why_not) {
+    if (refs.empty()) {
+        if (why_not.return_code == ReturnCode::bad_parameter) return port().answered(ticket, Refused{why_not.reason});
+        return port().answered(ticket, Failed{why_not.reason});
+    }
+    auto const ref = refs.front();
+    refs.erase(refs.begin());
+    auto const judge = [this, ref, refs, type, parameters, ticket](Outcome const& outcome) {
+        if (!started_.contains(ref) && roster().find(ref)->is_bound) give_back(ref);
+        if (outcome.return_code != ReturnCode::ok)
+            return try_next(refs, type, parameters, ticket, {outcome.return_code, ref + ": " + outcome.reason});
+        port().answered(ticket, [this, type, parameters](CommandHandle command, Instant) { begin(type, parameters, command); });
+    };
+    use(ref, [this, ref, type, parameters, judge](Outcome const& bound) {
+        if (bound.return_code != ReturnCode::ok) return judge(bound);
+        ask(execution(ref, type, parameters, true), judge);
+    });
+}
+
+void Sensing::begin(std::string const& command_type, ParameterList const& parameters, CommandHandle command) {
+    if (command_type == "set_parameter") return change_parameters(parameters, command);
+    is_active_ = true;
+    parameters_ = parameters;
+    for (auto const& event : events_)
+        if (event.reports == Reports::positions) sightings_->begin(event.kind);
+    auto const first = std::make_shared<CommandHandle>(command);
+    std::vector<std::string> refs;
+    for (auto const* member : members())
+        if (member->can_act()) refs.push_back(member->ref);
+    if (refs.empty()) return complete(first, {ReturnCode::error, "none of its members is free and READY"});
+    for (auto const& ref : refs) start(ref, first);
+}
+
+// `for_command`: the application's `start`, which completes with the first member that begins. Null: it has completed.
+void Sensing::start(std::string const& ref, std::shared_ptr<CommandHandle> for_command) {
+    started_.insert(ref);
+    auto const failed = [this, ref, for_command](Outcome const& why) {
+        started_.erase(ref);
+        if (!is_active_) return;
+        if (roster().find(ref)->is_bound) give_back(ref);
+        if (started_.empty()) complete(for_command, {why.return_code, ref + ": " + why.reason});
+    };
+    use(ref, [this, ref, for_command, failed](Outcome const& bound) {
+        if (!is_active_) return;
+        if (bound.return_code != ReturnCode::ok) return failed(bound);
+        auto const begun = [failed](Outcome const& outcome) {
+            if (outcome.return_code != ReturnCode::ok) failed(outcome);
+        };
+        command(ref, "start", parameters_, begun, [this, for_command, failed](Completed const& completed, Instant) {
+            if (completed.status != CompletedStatus::ok) return failed({ReturnCode::error, completed.reason});
+            complete(for_command, {});
+        });
+    });
+}
+
+void Sensing::complete(std::shared_ptr<CommandHandle> const& command, Outcome const& outcome) {
+    if (command == nullptr || *command == CommandHandle{} || !is_active_) return;
+    bool const is_good = outcome.return_code == ReturnCode::ok;
+    port().completed(std::exchange(*command, {}), is_good ? CompletedStatus::ok : CompletedStatus::error, {},
+                     is_good ? Afterwards::active : Afterwards::idle, outcome.reason);
+    if (!is_good) end_sensing();
+}
+
+void Sensing::change_parameters(ParameterList const& parameters, CommandHandle changed) {
+    parameters_ = parameters;
+    auto const left = std::make_shared<std::size_t>(started_.size() + 1);
+    auto const one_less = [this, left, changed] {
+        if (--*left == 0) port().completed(changed, CompletedStatus::ok);
+    };
+    for (auto const& ref : started_)
+        command(
+            ref, "set_parameter", parameters,
+            [one_less](Outcome const& outcome) {
+                if (outcome.return_code != ReturnCode::ok) one_less();
+            },
+            [one_less](Completed const&, Instant) { one_less(); });
+    one_less();
+}
+
+void Sensing::forget_commands(Instant) { end_sensing(); }
+
+void Sensing::end_sensing() {
+    if (std::exchange(is_active_, false))
+        for (auto const& event : events_)
+            if (event.reports == Reports::positions) sightings_->end(event.kind);
+    started_.clear();
+    counts_.clear();
+    reported_number_.reset();
+    misplaced_.clear();
+}
+
+// --- What the members sense ---
+
+void Sensing::changed(Member& member, Instant now) {
+    if (!is_active_) return;
+    if (member.can_act()) {
+        if (!started_.contains(member.ref)) start(member.ref, nullptr);
+        return;
+    }
+    if (started_.erase(member.ref) == 0) return;
+    counts_.erase(member.ref);
+    for (auto const& event : events_)
+        if (auto* fusion = event.reports == Reports::positions ? sightings_->of(event.kind) : nullptr)
+            fusion->lost(member.engine, now.steady);
+}
+
+Member const* Sensing::shown() {
+    auto const all = members();
+    auto const found =
+        std::ranges::find_if(all, [&](auto const* each) { return is_active_ ? started_.contains(each->ref) : each->can_act(); });
+    return found == all.end() ? nullptr : *found;
+}
+
+void Sensing::happened(ReceiveEvent const& event, Member const& member, Instant now) {
+    auto const* known = find(event.event_type);
+    if (is_active_ && known != nullptr && started_.contains(member.ref)) take(*known, event, member, now);
+}
+
+void Sensing::take(Event const& event, ReceiveEvent const& received, Member const& member, Instant now) {
+    auto const* number = rois::find(received.results->parameters, "number");
+    switch (event.reports) {
+        case Reports::positions:
+            return take_positions(event, received, member, now);
+        case Reports::names:
+            return report_names(event, received, member);
+        case Reports::number:
+            counts_[member.ref] = to_number<int>(number->values.front()).value_or(0);
+            return report_number(event, 0, now);
+        case Reports::other:
+            return port().event(event.type, *received.results);
+    }
+}
+
+void Sensing::take_positions(Event const& event, ReceiveEvent const& received, Member const& member, Instant now) {
+    auto const& results = *received.results;
+    auto const* names = rois::find(results.parameters, event.kind + "_ref");
+    auto const* positions = rois::find(results.parameters, "position_data");
+    auto* fusion = sightings_->of(event.kind);
+    if (names == nullptr || positions == nullptr || fusion == nullptr) return;
+    sightings_->note_codebook(member.engine, names->data_type_ref.codebook_ref);
+    std::vector<Sighting> sightings;
+    for (std::size_t i = 0; i < names->values.size() && i < positions->values.size(); ++i) {
+        auto const at = point(positions->values[i], {});
+        if (!at) continue;
+        auto& sighting = sightings.emplace_back(Sighting{names->values[i], Vector{at->low[0], at->low[1]} / metre});
+        auto const located = std::ranges::find_if(
+            results.located, [&](Located const& each) { return each.of == "position_data" && each.ref == sighting.name; });
+        if (located == results.located.end()) continue;
+        sighting.z = located->position[2] / metre;
+        sighting.covariance = covariance_of(*located);
+    }
+    fusion->configure(member.engine, {.period = interval_of(parameters_) + longest_pause});
+    fusion->sensed(member.engine, now.steady, sightings);
+    is_changed_ = true;
+    time_passed(now);
+}
+
+void Sensing::time_passed(Instant now) {
+    if (!is_active_) return;
+    for (auto const& event : events_) {
+        auto* fusion = event.reports == Reports::positions ? sightings_->of(event.kind) : nullptr;
+        if (fusion == nullptr) continue;
+        report_misplaced(event);
+        if (!fusion->take_changes().empty()) is_changed_ = true;
+        if (!is_changed_ || now.steady < reported_at_ + interval_of(parameters_)) continue;
+        is_changed_ = false;
+        reported_at_ = now.steady;
+        report_positions(event, now);
+    }
+    for (auto const& event : events_)
+        if (event.reports == Reports::number && reported_number_ && sightings_->of(event.kind) != nullptr)
+            report_number(event, 0, now);
+}
+
+void Sensing::report_positions(Event const& event, Instant now) {
+    Results results;
+    std::vector<std::string> names, points;
+    auto const& frame = roster().frame();
+    for (auto const& person : sightings_->of(event.kind)->persons(now.steady)) {
+        if (person.sensed_by.empty()) continue;
+        auto const position = person.position * metre;
+        names.push_back(person.name);
+        points.push_back(rounded(position.x()) + ", " + rounded(position.y()));
+        Matrix const covariance = person.covariance * (metre * metre);
+        results.located.push_back(
+            {.of = "position_data",
+             .ref = person.name,
+             .crs = frame,
+             .position = {position.x(), position.y(), person.z * metre},
+             .orientation = {},
+             .certainty = Located::Covariance{{covariance(0, 0), covariance(0, 1), covariance(1, 0), covariance(1, 1)}}});
+    }
+    results.parameters = {date_time("timestamp", now.utc),
+                          references(event.kind + "_ref", std::move(names), std::string{fused_codebook}),
+                          positions("position_data", std::move(points), frame)};
+    port().event(event.type, std::move(results));
+}
+
+// The names are those of the fusion. A person whom it does not know yet has the name of the unit, with that of its engine: other
+// units may use the same name for another person.
+void Sensing::report_names(Event const& event, ReceiveEvent const& received, Member const& member) {
+    auto results = *received.results;
+    auto const* fusion = sightings_->of(event.kind);
+    for (auto& parameter : results.parameters) {
+        if (parameter.name != event.kind + "_ref") continue;
+        parameter.data_type_ref.codebook_ref = fused_codebook;
+        for (auto& name : parameter.values) {
+            auto const fused = fusion == nullptr ? std::nullopt : fusion->own_name(member.engine, name);
+            name = fused ? *fused : member.engine + "." + name;
+        }
+    }
+    port().event(event.type, std::move(results));
+}
+
+// The number of persons in the list of their positions, if there is one; otherwise the greatest number that one unit reports.
+void Sensing::report_number(Event const& event, std::size_t number, Instant now) {
+    if (auto const* fusion = sightings_->of(event.kind)) {
+        for (auto const& person : fusion->persons(now.steady))
+            if (!person.sensed_by.empty()) ++number;
+    } else {
+        for (auto const& [ref, count] : counts_) number = std::max(number, static_cast<std::size_t>(std::max(count, 0)));
+    }
+    if (reported_number_ == number) return;
+    reported_number_ = number;
+    port().event(event.type, {{date_time("timestamp", now.utc), integer("number", static_cast<std::int64_t>(number))}, {}});
+}
+
+// A unit that is placed wrongly is reported once, and is a reason for the status WARNING while it seems so.
+void Sensing::report_misplaced(Event const& event) {
+    std::set<std::string> engines;
+    for (auto const& each : sightings_->of(event.kind)->misplaced()) {
+        engines.insert(each.unit);
+        if (!misplaced_.contains(each.unit)) port().error(ErrorType::user_defined_error, each.text);
+    }
+    if (engines == misplaced_) return;
+    misplaced_ = std::move(engines);
+    show();
+}
+
+}  // namespace rois::choosing

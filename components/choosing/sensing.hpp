@@ -1,0 +1,77 @@
+// A logical component that senses by all its members, and reports what they sense as one (docs/choosing.md).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "choosing/logical.hpp"
+#include "choosing/sightings.hpp"
+
+namespace rois::choosing {
+
+// While it is active, each member that is free is bound and started, also one that comes or recovers later.
+class Sensing final : public Logical, private Observer {
+public:
+    Sensing(ComponentDescription, std::shared_ptr<Roster>, std::shared_ptr<Sightings>);
+    ~Sensing() override;
+    Sensing(Sensing const&) = delete;
+    Sensing& operator=(Sensing const&) = delete;
+
+    void prepare(Ticket, std::string_view command_type, ParameterList const& parameters, Instant now) override;
+
+private:
+    // What an event reports, by the results in its profile.
+    enum class Reports : std::uint8_t {
+        positions,  // `person_ref` and `position_data`: all persons whom the unit senses
+        names,      // `person_ref`
+        number,     // `number`
+        other
+    };
+    struct Event {
+        std::string type;
+        Reports reports = Reports::other;
+        std::string kind{};  // "person", "face", "sound": the part of the event's name before the first '_'
+    };
+    static std::vector<Event> events_of(ComponentProfile const&);
+    Event const* find(std::string_view type) const;
+
+    void begin(std::string const& command_type, ParameterList const&, CommandHandle);
+    void try_next(std::vector<std::string> refs, std::string type, ParameterList parameters, Ticket, Outcome why_not);
+    void start_free_members();
+    void start(std::string const& ref, std::shared_ptr<CommandHandle> for_command);
+    void complete(std::shared_ptr<CommandHandle> const&, Outcome const&);
+    void change_parameters(ParameterList const&, CommandHandle);
+    void end_sensing();
+
+    void take(Event const&, ReceiveEvent const&, Member const&, Instant now);
+    void take_positions(Event const&, ReceiveEvent const&, Member const&, Instant now);
+    void report_positions(Event const&, Instant now);
+    void report_names(Event const&, ReceiveEvent const&, Member const&);
+    void report_number(Event const&, std::size_t number, Instant now);
+    void report_misplaced(Event const&);
+
+    void forget_commands(Instant now) override;
+    void abort_commands(Instant now) override { forget_commands(now); }
+    void happened(ReceiveEvent const&, Member const&, Instant now) override;
+    void changed(Member&, Instant now) override;
+    Member const* shown() override;
+    bool has_warning() const override { return !misplaced_.empty(); }
+    void time_passed(Instant now) override;
+
+    std::shared_ptr<Sightings> const sightings_;
+    std::vector<Event> const events_;
+    bool is_active_ = false;
+    ParameterList parameters_;           // of `start`
+    std::set<std::string> started_;      // refs of the members that sense, or have been told to
+    std::map<std::string, int> counts_;  // the last number of each member, by ref
+    std::optional<std::size_t> reported_number_;
+    bool is_changed_ = false;  // there are positions that were not reported
+    Steady reported_at_{};
+    std::set<std::string> misplaced_;  // engines
+};
+
+}  // namespace rois::choosing

@@ -1,0 +1,48 @@
+#include "choosing/sightings.hpp"
+
+namespace rois::choosing {
+
+namespace {
+
+constexpr double metre = 1'000;  // mm
+
+}  // namespace
+
+void Sightings::advance(Instant now) {
+    now_ = now.steady;
+    for (auto& [name, kind] : kinds_) kind.fusion.advance(now_);
+    for (auto* observer : observers_) observer->time_passed(now);
+}
+
+void Sightings::begin(std::string const& kind) {
+    auto const place = kinds_.try_emplace(kind, Kind{Fusion{{.prefix = kind + "-"}}}).first;
+    ++place->second.used;
+}
+
+void Sightings::end(std::string const& kind) {
+    auto const found = kinds_.find(kind);
+    if (found != kinds_.end()) --found->second.used;
+}
+
+Fusion* Sightings::of(std::string_view kind) {
+    auto const found = kinds_.find(kind);
+    return found == kinds_.end() || found->second.used == 0 ? nullptr : &found->second.fusion;
+}
+
+std::optional<Identifier> Sightings::translated(std::string const& name, std::string const& unit) const {
+    for (auto const& [kind, state] : kinds_)
+        if (auto own = state.fusion.unit_name(name, unit)) {
+            auto const codebook = codebooks_.find(unit);
+            return Identifier{.code = std::move(*own), .codebook_ref = codebook == codebooks_.end() ? "" : codebook->second};
+        }
+    return {};
+}
+
+std::optional<std::array<double, 2>> Sightings::position_of(std::string_view name) const {
+    for (auto const& [kind, state] : kinds_)
+        for (auto const& person : state.fusion.persons(now_))
+            if (person.name == name) return std::array{person.position.x() * metre, person.position.y() * metre};
+    return {};
+}
+
+}  // namespace rois::choosing
