@@ -113,19 +113,28 @@ Reply Engine::Core::perform(Session& session, Resume const& resume, Instant) {
                                                                  ", not " + std::to_string(resume.last_sequence));
 }
 
-// A session that asks again sees how far the stop is.
+// Sessions share a stop: it ends when all of them have cleared it. A stop by anyone else cannot be shared: `last_stop` is then
+// the complement of its number. A session that asks again sees how far the stop is.
 Reply Engine::Core::perform(Session& session, StopEverything const&, Instant now) {
     bool const was_stopped = everything_is_stopped_;
-    if (!was_stopped || session.last_stop != last_stop_) stop_everything(now);
-    session.last_stop = last_stop_;
+    auto const number = last_stop_;
     StopEverything::Reply reply;
-    if (!was_stopped) reply.stop = last_stop_;
+    if (!was_stopped || (session.last_stop != number && session.last_stop != ~number)) {
+        auto const has_asked = [&](auto const& each) { return each.second->last_stop == number; };
+        bool const may_clear = !was_stopped || std::ranges::any_of(sessions_, has_asked);
+        stop_everything(now);
+        if (was_stopped) last_stop_ = number;
+        session.last_stop = may_clear ? last_stop_ : ~last_stop_;
+        if (may_clear) reply.stop = last_stop_;
+    }
     reply.not_halted = not_halted();
     return reply;
 }
 
-Reply Engine::Core::perform(Session&, ClearStop const& asked, Instant) {
-    if (asked.stop == last_stop_) clear();
+Reply Engine::Core::perform(Session& session, ClearStop const& asked, Instant) {
+    if (asked.stop != last_stop_) return ClearStop::Reply{};
+    session.last_stop = 0;
+    if (std::ranges::none_of(sessions_, [&](auto const& each) { return each.second->last_stop == last_stop_; })) clear();
     return ClearStop::Reply{};
 }
 

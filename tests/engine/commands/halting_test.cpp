@@ -319,10 +319,22 @@ TEST_F(Halting, OfEverythingIsAnOperationToo) {
     EXPECT_FALSE(world.engine->everything_is_stopped());
 }
 
-TEST_F(Halting, OfEverythingByTwoSessionsIsClearedByNeither) {
+TEST_F(Halting, OfEverythingByTwoSessionsEndsWhenBothHaveClearedIt) {
     auto hall = world.connect();
     auto const first = desk.ask(StopEverything{});
+    auto const second = hall.ask(StopEverything{});
+    desk.ask(ClearStop{first.stop.value()});
+    EXPECT_TRUE(world.engine->everything_is_stopped());
+    hall.ask(ClearStop{second.stop.value()});
+    EXPECT_FALSE(world.engine->everything_is_stopped());
+}
+
+TEST_F(Halting, OfEverythingByTheOperatorIsClearedByNoSession) {
+    auto hall = world.connect();
+    auto const first = desk.ask(StopEverything{});
+    world.engine->stop_everything(world.now);
     EXPECT_FALSE(hall.ask(StopEverything{}).stop);
+    EXPECT_FALSE(desk.ask(StopEverything{}).stop);
     desk.ask(ClearStop{first.stop.value()});
     EXPECT_TRUE(world.engine->everything_is_stopped());
 }
