@@ -101,7 +101,7 @@ void RemoteEngine::take_profile(GetProfile::Reply const& reply) {
             throw std::runtime_error("get_profile failed: " + reply.reason);
         std::vector<std::string> instances;
         collect(*reply.profile, 1, {}, instances);
-        if (auto const why = host_->why_loop(settings_.name, instances)) throw std::runtime_error(*why);
+        if (auto const why = host_->why_loop(settings_, instances)) throw std::runtime_error(*why);
         enter(reply);
     } catch (std::exception const& problem) {
         leave(problem.what());
@@ -123,8 +123,10 @@ void RemoteEngine::note_missing() {
     std::vector<std::string> missing;
     for (auto const& ref : settings_.components)
         if (!record_of(ref)) missing.push_back(ref);
+    bool const has_engine = settings_.engine.empty() || !records_.empty();
+    if (!has_engine) missing = {settings_.engine};
     if (std::exchange(missing_, missing) == missing || missing.empty()) return;
-    note("it lacks " + listed(missing) + ", which the engines file names in \"components\"");
+    note("it lacks " + listed(missing) + ", which the engines file names in \"" + (has_engine ? "components" : "engine") + "\"");
 }
 
 // Components whose profile has changed leave, and come again.
@@ -132,7 +134,9 @@ void RemoteEngine::enter(GetProfile::Reply const& reply) {
     auto const& profile = *reply.profile;
     auto const* crs = find_parameter(profile.parameters, "crs");
     auto const frame = crs == nullptr ? std::string{} : crs->default_value.value_or("");
-    Translation const translation{settings_.name, profile.object.name, frame, !settings_.placement, reply.space};
+    Translation const translation{settings_.name, profile.object.name,
+                                  frame,          !settings_.placement,
+                                  reply.space,    {.there = settings_.engine, .here = host_->own_name()}};
     ComponentChange change{.going = {}, .coming = {}, .belongings = {}, .provider = settings_.name};
     if (settings_.placement && !frame.empty()) {
         auto const& [position, orientation, covariance] = *settings_.placement;
@@ -144,13 +148,14 @@ void RemoteEngine::enter(GetProfile::Reply const& reply) {
     }
     std::vector<std::string> left_out, refused;
     change.belongings.space = translation.to_here(reply.space, left_out);
-    add_engines(profile, translation, change.belongings.engines);
+    if (settings_.engine.empty()) add_engines(profile, translation, change.belongings.engines);
     Records records;
-    auto const is_taken = [&](std::string const& ref) {
-        return settings_.components.empty() || std::ranges::find(settings_.components, ref) != settings_.components.end();
+    auto const is_taken = [&](ComponentEntry const& entry) {
+        if (!settings_.engine.empty() && entry.engine != settings_.engine) return false;
+        return settings_.components.empty() || std::ranges::find(settings_.components, entry.ref) != settings_.components.end();
     };
     for (auto const& entry : reply.components) {
-        if (!is_taken(entry.ref)) continue;
+        if (!is_taken(entry)) continue;
         check(entry, settings_.name);
         if (records.size() >= settings_.most_components)
             throw std::runtime_error("it has more than " + std::to_string(settings_.most_components) + " components");
@@ -262,7 +267,7 @@ void RemoteEngine::operator()(ReceiveError const& error) {
     auto const text = error.text.value_or("an error without a text");
     auto const record = error.component_ref ? record_of(error.component_ref->code) : nullptr;
     if (record) return record->report(ErrorOccurred{error.error_type, text});
-    note(text);
+    if (!error.component_ref) note(text);  // else it is of a component that is not used here
 }
 
 void RemoteEngine::operator()(ComponentChanged const& changed) {

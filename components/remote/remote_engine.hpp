@@ -29,6 +29,8 @@ public:
     virtual ~RemoteEngineHost() = default;
 
     virtual Steady now() const = 0;
+    // The name of this engine.
+    virtual std::string const& own_name() const = 0;
     // Calls `ring` once, at this time or soon afterwards.
     virtual void at(Steady, std::function<void()> ring) = 0;
     // Thread-safe: calls the function on the thread of the links.
@@ -39,8 +41,9 @@ public:
     // left out.
     virtual std::vector<std::string> change(ComponentChange) = 0;
     // Returns the reason if one of these instances is this engine, or belongs to another sub engine. Otherwise assigns them to
-    // this sub engine, instead of its earlier ones, and returns nothing.
-    virtual std::optional<std::string> why_loop(std::string const& sub_engine, std::vector<std::string> const& instances) = 0;
+    // this sub engine, instead of its earlier ones, and returns nothing. Instances of an entry with `engine` belong to no sub
+    // engine: several entries may use the same gateway.
+    virtual std::optional<std::string> why_loop(SubEngine const&, std::vector<std::string> const& instances) = 0;
     // Returns whether this engine's clock runs. If not, the sub engine receives no signs of life, and its robot stops.
     virtual bool is_alive() const = 0;
     // A line of the log about the sub engine.

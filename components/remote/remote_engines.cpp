@@ -105,6 +105,7 @@ public:
 
 private:
     Steady now() const override { return std::chrono::steady_clock::now(); }
+    std::string const& own_name() const override { return host_.name; }
     void at(Steady when, std::function<void()> ring) override { loop_.at(when, std::move(ring)); }
 
     std::shared_ptr<client::Link> link(SubEngine const& to, client::Link::Listener& listener) override {
@@ -126,14 +127,15 @@ private:
     }
     bool is_alive() const override { return pulse_->beats(now()); }
 
-    std::optional<std::string> why_loop(std::string const& sub_engine, std::vector<std::string> const& instances) override {
+    std::optional<std::string> why_loop(SubEngine const& sub_engine, std::vector<std::string> const& instances) override {
+        bool const is_engine_here = sub_engine.engine.empty();
         for (auto const& instance : instances) {
             if (instance == host_.instance) return "it has this engine as a sub engine: that would be a loop";
             for (auto const& [other, known] : instances_)
-                if (other != sub_engine && std::ranges::find(known, instance) != known.end())
+                if (is_engine_here && other != sub_engine.name && std::ranges::find(known, instance) != known.end())
                     return "the sub engine " + quoted(other) + " is the same engine, or has it";
         }
-        instances_[sub_engine] = instances;
+        instances_[sub_engine.name] = is_engine_here ? instances : std::vector<std::string>{};
         return {};
     }
 

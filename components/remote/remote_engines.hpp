@@ -22,6 +22,7 @@ public:
     // `change` is Engine::change, and may throw. It is called on the thread of the links. `report` receives lines
     // for the log about another engine or a program, on that thread and the one of the programs.
     struct Host {
+        std::string name;      // of this engine
         std::string instance;  // of this engine
         std::shared_ptr<xml::Schemas const> schemas;
         std::function<std::vector<std::string>(ComponentChange)> change;

@@ -340,7 +340,7 @@ void RemoteEngine::leave(std::string const& reason) {
         if (is_present_ || !records_.empty()) host_->change(std::move(change));
         records_.clear();
         is_present_ = false;
-        host_->why_loop(settings_.name, {});
+        host_->why_loop(settings_, {});
         show();
     } catch (std::exception const& problem) {
         note(problem.what());

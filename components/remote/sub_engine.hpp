@@ -28,6 +28,9 @@ struct SubEngine {
     std::vector<std::string> command;     // the program that joins, with its arguments; empty: this gateway starts none
     std::string folder;                   // in which the program runs
     std::vector<std::string> components;  // refs, in the sub engine, of the components to use; empty: all
+    // Name, in the sub engine, of the only engine to use. Its components belong to this engine itself. Empty: all engines are
+    // used, as sub engines of this engine.
+    std::string engine{};
     // Without a placement, positions are passed on unchanged, and the frame keeps its name.
     std::optional<Placement> placement{};
 

@@ -36,8 +36,13 @@ void change(std::string& crs, std::string const& own, std::string const& own_cha
 
 }  // namespace
 
-Translation::Translation(std::string name, std::string own_name, std::string crs, bool keeps_frame, Space const& space)
-    : name_{std::move(name)}, own_name_{std::move(own_name)}, crs_there_{std::move(crs)}, crs_here_{crs_there_} {
+Translation::Translation(std::string name, std::string own_name, std::string crs, bool keeps_frame, Space const& space,
+                         Merged merged)
+    : name_{std::move(name)},
+      own_name_{std::move(own_name)},
+      merged_{std::move(merged)},
+      crs_there_{std::move(crs)},
+      crs_here_{crs_there_} {
     if (!keeps_frame) crs_here_ = prefixed(crs_there_);
     for (auto const& frame : space.frames) {
         auto here = prefixed(frame.crs);
@@ -53,7 +58,13 @@ std::string Translation::prefixed(std::string const& crs) const {
     return here.insert(last == std::string::npos ? 0 : last + 1, name_ + ".");
 }
 
+std::string Translation::component_here(std::string_view ref) const {
+    if (!merged_.there.empty()) return std::string{ref.substr(ref.rfind('.') + 1)};  // npos + 1 is 0
+    return name_ + "." + std::string{ref};
+}
+
 std::string Translation::engine_here(std::string_view engine) const {
+    if (!merged_.there.empty() && engine == merged_.there) return merged_.here;
     return engine == own_name_ ? name_ : name_ + "." + std::string{engine};
 }
 

@@ -13,16 +13,23 @@ namespace rois::remote {
 
 class Translation {
 public:
+    // An engine of the sub engine whose components belong to this engine itself (SubEngine::engine): its name there, and the name
+    // of this engine. "robot1.navigation" there is "navigation" here. Empty: there is none.
+    struct Merged {
+        std::string there;
+        std::string here;
+    };
+
     Translation() = default;
     // `name`: the sub engine's name here. `own_name`, `crs` and `space`: its name there, its frame, and its other frames and
     // places. `keeps_frame`: its own frame has the same name here.
-    Translation(std::string name, std::string own_name, std::string crs, bool keeps_frame, Space const& space);
+    Translation(std::string name, std::string own_name, std::string crs, bool keeps_frame, Space const& space, Merged = {});
 
     std::string const& name() const { return name_; }
     // The frame of the sub engine, here. "urn:x-rois:def:crs:map::hall" is "urn:x-rois:def:crs:map::robot1.hall".
     std::string const& frame_here() const { return crs_here_; }
 
-    std::string component_here(std::string_view ref) const { return name_ + "." + std::string{ref}; }
+    std::string component_here(std::string_view ref) const;
     // The name of an engine in the profile of the sub engine.
     std::string engine_here(std::string_view engine) const;
 
@@ -49,6 +56,7 @@ private:
 
     std::string name_;
     std::string own_name_;
+    Merged merged_;
     std::string crs_there_;
     std::string crs_here_;
     Names frames_here_;                          // of the other frames, by their names there

@@ -61,6 +61,11 @@ std::vector<std::string> refs_of(json const& value) {
     throw Expected{R"(a list of different refs of components, none of them empty, such as ["navigation", "speech"])"};
 }
 
+std::string engine_of(json const& value) {
+    if (value.is_string() && !value.get_ref<std::string const&>().empty()) return value.get<std::string>();
+    throw Expected{"the name of an engine of the sub engine, such as \"robot1\""};
+}
+
 std::vector<std::string> command_of(json const& value) {
     auto const is_word = [](json const& each) { return each.is_string() && !each.get_ref<std::string const&>().empty(); };
     if (value.is_array() && !value.empty() && std::ranges::all_of(value, is_word)) return value.get<std::vector<std::string>>();
@@ -131,6 +136,7 @@ std::vector<Property> const& properties() {
         {"joins", [](SubEngine& engine, json const& value) { engine.joins = name_of(value); }},
         {"command", [](SubEngine& engine, json const& value) { engine.command = command_of(value); }},
         {"components", [](SubEngine& engine, json const& value) { engine.components = refs_of(value); }},
+        {"engine", [](SubEngine& engine, json const& value) { engine.engine = engine_of(value); }},
         {"position",
          [](SubEngine& engine, json const& value) { placement(engine).position = triple_of(value, "[x, y, z] in mm"); }},
         {"orientation",

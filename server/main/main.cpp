@@ -278,6 +278,7 @@ int serve(CommandLine const& command) {
                                     .engines = [&] { return remote_engines ? remote_engines->states() : none; }}};
     if (!settings.engines.empty() || !settings.join.empty()) {
         remote_engines.emplace(remote::RemoteEngines::Host{
+            .name = settings.engine_name,
             .instance = instance,
             .schemas = schemas,
             .change =

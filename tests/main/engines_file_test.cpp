@@ -38,7 +38,7 @@ TEST(EnginesFile, ListsSubEngines) {
     auto const engines = read(R"(// with comments
 {"engines": [
     {"name": "hall", "url": "ws://hall:8080"},
-    {"name": "robot-1", "url": "https://robot", "components": ["navigation"], "window": 1.5, "resume_window": 60,
+    {"name": "robot-1", "url": "https://robot", "components": ["navigation"], "engine": "hall.robot1", "window": 1.5, "resume_window": 60,
      "motion_lease": 1.5, "most_components": 20, "longest_document": 200000, "position": [1, 2, 3], "orientation": [0, 0, 90],
      "covariance": [4, 0, 0, 0, 4, 0, 0, 0, 1]}
 ]})");
@@ -47,6 +47,8 @@ TEST(EnginesFile, ListsSubEngines) {
     EXPECT_EQ(engines[0].window, 3s);
     EXPECT_FALSE(engines[0].placement);
     EXPECT_THAT(engines[1].components, ElementsAre("navigation"));
+    EXPECT_EQ(engines[0].engine, "");
+    EXPECT_EQ(engines[1].engine, "hall.robot1");
     EXPECT_EQ(engines[1].window, 1500ms);
     EXPECT_EQ(engines[1].resume_window, 60s);
     EXPECT_EQ(engines[1].motion_lease, 1500ms);
@@ -89,7 +91,7 @@ TEST(EnginesFile, NamesThePlaceOfEachMistake) {
     EXPECT_EQ(
         with(R"("colour": 1)"),
         "4:2: sub engine 'b': 'colour' is not a key of a sub engine: expected one of name, url, joins, command, components, "
-        "position, orientation, covariance, window, resume_window, motion_lease, most_components, longest_document");
+        "engine, position, orientation, covariance, window, resume_window, motion_lease, most_components, longest_document");
     EXPECT_EQ(
         with(R"("command": "lamp")"),
         R"(4:2: sub engine 'b': command must be a program and its arguments, such as ["python3", "lamp.py"], not '"lamp"')");
@@ -107,6 +109,10 @@ TEST(EnginesFile, NamesThePlaceOfEachMistake) {
     EXPECT_EQ(
         with(R"("components": [])"),
         R"(4:2: sub engine 'b': components must be a list of different refs of components, none of them empty, such as ["navigation", "speech"], not '[]')");
+    EXPECT_EQ(with(R"("engine": "")"),
+              R"(4:2: sub engine 'b': engine must be the name of an engine of the sub engine, such as "robot1", not '""')");
+    EXPECT_EQ(with(R"("engine": 1)"),
+              R"(4:2: sub engine 'b': engine must be the name of an engine of the sub engine, such as "robot1", not '1')");
     EXPECT_EQ(with(R"("position": [1, 2])"), "4:2: sub engine 'b': position must be [x, y, z] in mm, not '[1,2]'");
     EXPECT_EQ(with(R"("most_components": 0)"),
               "4:2: sub engine 'b': most_components must be a whole number from 1 to 100000, not '0'");

@@ -149,7 +149,8 @@ public:
     std::vector<std::string> change(ComponentChange change) override {
         return engines_.main.engine->change(std::move(change), engines_.main.now);
     }
-    std::optional<std::string> why_loop(std::string const&, std::vector<std::string> const& instances) override {
+    std::string const& own_name() const override { return name_; }
+    std::optional<std::string> why_loop(remote::SubEngine const&, std::vector<std::string> const& instances) override {
         if (std::ranges::find(instances, engines_.instance_of_main) == instances.end()) return {};
         return "that would be a loop";
     }
@@ -177,6 +178,7 @@ public:
 
 private:
     TwoEngines& engines_;
+    std::string const name_ = "main";
     std::deque<std::function<void()>> posted_;
     std::multimap<Steady, std::function<void()>> alarms_;
 };

@@ -76,7 +76,8 @@ bool serve(std::string const& url, std::string const& name, Make const& make) {
     Gateway gateway{engine, readers, telemetry};
     net::Documents const documents{gateway, telemetry, *schemas(), {}};
     remote::RemoteEngines engines{
-        {.instance = instance,
+        {.name = name,
+         .instance = instance,
          .schemas = schemas(),
          .change = [](ComponentChange const&) { return std::vector<std::string>{}; },
          .report = [](std::string const& whose, std::string const& what) { spdlog::info("{}: {}", whose, what); }}};
