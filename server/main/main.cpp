@@ -158,7 +158,7 @@ ComponentProfile profile_of_hall(std::shared_ptr<xml::Schemas const> const& sche
 
 // The refs of all components that do not come from the user's profiles.
 std::vector<std::string> own_refs(GatewaySettings const& settings, simulation::FloorPlan const& plan) {
-    auto refs = basic::component_refs(simulation::robot_names(plan));
+    auto refs = simulation::component_refs(plan);
     if (has_steering(settings)) refs.emplace_back(simulation::simulated_hall_ref);
     return refs;
 }

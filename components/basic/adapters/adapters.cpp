@@ -67,8 +67,9 @@ std::vector<std::unique_ptr<Component>> Adapters::components(ComponentProfile co
     std::vector<std::unique_ptr<Component>> made;
     made.reserve(robots_.bodies.size());
     for (auto const& body : robots_.bodies)
-        made.push_back(robots_.component(body, component_name(profile), shared,
-                                         [&](Context context) { return make(std::move(context), whole); }));
+        if (!body->is_fixed())
+            made.push_back(robots_.component(body, component_name(profile), shared,
+                                             [&](Context context) { return make(std::move(context), whole); }));
     return made;
 }
 

@@ -24,7 +24,7 @@ SharedProfile profile_of(BasicComponent const& basic, std::vector<ComponentProfi
 
 std::unique_ptr<Component> Robots::component(std::shared_ptr<Body> const& body, std::string_view name, SharedProfile profile,
                                              std::function<std::unique_ptr<LocalComponent>(Context)> const& make) const {
-    auto ref = component_ref(name, body == bodies.front() ? "" : body->name());
+    auto ref = component_ref(name, body == bodies.front() && !prefix_first ? "" : body->name());
     auto made = make(make_context(body, media, std::move(ref), std::move(profile)));
     return wrap ? wrap(std::move(made)) : std::move(made);
 }
@@ -35,20 +35,12 @@ std::vector<std::unique_ptr<Component>> robot_components(Robots const& robots, s
     std::vector<std::unique_ptr<Component>> components;
     for (auto const& body : robots.bodies) {
         auto profile = found.begin();
-        for (auto const& basic : basic_components(robots.streams()))
-            components.push_back(robots.component(body, basic.ref, *profile++, basic.make));
+        for (auto const& basic : basic_components(robots.streams())) {
+            auto const& known = *profile++;
+            if (!basic.acts || !body->is_fixed()) components.push_back(robots.component(body, basic.ref, known, basic.make));
+        }
     }
     return components;
-}
-
-std::vector<std::string> component_refs(std::vector<std::string> const& robots, std::vector<std::string> const& components) {
-    std::vector<std::string> refs;
-    for (auto const& robot : robots) {
-        std::string_view const engine = &robot == &robots.front() ? std::string_view{} : robot;
-        for (auto const& basic : basic_components()) refs.push_back(component_ref(basic.ref, engine));
-        for (auto const& name : components) refs.push_back(component_ref(name, engine));
-    }
-    return refs;
 }
 
 }  // namespace rois::basic

@@ -11,14 +11,15 @@
 
 namespace rois::basic {
 
-// The robots of a gateway. Each is a sub engine with its name. The components of the first robot have plain refs, "navigation";
-// the refs of the others begin with the robot's name, "robot2.navigation".
+// The robots of a gateway. Each is a sub engine with its name. The components of the first robot have plain refs, "navigation",
+// unless `prefix_first`; the refs of the others begin with the robot's name, "robot2.navigation".
 struct Robots {
     std::vector<std::shared_ptr<Body>> bodies;
     std::shared_ptr<media::Media> media;  // null without a media server: no streaming components
 
     // Wraps each new component, for example to make it fail in tests of applications; empty: nothing is wrapped.
     std::function<std::unique_ptr<Component>(std::unique_ptr<Component>)> wrap{};
+    bool prefix_first = false;
 
     Streams streams() const { return media ? Streams::served : Streams::none; }
 
@@ -28,12 +29,9 @@ struct Robots {
                                          std::function<std::unique_ptr<LocalComponent>(Context)> const& make) const;
 };
 
-// Makes the 15 basic components (7.6) of every robot and, with media, the two streaming components of RoIS 2.0. Finds their
-// profiles by URN, urn:x-rois:def:component:OMG::Navigation, ignoring case; throws std::runtime_error if one is missing.
+// Makes the 15 basic components (7.6) of every robot and, with media, the two streaming components of RoIS 2.0. A fixed body has
+// only those that sense. Finds their profiles by URN, urn:x-rois:def:component:OMG::Navigation, ignoring case; throws
+// std::runtime_error if one is missing.
 std::vector<std::unique_ptr<Component>> robot_components(Robots const&, std::vector<ComponentProfile> const& profiles);
-
-// Returns the refs of all basic components of robots with these names, the streaming components included, and of the user-defined
-// components with these names.
-std::vector<std::string> component_refs(std::vector<std::string> const& robots, std::vector<std::string> const& components = {});
 
 }  // namespace rois::basic

@@ -68,6 +68,9 @@ public:
     virtual std::string provider() const { return name(); }
     virtual bool returns_at_once() const { return false; }
 
+    // Whether the body only senses, such as sensors on a ceiling. It has no components that move, speak or react.
+    virtual bool is_fixed() const { return false; }
+
     virtual EntityId self() const = 0;
 
     // The frame of all poses of the body and its parts.

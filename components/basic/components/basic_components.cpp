@@ -16,11 +16,11 @@ std::span<BasicComponent const> basic_components() {
                                                          {"sound_localization", "SoundLocalization", sound_localization},
                                                          {"speech_recognition", "SpeechRecognition", speech_recognition},
                                                          {"gesture_recognition", "GestureRecognition", gesture_recognition},
-                                                         {"speech_synthesis", "SpeechSynthesis", speech_synthesis},
-                                                         {"reaction", "Reaction", reaction},
-                                                         {"navigation", "Navigation", navigation},
-                                                         {"follow", "Follow", follow},
-                                                         {"move", "Move", move},
+                                                         {"speech_synthesis", "SpeechSynthesis", speech_synthesis, true},
+                                                         {"reaction", "Reaction", reaction, true},
+                                                         {"navigation", "Navigation", navigation, true},
+                                                         {"follow", "Follow", follow, true},
+                                                         {"move", "Move", move, true},
                                                          {"audio_streaming", "AudioStreaming", audio_streaming},
                                                          {"video_streaming", "VideoStreaming", video_streaming}}};
     return all;

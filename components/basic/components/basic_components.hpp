@@ -34,6 +34,7 @@ struct BasicComponent {
     std::string_view ref;       // its name in table 31: "navigation"
     std::string_view urn_name;  // the last part of its profile's URN
     std::unique_ptr<LocalComponent> (*make)(Context);
+    bool acts = false;  // needs a body that is not fixed
 };
 
 // Returns all basic components, in the order of the specification.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "basic/base/component_names.hpp"
+#include "basic/components/basic_components.hpp"
 #include "simulation/world/person.hpp"
 #include "types/text/texts.hpp"
 
@@ -40,16 +42,20 @@ std::optional<PlanFlaw> flaw_of_frames(FloorPlan const& plan) {
 }
 
 std::optional<PlanFlaw> flaw_of_robots(FloorPlan const& plan) {
-    if (plan.robots.empty()) return PlanFlaw{PlanFlaw::Of::plan, 0, "the floor plan has no robot: expected at least one"};
+    if (std::ranges::all_of(plan.robots, &RobotPlan::fixed))
+        return PlanFlaw{PlanFlaw::Of::plan, 0, "the floor plan has no robot: expected at least one that is not fixed"};
     for (std::size_t i = 0; i < plan.robots.size(); ++i) {
         RobotPlan const& robot = plan.robots[i];
-        if (plan.clearance(robot.start.position) < robot.radius)
+        if (robot.fixed && inside_margin(plan.bounds, robot.start.position) < 0)
+            return PlanFlaw{PlanFlaw::Of::robot, i, quoted(robot.name) + " is outside of the hall"};
+        if (!robot.fixed && plan.clearance(robot.start.position) < robot.radius)
             return PlanFlaw{PlanFlaw::Of::robot, i, quoted(robot.name) + " starts too near to a wall or desk"};
         if (plan.place(robot.name)) return PlanFlaw{PlanFlaw::Of::robot, i, quoted(robot.name) + " is also the name of a place"};
         for (std::size_t j = 0; j < i; ++j) {
             if (plan.robots[j].name == robot.name)
                 return PlanFlaw{PlanFlaw::Of::robot, i, "duplicate robot name " + quoted(robot.name)};
-            if (distance(plan.robots[j].start.position, robot.start.position) < plan.robots[j].radius + robot.radius)
+            if (!robot.fixed && !plan.robots[j].fixed &&
+                distance(plan.robots[j].start.position, robot.start.position) < plan.robots[j].radius + robot.radius)
                 return PlanFlaw{PlanFlaw::Of::robot, i,
                                 quoted(robot.name) + " touches " + quoted(plan.robots[j].name) + " at the start"};
         }
@@ -105,6 +111,18 @@ std::vector<std::string> robot_names(FloorPlan const& plan) {
     names.reserve(plan.robots.size());
     for (RobotPlan const& robot : plan.robots) names.push_back(robot.name);
     return names;
+}
+
+std::vector<std::string> component_refs(FloorPlan const& plan, std::vector<std::string> const& components) {
+    std::vector<std::string> refs;
+    for (RobotPlan const& robot : plan.robots) {
+        bool const is_plain = &robot == &plan.robots.front() && !plan.prefix_first;
+        auto const add = [&](std::string_view name) { refs.push_back(basic::component_ref(name, is_plain ? "" : robot.name)); };
+        for (auto const& basic : basic::basic_components())
+            if (!basic.acts || !robot.fixed) add(basic.ref);
+        if (!robot.fixed) std::ranges::for_each(components, add);
+    }
+    return refs;
 }
 
 std::optional<PlanFlaw> flaw(FloorPlan const& plan) {

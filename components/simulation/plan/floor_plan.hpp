@@ -60,10 +60,11 @@ struct RobotFrame {
     Radians heading_sigma = 0;
 };
 
-// A round robot with differential drive.
+// A round robot with differential drive, or sensors with a fixed place.
 struct RobotPlan {
     std::string name;
     Pose start;
+    bool fixed = false;  // on a wall or ceiling: has no wheels and no voice, and is in nobody's way
     Metres radius = 0.28;
     MetresPerSecond max_speed = 0.9;
     double max_acceleration = 0.8;  // m/s^2, also when braking on the way
@@ -86,6 +87,7 @@ struct FloorPlan {
     std::vector<Box> desks;                  // they block ways, but not sight
     std::vector<Place> places;               // people come in at "entrance" and leave at "exit"
     std::vector<RobotPlan> robots;
+    bool prefix_first = false;  // also the refs of the first robot's components begin with its name
 
     // Returns null if the name is unknown.
     Place const* place(std::string_view name_of_place) const;
@@ -109,6 +111,10 @@ bool collides(FloorPlan const&, Disc const& body, Point const& to, std::span<Dis
 
 // The names of the robots, in the plan's order.
 std::vector<std::string> robot_names(FloorPlan const&);
+
+// The refs of the basic components of all robots, the streaming components included, and of the user-defined components with
+// these names.
+std::vector<std::string> component_refs(FloorPlan const&, std::vector<std::string> const& components = {});
 
 // The first error of a plan (no entrance, a place within a wall, a duplicate name, ...). flaw() returns nothing if the plan is
 // valid.

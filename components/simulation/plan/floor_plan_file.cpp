@@ -21,6 +21,11 @@ Box box(xml::Element const& element) {
     return {.low = low, .high = low + point(element, "width", "depth")};
 }
 
+bool is_set(xml::Element const& element, std::string_view name) {
+    auto const value = element.token(name, "false");
+    return value == "true" || value == "1";
+}
+
 // Replaces the default by the attribute if it is present.
 void read_length(xml::Element const& element, std::string_view name, Metres& value) {
     value = metres(element.number(name, value * 1000.0));
@@ -82,6 +87,7 @@ RobotPlan robot(xml::Element const& element) {
     RobotPlan plan;
     plan.name = element.attribute("name", "");
     plan.start = pose(element);
+    plan.fixed = is_set(element, "fixed");
     read_length(element, "radius", plan.radius);
     read_length(element, "max_speed", plan.max_speed);
     read_length(element, "max_acceleration", plan.max_acceleration);
@@ -114,6 +120,7 @@ FloorPlan read_floor_plan(std::shared_ptr<xml::Schemas const> schemas, std::stri
     FloorPlan plan;
     plan.name = root.attribute("name", "");
     plan.crs = root.attribute("crs", plan.crs);
+    plan.prefix_first = is_set(root, "prefix_first");
     plan.bounds = box(*root.child("bounds"));
     for (auto const& wall : root.children("wall")) plan.walls.push_back({point(wall, "x1", "y1"), point(wall, "x2", "y2")});
     for (auto const& furniture : root.children("furniture")) plan.desks.push_back(box(furniture));

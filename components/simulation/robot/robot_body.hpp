@@ -19,6 +19,7 @@ public:
     std::string const& name() const override { return state().name; }
     std::string provider() const override { return std::string{Simulation::provider}; }
     bool returns_at_once() const override { return true; }
+    bool is_fixed() const override { return plan_.fixed; }
     basic::EntityId self() const override { return entity_id(robot_); }
     std::string const& crs() const override { return plan_.frame ? plan_.frame->crs : hall().plan().crs; }
     bool uses_engines_frame() const override { return !plan_.frame; }

@@ -30,8 +30,9 @@ auto const& one_of(Choices const& choices, Random& random) {
 
 }  // namespace
 
-Crowd::Crowd(Scenario scenario, FloorPlan const& plan, std::uint64_t seed)
-    : scenario_(std::move(scenario)), robots_(robot_names(plan)), random_(seed) {
+Crowd::Crowd(Scenario scenario, FloorPlan const& plan, std::uint64_t seed) : scenario_(std::move(scenario)), random_(seed) {
+    for (RobotPlan const& robot : plan.robots)
+        if (!robot.fixed) robots_.push_back(robot.name);
     for (Role const& role : scenario_.roles) next_entry_.emplace_back(role.enters);
     if (scenario_.arrivals) next_arrival_ = random_.uniform(scenario_.arrivals->gap_least, scenario_.arrivals->gap_most);
 }

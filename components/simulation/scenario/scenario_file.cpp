@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "basic/adapters/robots.hpp"
 #include "basic/components/reaction_types.hpp"
 #include "simulation/world/person.hpp"
 #include "simulation/world/units.hpp"
@@ -167,7 +166,7 @@ Scenario read_scenario(std::shared_ptr<xml::Schemas const> schemas, std::string 
     scenario.name = root.attribute("name", "");
     if (root.attribute("round")) scenario.round = root.number("round");
     if (auto const element = root.child("arrivals")) scenario.arrivals = arrivals(*element);
-    auto const refs = basic::component_refs(robot_names(plan), components);
+    auto const refs = component_refs(plan, components);
     for (auto const& element : root.children("fault")) scenario.faults.push_back(fault(element, refs));
     ScenarioReader const reader{plan};
     for (auto const& person : root.children("person")) {

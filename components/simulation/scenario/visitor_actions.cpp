@@ -170,6 +170,7 @@ void Visitor::mind_robots(VisitorSurroundings const& around) {
     if (ignores_) return;
     Point const here = person_.pose.position;
     for (Robot const& robot : around.robots) {
+        if (around.plan.robots[static_cast<std::size_t>(robot.id)].fixed) continue;
         Metres const apart = distance(here, robot.pose.position);
         if (apart > 3.5 || !around.plan.in_sight(here, robot.pose.position)) continue;
         Radians const aside = std::abs(bearing(robot.pose, here));

@@ -66,7 +66,8 @@ std::vector<Disc> Hall::World::others(Entity self, Room room) const {
     for (Person const& who : people)
         if (self != Entity{who.id}) discs.push_back(disc(who));
     for (Drive const& drive : drives)
-        if (self != Entity{drive.robot()}) discs.push_back(room == Room::to_stop ? drive.stopping_disc() : drive.disc());
+        if (self != Entity{drive.robot()} && !drive.plan().fixed)
+            discs.push_back(room == Room::to_stop ? drive.stopping_disc() : drive.disc());
     return discs;
 }
 
@@ -77,7 +78,7 @@ std::vector<Disc> Hall::World::standing_obstacles(RobotId robot) const {
     }
     for (Drive const& drive : drives) {
         bool const stands = drive.twist().linear == 0;
-        if (drive.robot() != robot && stands) discs.push_back(drive.disc());
+        if (drive.robot() != robot && stands && !drive.plan().fixed) discs.push_back(drive.disc());
     }
     return discs;
 }
@@ -98,7 +99,8 @@ void Hall::World::admit() {
         return distance(body.centre, entrance.position) < person_radius + body.radius + free_entrance;
     };
     if (std::ranges::any_of(people, [&](Person const& who) { return in_the_door(disc(who)); })) return;
-    if (std::ranges::any_of(drives, [&](Drive const& drive) { return in_the_door(drive.stopping_disc()); })) return;
+    auto const blocks = [&](Drive const& drive) { return !drive.plan().fixed && in_the_door(drive.stopping_disc()); };
+    if (std::ranges::any_of(drives, blocks)) return;
     auto const of_the_scenario = std::ranges::count_if(people, [](Person const& who) { return !is_steered(who.id); });
     auto role = crowd_.next(now, static_cast<std::size_t>(of_the_scenario), [&](auto role_id) { return is_inside(role_id); });
     if (!role) return admit_steered(entrance);

@@ -147,8 +147,8 @@ TEST_F(Faults, DoNotAffectOtherComponents) {
 
 TEST_F(Faults, AcceptTheRefsOfAllComponents) {
     Stage stage{{}, reception_with_two_robots()};
-    EXPECT_THAT(component_refs(robot_names(reception_with_two_robots())), UnorderedElementsAreArray(stage.refs()));
-    auto const with_a_lamp = component_refs(robot_names(reception_with_two_robots()), {"lamp"});
+    EXPECT_THAT(component_refs(reception_with_two_robots()), UnorderedElementsAreArray(stage.refs()));
+    auto const with_a_lamp = component_refs(reception_with_two_robots(), {"lamp"});
     EXPECT_THAT(with_a_lamp, testing::IsSupersetOf({"lamp", "robot2.lamp"}));
     EXPECT_EQ(with_a_lamp.size(), 36u);
 }

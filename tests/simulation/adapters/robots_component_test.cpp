@@ -15,6 +15,7 @@
 namespace rois::simulation::stage {
 namespace {
 
+using namespace std::string_literals;
 using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
@@ -44,6 +45,49 @@ TEST(Robots, AreSubEngines) {
     EXPECT_THAT(stage.refs(), Contains("robot2.navigation"));
     EXPECT_EQ(stage["robot2.navigation"].description().engine, "robot2");
     EXPECT_EQ(stage["navigation"].description().engine, "robot");
+}
+
+// The room hangs over the way of the robot and of the visitor.
+FloorPlan reception_with_a_room() {
+    FloorPlan plan = reception();
+    RobotPlan room;
+    room.name = "room";
+    room.start = {Point{5, 4}, 0};
+    room.fixed = true;
+    room.sensors.people.field_of_view = from_degrees(360);
+    plan.robots.push_back(room);
+    return plan;
+}
+
+TEST(Robots, ThatAreFixedHaveOnlySensingComponents) {
+    auto plan = reception_with_a_room();
+    Stage const stage{{}, plan};
+    EXPECT_THAT(stage.refs(), IsSupersetOf({"room.system_information", "room.person_localization", "room.sound_localization",
+                                            "room.speech_recognition", "room.video_streaming"}));
+    for (auto const* acting : {"navigation", "move", "follow", "speech_synthesis", "reaction"})
+        EXPECT_THAT(stage.refs(), testing::Not(Contains("room."s + acting)));
+    EXPECT_THAT(component_refs(plan, {"lamp"}), testing::Not(Contains("room.lamp")));
+    EXPECT_THAT(component_refs(plan), testing::UnorderedElementsAreArray(stage.refs()));
+}
+
+TEST(Robots, ThatAreFixedSenseAndAreInNobodysWay) {
+    Stage stage{{visitor("guest", {does(Ignore{}), does(Walk{at(5, 4)}), does(Wait{1000})}, 20)}, reception_with_a_room()};
+    stage["navigation"].start({texts("target_position", {"8000, 4000", "8000, 2000"})});
+    stage["room.person_localization"].start();
+    EXPECT_EQ(stage.outcome("navigation"), "OK");
+    stage.run(30);
+    EXPECT_LT(distance(stage.hall().people().front().pose.position, Point(5, 4)), 0.3);
+    EXPECT_THAT(stage["room.person_localization"].events("person_localized"), testing::Not(testing::IsEmpty()));
+    EXPECT_EQ(stage.robot(1).position, Point(5, 4));
+}
+
+TEST(Robots, MayAllHavePrefixes) {
+    auto plan = reception_with_two_robots();
+    plan.prefix_first = true;
+    Stage stage{{}, plan};
+    EXPECT_THAT(stage.refs(), IsSupersetOf({"robot.navigation", "robot2.navigation"}));
+    EXPECT_THAT(component_refs(plan), testing::UnorderedElementsAreArray(stage.refs()));
+    EXPECT_EQ(stage["robot.navigation"].description().engine, "robot");
 }
 
 TEST(Robots, FailWithoutTheProfilesOfTheirComponents) {

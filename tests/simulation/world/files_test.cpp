@@ -97,6 +97,18 @@ TEST(FloorPlanFile, HasAreasForConditions) {
     EXPECT_EQ(known.find("attic"), nullptr);
 }
 
+TEST(FloorPlanFile, HasFixedRobots) {
+    auto const plan = read_plan(plan_text(places, robots + "<robot name=\"room\" fixed=\"true\" x=\"5000\" y=\"4000\"/>"));
+    EXPECT_FALSE(plan.prefix_first);
+    EXPECT_FALSE(plan.robots.front().fixed);
+    EXPECT_TRUE(plan.robots.back().fixed) << "it may hang on a wall";
+    EXPECT_THAT(
+        complaint([] { read_plan(plan_text(places, robots + "<robot name=\"room\" fixed=\"true\" x=\"-1\" y=\"4000\"/>")); }),
+        HasSubstr("'room' is outside of the hall"));
+    EXPECT_THAT(complaint([] { read_plan(plan_text(places, "<robot name=\"room\" fixed=\"1\" x=\"5000\" y=\"4000\"/>")); }),
+                HasSubstr("the floor plan has no robot: expected at least one that is not fixed"));
+}
+
 TEST(FloorPlanFile, ReportsThePlaceOfAnError) {
     EXPECT_THAT(complaint([] { read_plan("<floor_plan"); }), StartsWith("hall.xml:1:"));
     EXPECT_THAT(complaint([] { read_plan(plan_text(places, "<robot name=\"robot1\" x=\"two\" y=\"4000\"/>")); }),
