@@ -77,7 +77,7 @@ std::shared_ptr<simulation::Simulation> make_simulation(std::shared_ptr<xml::Sch
         simulation::read_scenario(schemas, named(settings.scenario, "reception-day.xml"),
                                   chosen(settings.scenario, "reception-day.xml"), plan, user_names(schemas, settings, profiles));
     auto const robot = std::ranges::find(plan.robots, settings.engine_name, &simulation::RobotPlan::name);
-    if (robot != plan.robots.end())
+    if (settings.robots == Robots::simulated && robot != plan.robots.end())
         throw BadSettings("engine_name: '" + settings.engine_name +
                           "' is the name of a robot of the floor plan; choose another name, so that conditions and profiles can "
                           "distinguish the engine from its robot");
