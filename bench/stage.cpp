@@ -32,7 +32,7 @@ struct Setting {
 
 void add_members(std::size_t number, Gateway& gateway) {
     auto const of_probes = std::make_shared<ComponentProfile const>(probe_profile());
-    choosing::Settings settings{.logical = {"probe"}, .engines = {}, .areas = {}};
+    choosing::Settings settings{.logical = {"probe"}, .sensing = {}, .engines = {}, .areas = {}};
     ComponentChange change{.going = {}, .coming = {}, .belongings = {.profiles = known_profiles(), .frames = {}, .places = {}}};
     for (std::size_t i = 0; i < number; ++i) {
         auto const& robot = settings.engines.emplace_back("robot" + std::to_string(i));

@@ -131,14 +131,27 @@ void Acting::begin(SharedAction const& action) {
 void Acting::carry_out(SharedAction const& action, std::string const& ref) {
     action->member = ref;
     note_current(ref);
-    auto const begun = [this, action](Outcome const& outcome) {
-        if (outcome.return_code != ReturnCode::ok) return ended(action, failure(outcome), {});
+    auto const engine = roster().find(ref)->engine;
+    auto const begun = [this, action, engine](Outcome const& outcome) {
+        if (outcome.return_code != ReturnCode::ok) {
+            note_speech(*action, engine, false, {});
+            return ended(action, failure(outcome), {});
+        }
         if (!action->is_over) port().started(action->handle);
     };
-    auto const over = [this, action](Completed const& completed, Instant now) { ended(action, completed, now); };
+    auto const over = [this, action, engine](Completed const& completed, Instant now) {
+        note_speech(*action, engine, false, now);
+        ended(action, completed, now);
+    };
+    note_speech(*action, engine, true, {});
     auto const arguments = arguments_for(*action, *roster().find(ref));
     if (!arguments) return begun({ReturnCode::error, "it does not sense the target now"});
     command(ref, action->type, *arguments, begun, over);
+}
+
+void Acting::note_speech(Action const& action, std::string const& engine, bool speaks, Instant now) const {
+    if (action.type == "start" && find_parameter(description().profile->parameters, "speech_text") != nullptr)
+        roster().note_speech(engine, speaks, now.steady);
 }
 
 // The member's command has ended, which was not asked for.
@@ -214,7 +227,8 @@ void Acting::forget_commands(Instant) {
     is_suspended_ = false;
 }
 
-void Acting::abort_commands(Instant) {
+void Acting::abort_commands(Instant now) {
+    for (auto const* member : members()) roster().note_speech(member->engine, false, now.steady);
     for (auto const& action : std::vector{actions_})
         finish(action, {{}, CompletedStatus::abort, {}, "its session has ended", {}});
     current_.clear();

@@ -58,6 +58,7 @@ private:
 
     void begin(SharedAction const&);
     void carry_out(SharedAction const&, std::string const& ref);
+    void note_speech(Action const&, std::string const& engine, bool speaks, Instant now) const;
     void ended(SharedAction const&, Completed const&, Instant now);
     void leave_outside(Instant now);
     void leave(SharedAction const&, Completed const& as, Instant now);

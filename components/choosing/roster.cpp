@@ -1,6 +1,7 @@
 #include "choosing/roster.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "engine/frames/space.hpp"
@@ -74,6 +75,18 @@ std::size_t Roster::beside(std::uint64_t session, std::string_view logical, std:
     if (found == engines_in_use_.end()) return 0;
     return static_cast<std::size_t>(
         std::ranges::count_if(found->second, [&](auto const& each) { return each.first != logical && each.second == engine; }));
+}
+
+void Roster::note_speech(std::string const& engine, bool speaks, Steady now) {
+    speakers_[engine] = speaks ? std::nullopt : std::optional{now};
+}
+
+bool Roster::is_heard_by_others(std::string_view listener, Steady now) const {
+    constexpr std::chrono::milliseconds recognition{1'500};  // from the end of a speech to the event
+    return std::ranges::any_of(speakers_, [&](auto const& each) {
+        auto const& [engine, end] = each;
+        return engine != listener && (!end || now - *end < recognition);
+    });
 }
 
 void Roster::know(Space const& space, std::string const& own_frame) {

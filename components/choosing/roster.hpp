@@ -53,6 +53,10 @@ public:
     // How many other logical components use this engine for the session.
     std::size_t beside(std::uint64_t session, std::string_view logical, std::string_view engine) const;
 
+    // A member of this engine speaks, from now on or no longer. Other units hear it until shortly after the end.
+    void note_speech(std::string const& engine, bool speaks, Steady now);
+    bool is_heard_by_others(std::string_view listener, Steady now) const;
+
     // The frames and named places of the main engine.
     void know(Space const&, std::string const& own_frame);
     std::string const& frame() const { return frames_.own(); }
@@ -63,6 +67,7 @@ private:
     std::map<std::string, Area> areas_;
     std::map<std::string, Member, std::less<>> members_;                          // by ref
     std::map<std::uint64_t, std::map<std::string, std::string>> engines_in_use_;  // by session and logical component
+    std::map<std::string, std::optional<Steady>> speakers_;                       // by engine: the end of their last speech
     Frames frames_;
     std::vector<NamedPlace> places_;
 };

@@ -16,6 +16,7 @@ using namespace std::chrono_literals;
 
 constexpr double metre = 1'000;                             // mm
 constexpr std::chrono::milliseconds default_interval{250};  // of minimum_interval
+constexpr std::chrono::milliseconds one_event{1'500};       // within which equal events of several units are one
 constexpr std::chrono::milliseconds longest_pause{1'250};   // between the lists of a unit whose persons move
 
 std::chrono::milliseconds interval_of(ParameterList const& parameters) {
@@ -172,6 +173,8 @@ void Sensing::end_sensing() {
     started_.clear();
     counts_.clear();
     reported_number_.reset();
+    reported_.clear();
+    has_reported_persons_ = false;
     misplaced_.clear();
 }
 
@@ -208,12 +211,12 @@ void Sensing::take(Event const& event, ReceiveEvent const& received, Member cons
         case Reports::positions:
             return take_positions(event, received, member, now);
         case Reports::names:
-            return report_names(event, received, member);
+            return report_names(event, received, member, now);
         case Reports::number:
             counts_[member.ref] = to_number<int>(number->values.front()).value_or(0);
             return report_number(event, 0, now);
         case Reports::other:
-            return port().event(event.type, *received.results);
+            return report_once(event, *received.results, member, now);
     }
 }
 
@@ -276,25 +279,41 @@ void Sensing::report_positions(Event const& event, Instant now) {
              .orientation = {},
              .certainty = Located::Covariance{{covariance(0, 0), covariance(0, 1), covariance(1, 0), covariance(1, 1)}}});
     }
+    if (std::exchange(has_reported_persons_, !names.empty()) == false && names.empty()) return;
     results.parameters = {date_time("timestamp", now.utc),
                           references(event.kind + "_ref", std::move(names), std::string{fused_codebook}),
                           positions("position_data", std::move(points), frame)};
     port().event(event.type, std::move(results));
 }
 
-// The names are those of the fusion. A person whom it does not know yet has the name of the unit, with that of its engine: other
-// units may use the same name for another person.
-void Sensing::report_names(Event const& event, ReceiveEvent const& received, Member const& member) {
+// Names of persons in the list of their positions are replaced by those of the list. Others stay: an identification knows persons
+// by permanent names.
+void Sensing::report_names(Event const& event, ReceiveEvent const& received, Member const& member, Instant now) {
     auto results = *received.results;
     auto const* fusion = sightings_->of(event.kind);
     for (auto& parameter : results.parameters) {
-        if (parameter.name != event.kind + "_ref") continue;
-        parameter.data_type_ref.codebook_ref = fused_codebook;
+        if (fusion == nullptr || parameter.name != event.kind + "_ref") continue;
         for (auto& name : parameter.values) {
-            auto const fused = fusion == nullptr ? std::nullopt : fusion->own_name(member.engine, name);
-            name = fused ? *fused : member.engine + "." + name;
+            auto const fused = fusion->own_name(member.engine, name);
+            if (!fused) continue;
+            name = *fused;
+            parameter.data_type_ref.codebook_ref = fused_codebook;
         }
     }
+    report_once(event, std::move(results), member, now);
+}
+
+// What several units report within a short time is one event. What the own robots say is none.
+void Sensing::report_once(Event const& event, Results results, Member const& member, Instant now) {
+    if (event.kind == "speech" && roster().is_heard_by_others(member.engine, now.steady)) return;
+    std::erase_if(reported_, [&](Reported const& each) { return now.steady - each.at > one_event; });
+    auto content = results.parameters;
+    std::erase_if(content, [](Parameter const& each) { return each.name == "timestamp"; });
+    bool const is_known = std::ranges::any_of(reported_, [&](Reported const& each) {
+        return each.engine != member.engine && each.type == event.type && each.content == content;
+    });
+    if (is_known) return;
+    reported_.push_back({now.steady, member.engine, event.type, std::move(content)});
     port().event(event.type, std::move(results));
 }
 

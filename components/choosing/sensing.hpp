@@ -50,7 +50,8 @@ private:
     void take(Event const&, ReceiveEvent const&, Member const&, Instant now);
     void take_positions(Event const&, ReceiveEvent const&, Member const&, Instant now);
     void report_positions(Event const&, Instant now);
-    void report_names(Event const&, ReceiveEvent const&, Member const&);
+    void report_names(Event const&, ReceiveEvent const&, Member const&, Instant now);
+    void report_once(Event const&, Results, Member const&, Instant now);
     void report_number(Event const&, std::size_t number, Instant now);
     void report_misplaced(Event const&);
 
@@ -69,7 +70,15 @@ private:
     std::set<std::string> started_;      // refs of the members that sense, or have been told to
     std::map<std::string, int> counts_;  // the last number of each member, by ref
     std::optional<std::size_t> reported_number_;
-    bool is_changed_ = false;  // there are positions that were not reported
+    bool has_reported_persons_ = false;  // the last list was not empty
+    struct Reported {
+        Steady at;
+        std::string engine;
+        std::string type;
+        ParameterList content;  // without the timestamp
+    };
+    std::vector<Reported> reported_;  // the last events without positions
+    bool is_changed_ = false;         // there are positions that were not reported
     Steady reported_at_{};
     std::set<std::string> misplaced_;  // engines
 };

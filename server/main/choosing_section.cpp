@@ -92,7 +92,9 @@ choosing::Settings read_choosing(std::string const& file, std::vector<remote::Su
     };
     if (!object["choosing"].is_object())
         throw BadSettings{file + ":" + place_of_key(text, "choosing") + ": choosing must be an object, { ... }"};
-    if (auto const* twice = in_text->repeated()) bad(twice->name, rois::quoted(twice->name) + " is given twice in \"choosing\"");
+    if (auto const* twice = in_text->repeated())
+        throw BadSettings{file + ":" + place_of(text, twice->at) + ": " + rois::quoted(twice->name) +
+                          " is given twice in \"choosing\""};
     return read(object["choosing"], engines, bad);
 }
 

@@ -205,6 +205,8 @@ private:
     }
 
     void take(StateChanged const& state) { state_ = *state; }
+    void take(OperationAsked&) { ADD_FAILURE() << "only logical components have a session"; }
+    void take(MemberSwitched&) { ADD_FAILURE() << "only logical components have members"; }
     void take(Answered& answered) {
         EXPECT_EQ(answered.ticket, asked_);
         EXPECT_FALSE(answer_) << "two answers to one question";

@@ -207,6 +207,76 @@ TEST_F(TwoEyes, WarnOfAUnitThatIsTurned) {
     EXPECT_THAT(desk.received(), Contains(HasSubstr("USER_DEFINED_ERROR localization")));
 }
 
+// --- Events of several units ---
+
+namespace {
+
+// A recognizer of speech; here the component named `detection`.
+Part recognizer(std::string const& robot) {
+    auto part = in_engine(robot, named("detection", desk_lamp));
+    part.profile.parameters.clear();
+    part.profile.messages = {
+        {.kind = MessageKind::event,
+         .name = "speech_recognized",
+         .results =
+             {{.name = "timestamp", .data_type_ref = {"DateTime", {}, {}, {}}, .default_value = {}, .description = {}},
+              {.name = "recognized_text", .data_type_ref = {"string[]", {}, {}, {}}, .default_value = {}, .description = {}}},
+         .arguments = {},
+         .timeout = {}}};
+    part.on_start = OnStart::becomes_active;
+    return part;
+}
+
+}  // namespace
+
+class TwoEars : public TwoEyes {
+protected:
+    TwoEars() {
+        world.change({"robot1.detection", "robot2.detection"}, {recognizer("robot1"), recognizer("robot2")});
+        world.advance(300ms);
+        desk.bind("detection");
+        desk.subscribe("speech_recognized", {}, true);
+        desk.execute(named("listen", start("detection")));
+        desk.received();
+    }
+    void hears(std::string const& robot, std::string const& words) {
+        world[robot + ".detection"].fires("speech_recognized",
+                                          {date_time("timestamp", world.now.utc), texts("recognized_text", {words})});
+    }
+    std::size_t heard() {
+        auto const all = desk.received();
+        return static_cast<std::size_t>(
+            std::ranges::count_if(all, [](auto const& words) { return words.find("speech_recognized") != words.npos; }));
+    }
+};
+
+TEST_F(TwoEars, HearOneSentenceOnce) {
+    hears("robot1", "hello");
+    world.advance(500ms);
+    hears("robot2", "hello");
+    EXPECT_EQ(heard(), 1u);
+    hears("robot1", "goodbye");
+    EXPECT_EQ(heard(), 1u);
+    world.advance(2s);
+    hears("robot2", "goodbye");
+    EXPECT_EQ(heard(), 1u) << "it was said again";
+}
+
+TEST_F(TwoEars, DoNotHearTheOwnRobots) {
+    desk.bind("speech");
+    desk.execute(say("hello"));
+    hears("robot2", "hello");
+    hears("robot1", "wait");
+    EXPECT_EQ(heard(), 1u) << "robot1 speaks, and knows its own words";
+    world["robot1.speech"].finishes();
+    world.advance(1s);
+    hears("robot2", "hello");
+    EXPECT_EQ(heard(), 0u);
+    world.advance(1s);
+    hears("robot2", "hello");
+    EXPECT_EQ(heard(), 1u);
+}
+
 // --- Names that travel down again ---
 
 namespace {

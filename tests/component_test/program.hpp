@@ -117,6 +117,7 @@ private:
     void check_notification(Completed const&);
     void check_notification(Lost const&) {}
     void check_notification(ProfileChanged const&) {}
+    void check_notification(Switched const&) {}
     void check_notification(ComponentChanged const&);
     ComponentProfile const& profile_of(std::string const& ref) const;
 

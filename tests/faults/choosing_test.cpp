@@ -99,7 +99,7 @@ private:
     }
 
     std::shared_ptr<Hand> hand_ = std::make_shared<Hand>();
-    choosing::Choosing choosing_{{.logical = {"navigation"}, .engines = {"robot1", "robot2"}, .areas = {}},
+    choosing::Choosing choosing_{{.logical = {"navigation"}, .sensing = {}, .engines = {"robot1", "robot2"}, .areas = {}},
                                  [](std::string const&) {}};
     DrivingComponent* first_ = nullptr;
     DrivingComponent* second_ = nullptr;

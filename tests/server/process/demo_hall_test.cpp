@@ -5,7 +5,9 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
+#include <future>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -13,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "kit/process.hpp"
 #include "kit/profile_folder.hpp"
 #include "server/application.hpp"
 
@@ -37,7 +40,7 @@ std::string text_of(std::string const& file) {
 // The gateways, by their names. They end in the reverse order of their start.
 class Demo {
 public:
-    Demo() {
+    explicit Demo(std::string visitors) : visitors_{std::move(visitors)} {
         for (auto const* name : {"hall", "robot1", "robot2", "room", "main"}) start(name);
     }
     ~Demo() {
@@ -56,7 +59,7 @@ private:
     void start(std::string const& name) {
         std::vector<std::string> arguments{"--config", folder + name + ".json", "--floor-plan", folder + "hall.xml"};
         if (name == "hall") {
-            arguments.insert(arguments.end(), {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml"});
+            arguments.insert(arguments.end(), {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/" + visitors_});
         } else {
             auto engines = text_of("engines/" + name + ".json");
             for (auto const& [address, instead] : addresses_)
@@ -71,15 +74,17 @@ private:
         addresses_[settings.substr(at, settings.find('"', at) - at)] = "127.0.0.1:" + std::to_string(gateway.port());
     }
 
+    std::string const visitors_;
     kit::ProfileFolder engines_;
     std::map<std::string, std::string> addresses_;  // in the files: those of the running gateways
     std::vector<std::unique_ptr<GatewayProcess>> gateways_;
     std::map<std::string, std::size_t> places_;
 };
 
-// Where robot1 is in the world: mm.
-std::pair<double, double> place_of_robot1(Application& in_hall) {
-    auto const answer = in_hall.query("robot_position", where(equal("component_ref", "robot1.system_information")));
+// Where a robot is in the world: mm.
+using Place = std::pair<double, double>;
+Place place_of(std::string const& robot, Application& in_hall) {
+    auto const answer = in_hall.query("robot_position", where(equal("component_ref", robot + ".system_information")));
     std::istringstream text{answer.values()["position_data"].at(0)};
     double x = 0, y = 0;
     char comma = 0;
@@ -87,26 +92,34 @@ std::pair<double, double> place_of_robot1(Application& in_hall) {
     return {x, y};
 }
 
-// How far robot1 drives in half a second, in mm. `desk` sends signs of life.
-double driven(Application& in_hall, Application& desk) {
-    auto const [x, y] = place_of_robot1(in_hall);
+double distance(Place const& a, Place const& b) { return std::hypot(a.first - b.first, a.second - b.second); }
+
+// How far a robot drives in half a second, in mm. `desk` sends signs of life.
+double driven(std::string const& robot, Application& in_hall, Application& desk) {
+    auto const before = place_of(robot, in_hall);
     for (int i = 0; i < 5; ++i) {
         std::this_thread::sleep_for(100ms);
         desk.search();
     }
-    auto const [later_x, later_y] = place_of_robot1(in_hall);
-    return std::hypot(later_x - x, later_y - y);
+    return distance(before, place_of(robot, in_hall));
+}
+
+// The components of all units.
+std::vector<std::string> members(Application& desk) { return desk.search(where(like("component_ref", "*.*"))); }
+
+void await_members(Application& desk) {
+    for (int i = 0; i < 250 && members(desk).size() < 40; ++i) std::this_thread::sleep_for(20ms);
 }
 
 TEST(DemoHall, HoldsTheRobotWhoseEngineIsKilled) {
-    Demo demo;
+    Demo demo{"empty_hall.xml"};
     Application desk{Transport::websocket, demo["main"]}, in_hall{Transport::http, demo["hall"]};
     desk.connect();
     in_hall.connect();
     auto const are_there = IsSupersetOf({"robot1.navigation", "robot2.navigation", "robot2.speech_synthesis",
                                          "room.person_localization", "room.system_information"});
-    for (int i = 0; i < 250 && !testing::Value(desk.search(), are_there); ++i) std::this_thread::sleep_for(20ms);
-    auto const all = desk.search();
+    await_members(desk);
+    auto const all = members(desk);
     EXPECT_THAT(all, are_there);
     EXPECT_EQ(all.size(), 40u) << "2 robots of 15 components, and a room of 10";
     EXPECT_THAT(all, testing::Each(testing::ContainsRegex("^(robot1|robot2|room)\\.[a-z_]+$")));
@@ -116,24 +129,61 @@ TEST(DemoHall, HoldsTheRobotWhoseEngineIsKilled) {
     EXPECT_EQ(desk.execute(Command{.component = "robot1.navigation", .id = "go", .arguments = {there_and_back}}).return_code(),
               "OK");
     double fastest = 0;
-    for (int i = 0; i < 10 && fastest < 300; ++i) fastest = std::max(fastest, driven(in_hall, desk));
+    for (int i = 0; i < 10 && fastest < 300; ++i) fastest = std::max(fastest, driven("robot1", in_hall, desk));
     EXPECT_GT(fastest, 300) << "at 900 mm/s";
 
     demo.kill("robot1");
     auto const killed = Clock::now();
     auto stood = killed;
     do stood = Clock::now();
-    while (driven(in_hall, desk) > 100 && stood < killed + 10s);
+    while (driven("robot1", in_hall, desk) > 100 && stood < killed + 10s);
     EXPECT_LT(stood - killed, 4s);
     EXPECT_EQ(desk.status_of("go"), "ABORT");
-    EXPECT_LT(driven(in_hall, desk), 100) << "noise";
-    EXPECT_THAT(desk.search(), Contains("room.person_localization"));
+    EXPECT_LT(driven("robot1", in_hall, desk), 100) << "noise";
+    EXPECT_THAT(members(desk), Contains("room.person_localization"));
     desk.bind("robot2.speech_synthesis");
     desk.execute(Command{.component = "robot2.speech_synthesis", .id = "hello", .arguments = {speech_text("Hello.")}});
     EXPECT_EQ(desk.status_of("hello"), "OK");
     // Only robot1's engine could confirm to the main engine that the robot stands: with SIGTERM it would wait for that.
     desk.disconnect();
     demo.kill("main");
+}
+
+// ROIS_DEMO_TIMES: how often; once by default.
+TEST(DemoHall, GreetsAVisitorWithTheOtherRobotIfOneIsKilledOnItsWay) {
+    auto const* times = std::getenv("ROIS_DEMO_TIMES");
+    for (int i = 0; i < (times == nullptr ? 1 : std::atoi(times)) && !HasFailure(); ++i) {
+        Demo demo{"one_visitor.xml"};
+        Application desk{Transport::http, demo["main"]}, in_hall{Transport::http, demo["hall"]};
+        desk.connect();
+        in_hall.connect();
+        await_members(desk);
+        std::map<std::string, Place> starts{{"robot1", place_of("robot1", in_hall)}, {"robot2", place_of("robot2", in_hall)}};
+        auto reception = std::async(std::launch::async, [&] {
+            return kit::run(ROIS_BINARY_DIR "/bin/rois", {"scenario", ROIS_SOURCE_DIR "/client-cpp/scenarios/reception.xml",
+                                                          "visitors=1", "--url", demo["main"].url()});
+        });
+        auto const is_on_its_way = [&](auto const& start) {
+            return distance(start.second, place_of(start.first, in_hall)) > 700;
+        };
+        auto first = starts.end();
+        for (int look = 0; look < 300 && first == starts.end(); ++look) {
+            std::this_thread::sleep_for(50ms);
+            first = std::ranges::find_if(starts, is_on_its_way);
+        }
+        ASSERT_NE(first, starts.end()) << "no robot approaches the visitor";
+        auto const killed = first->first, other = killed == "robot1" ? std::string{"robot2"} : std::string{"robot1"};
+        demo.kill(killed);
+        auto const then = Clock::now();
+        while (driven(killed, in_hall, desk) > 100 && Clock::now() < then + 10s) continue;
+        EXPECT_LT(Clock::now() - then, 4s) << killed << " stands still";
+        while (!is_on_its_way(*starts.find(other)) && Clock::now() < then + 20s) std::this_thread::sleep_for(50ms);
+        EXPECT_LT(Clock::now() - then, 6s) << other << " has driven 0.7 m, which takes a second";
+        auto const ended = reception.get();
+        EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.error;
+        EXPECT_THAT(ended.out, testing::HasSubstr("visitors received: 1"));
+        demo.kill("main");
+    }
 }
 
 }  // namespace
