@@ -121,9 +121,11 @@ void Acting::prepare(Ticket ticket, std::string_view command_type, ParameterList
 void Acting::begin(SharedAction const& action) {
     actions_.push_back(action);
     is_suspended_ = false;
+    begins();
     choose(action, [this, action](Choice const& choice) {
-        if (choice.ref.empty()) return finish(action, failure(choice.why));
-        carry_out(action, choice.ref);
+        if (!choice.ref.empty()) return carry_out(action, choice.ref);
+        finish(action, failure(choice.why));
+        has_begun();
     });
 }
 
@@ -133,11 +135,13 @@ void Acting::carry_out(SharedAction const& action, std::string const& ref) {
     note_current(ref);
     auto const engine = roster().find(ref)->engine;
     auto const begun = [this, action, engine](Outcome const& outcome) {
-        if (outcome.return_code != ReturnCode::ok) {
+        if (outcome.return_code == ReturnCode::ok) {
+            if (!action->is_over) port().started(action->handle);
+        } else {
             note_speech(*action, engine, false, {});
-            return ended(action, failure(outcome), {});
+            ended(action, failure(outcome), {});
         }
-        if (!action->is_over) port().started(action->handle);
+        has_begun();
     };
     auto const over = [this, action, engine](Completed const& completed, Instant now) {
         note_speech(*action, engine, false, now);
@@ -202,12 +206,13 @@ void Acting::go_on_with_another(SharedAction const& action, Completed const& com
         return end("; it was switched less than " + in_seconds(between_switches) + " ago");
     auto const from = std::exchange(action->member, {});
     action->switched = now.steady;
+    begins();
     choose(action, [this, action, completed, from, end](Choice const& choice) {
-        if (action->is_over) {  // stopped meanwhile
-            if (!choice.ref.empty() && !is_used(choice.ref)) give_back(choice.ref);
-            return;
+        if (action->is_over || choice.ref.empty()) {
+            if (!choice.ref.empty() && !is_used(choice.ref)) give_back(choice.ref);  // stopped meanwhile
+            end("; no other component can go on: " + choice.why.reason);
+            return has_begun();
         }
-        if (choice.ref.empty()) return end("; no other component can go on: " + choice.why.reason);
         port().switched(from, choice.ref, completed.reason);
         carry_out(action, choice.ref);
     });

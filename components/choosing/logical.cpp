@@ -37,6 +37,8 @@ void Logical::session_began(Instant now) {
     for (auto* member : members()) forget(*member);
     running_.clear();
     subscribed_.clear();
+    beginning_ = 0;
+    waiting_.clear();
     learn_space();
 }
 
@@ -64,7 +66,6 @@ void Logical::ask(Operation operation, Answered then) {
 }
 
 void Logical::use(std::string const& ref, Answered then) {
-    if (roster_->find(ref)->is_bound) return then({});
     ask(Bind{identifier(ref)}, [this, ref, then = std::move(then)](Outcome const& outcome) {
         if (outcome.return_code == ReturnCode::ok) roster_->find(ref)->is_bound = true;
         then(outcome);
@@ -129,8 +130,14 @@ void Logical::suspend(Ticket ticket, Instant) { pause(ticket, "suspend"); }
 
 void Logical::resume(Ticket ticket, Instant) { pause(ticket, "resume"); }
 
+void Logical::has_begun() {
+    if (beginning_ == 0 || --beginning_ > 0) return;
+    for (auto const& what : std::exchange(waiting_, {})) what();
+}
+
 // Suspends or resumes all members that are bound. A failure of one is the answer.
 void Logical::pause(Ticket ticket, std::string const& command_type) {
+    if (beginning_ > 0) return waiting_.push_back([this, ticket, command_type] { pause(ticket, command_type); });
     auto const left = std::make_shared<std::size_t>(1);
     auto const one_less = [this, left, ticket](Completed const& completed, Instant) {
         if (*left == 0) return;

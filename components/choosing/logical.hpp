@@ -64,9 +64,13 @@ protected:
     // `then` is called later, as the engine calls the component.
     using Answered = std::function<void(Outcome const&)>;
     void ask(Operation, Answered then);
-    // Binds the member, unless it is bound.
+    // Binds the member.
     void use(std::string const& ref, Answered then);
     void give_back(std::string const& ref);
+
+    // `suspend` and `resume` wait until the members have begun all commands: from the first of these calls to the second.
+    void begins() { ++beginning_; }
+    void has_begun();
 
     // Performs a command. `ended` follows `begun` with OK, once.
     using Ended = std::function<void(Completed const&, Instant now)>;
@@ -86,10 +90,12 @@ private:
     std::shared_ptr<Roster> const roster_;
     ComponentPort* port_ = nullptr;
     Binding binding_{};
-    std::set<std::string> halting_;         // refs of the members that have not confirmed a halt
-    std::map<std::string, Ended> running_;  // commands of the own session, by id
-    std::set<std::string> subscribed_;      // refs of the members whose events are subscribed to
-    std::string shown_member_;              // ref; empty: none
+    int beginning_ = 0;                           // commands that a member has not accepted or refused yet
+    std::vector<std::function<void()>> waiting_;  // until all have begun
+    std::set<std::string> halting_;               // refs of the members that have not confirmed a halt
+    std::map<std::string, Ended> running_;        // commands of the own session, by id
+    std::set<std::string> subscribed_;            // refs of the members whose events are subscribed to
+    std::string shown_member_;                    // ref; empty: none
     std::optional<ComponentState> shown_;
 };
 

@@ -78,7 +78,10 @@ std::size_t Roster::beside(std::uint64_t session, std::string_view logical, std:
 }
 
 void Roster::note_speech(std::string const& engine, bool speaks, Steady now) {
-    speakers_[engine] = speaks ? std::nullopt : std::optional{now};
+    if (speaks)
+        speakers_[engine] = std::nullopt;
+    else if (auto const speaker = speakers_.find(engine); speaker != speakers_.end() && !speaker->second)
+        speaker->second = now;
 }
 
 bool Roster::is_heard_by_others(std::string_view listener, Steady now) const {

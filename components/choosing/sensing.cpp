@@ -107,6 +107,7 @@ void Sensing::try_next(std::vector<std::string> refs, std::string type, Paramete
 void Sensing::begin(std::string const& command_type, ParameterList const& parameters, CommandHandle command) {
     if (command_type == "set_parameter") return change_parameters(parameters, command);
     is_active_ = true;
+    is_suspended_ = false;
     parameters_ = parameters;
     for (auto const& event : events_)
         if (event.reports == Reports::positions) sightings_->begin(event.kind);
@@ -121,6 +122,7 @@ void Sensing::begin(std::string const& command_type, ParameterList const& parame
 // `for_command`: the application's `start`, which completes with the first member that begins. Null: it has completed.
 void Sensing::start(std::string const& ref, std::shared_ptr<CommandHandle> for_command) {
     started_.insert(ref);
+    begins();
     auto const failed = [this, ref, for_command](Outcome const& why) {
         started_.erase(ref);
         if (!is_active_) return;
@@ -128,10 +130,13 @@ void Sensing::start(std::string const& ref, std::shared_ptr<CommandHandle> for_c
         if (started_.empty()) complete(for_command, {why.return_code, ref + ": " + why.reason});
     };
     use(ref, [this, ref, for_command, failed](Outcome const& bound) {
-        if (!is_active_) return;
-        if (bound.return_code != ReturnCode::ok) return failed(bound);
-        auto const begun = [failed](Outcome const& outcome) {
+        if (!is_active_ || bound.return_code != ReturnCode::ok) {
+            failed(bound);
+            return has_begun();
+        }
+        auto const begun = [this, failed](Outcome const& outcome) {
             if (outcome.return_code != ReturnCode::ok) failed(outcome);
+            has_begun();
         };
         command(ref, "start", parameters_, begun, [this, for_command, failed](Completed const& completed, Instant) {
             if (completed.status != CompletedStatus::ok) return failed({ReturnCode::error, completed.reason});
@@ -165,6 +170,16 @@ void Sensing::change_parameters(ParameterList const& parameters, CommandHandle c
 }
 
 void Sensing::forget_commands(Instant) { end_sensing(); }
+
+void Sensing::suspend(Ticket ticket, Instant now) {
+    is_suspended_ = true;
+    Logical::suspend(ticket, now);
+}
+
+void Sensing::resume(Ticket ticket, Instant now) {
+    is_suspended_ = false;
+    Logical::resume(ticket, now);
+}
 
 void Sensing::end_sensing() {
     if (std::exchange(is_active_, false))
@@ -202,7 +217,7 @@ Member const* Sensing::shown() {
 
 void Sensing::happened(ReceiveEvent const& event, Member const& member, Instant now) {
     auto const* known = find(event.event_type);
-    if (is_active_ && known != nullptr && started_.contains(member.ref)) take(*known, event, member, now);
+    if (is_active_ && !is_suspended_ && known != nullptr && started_.contains(member.ref)) take(*known, event, member, now);
 }
 
 void Sensing::take(Event const& event, ReceiveEvent const& received, Member const& member, Instant now) {
@@ -245,7 +260,7 @@ void Sensing::take_positions(Event const& event, ReceiveEvent const& received, M
 }
 
 void Sensing::time_passed(Instant now) {
-    if (!is_active_) return;
+    if (!is_active_ || is_suspended_) return;
     for (auto const& event : events_) {
         auto* fusion = event.reports == Reports::positions ? sightings_->of(event.kind) : nullptr;
         if (fusion == nullptr) continue;

@@ -22,6 +22,8 @@ public:
     Sensing& operator=(Sensing const&) = delete;
 
     void prepare(Ticket, std::string_view command_type, ParameterList const& parameters, Instant now) override;
+    void suspend(Ticket, Instant now) override;
+    void resume(Ticket, Instant now) override;
 
 private:
     // What an event reports, by the results in its profile.
@@ -66,6 +68,7 @@ private:
     std::shared_ptr<Sightings> const sightings_;
     std::vector<Event> const events_;
     bool is_active_ = false;
+    bool is_suspended_ = false;
     ParameterList parameters_;           // of `start`
     std::set<std::string> started_;      // refs of the members that sense, or have been told to
     std::map<std::string, int> counts_;  // the last number of each member, by ref

@@ -29,21 +29,20 @@ ComponentsInOrder::ComponentsInOrder(Members members, std::vector<RegisteredComp
     : members_{members}, own_{std::move(own)}, first_{own_}, others_{std::move(others)} {}
 
 RegisteredComponent* ComponentsInOrder::next() {
-    auto* component = next_of_all();
-    while (component != nullptr && component->is_member && members_ == Members::hidden) component = next_of_all();
-    return component;
-}
-
-RegisteredComponent* ComponentsInOrder::next_of_all() {
-    auto* lowest = first_.empty() ? nullptr : first_.front();
-    for (auto const& list : others_)
-        if (!list.empty() && (lowest == nullptr || ref_of(list.front()) < ref_of(lowest))) lowest = list.front();
-    auto const pass = [&](List& list) {
-        if (!list.empty() && list.front() == lowest) list = list.subspan(1);
-    };
-    pass(first_);
-    for (auto& list : others_) pass(list);
-    return lowest;
+    for (;;) {
+        auto* lowest = first_.empty() ? nullptr : first_.front();
+        bool const is_demanded = lowest != nullptr && !own_.empty();
+        for (auto const& list : others_)
+            if (!list.empty() && (lowest == nullptr || ref_of(list.front()) < ref_of(lowest))) lowest = list.front();
+        bool const is_shown =
+            lowest == nullptr || !lowest->is_member || members_ == Members::shown || (is_demanded && first_.front() == lowest);
+        auto const pass = [&](List& list) {
+            if (!list.empty() && list.front() == lowest) list = list.subspan(1);
+        };
+        pass(first_);
+        for (auto& list : others_) pass(list);
+        if (is_shown) return lowest;
+    }
 }
 
 std::vector<RegisteredComponent*> ComponentsInOrder::rest() {

@@ -15,7 +15,7 @@ namespace rois {
 
 class RegisteredComponent;
 
-// Whether the members of logical components are looked at, or only the logical ones.
+// Whether all members of logical components are looked at, or only those whose refs are demanded.
 enum class Members : std::uint8_t { hidden, shown };
 
 // Iterates over several lists of components: ordered by ref, without duplicates. Invalid after a component was added or removed.
@@ -34,15 +34,12 @@ public:
     std::vector<RegisteredComponent*> rest();
 
 private:
-    RegisteredComponent* next_of_all();
-
     Members members_;
-    std::vector<RegisteredComponent*> own_;
-    List first_;                // the rest of the single list, or of own_
-    std::vector<List> others_;  // the rest of each further list
+    std::vector<RegisteredComponent*> own_;  // with demanded refs
+    List first_;                             // the rest of the single list, or of own_
+    std::vector<List> others_;               // the rest of each further list
 };
 
-// Only conditions that name units see the members.
 inline Members seen_by(Filter const& filter) { return filter.names_units() ? Members::shown : Members::hidden; }
 
 class ComponentIndex {

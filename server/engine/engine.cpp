@@ -443,7 +443,7 @@ bool Engine::everything_is_stopped() const { return core_->everything_is_stopped
 std::vector<std::string> Engine::not_halted() const { return core_->not_halted(); }
 std::vector<std::string> Engine::not_ready() const { return core_->not_ready(); }
 
-std::shared_ptr<EngineProfile const> Engine::profile() const { return core_->profile(); }
+std::shared_ptr<EngineProfile const> Engine::profile() const { return core_->profile_without_members(); }
 std::vector<ComponentEntry> Engine::components() const { return core_->components(); }
 EngineStatistics Engine::statistics() const { return core_->statistics(); }
 

@@ -201,6 +201,7 @@ public:
     // Ends every session. Later operations are refused.
     void shut_down(Instant now);
 
+    // Without the members of logical components.
     std::shared_ptr<EngineProfile const> profile() const;
     // All components, ordered by ref.
     std::vector<ComponentEntry> components() const;

@@ -14,7 +14,10 @@ constexpr std::chrono::seconds silence{2};  // after which a link counts as lost
 // A silent link counts as lost, even if it is open: the other engine counts the same times, and has given up the session then.
 void Engine::Core::serve_engines(Instant now) {
     Attempts attempts;
-    for (auto* component : std::vector{registry_.logical()}) attempts([&] { own_session(*component, now); });
+    for (auto* component : std::vector{registry_.logical()}) {
+        attempts([&] { own_session(*component, now); });
+        attempts([&] { free_members(*component, now); });
+    }
     for (auto* session : std::vector{engines_}) {
         if (session->ending) continue;
         if (session->owner == nullptr) session->notifications->want_signs_of_life(now.steady + signs_of_life_wanted);

@@ -52,6 +52,17 @@ Session& Engine::Core::own_session(RegisteredComponent& component, Instant now) 
     return *component.own_session;
 }
 
+// A logical component that nobody has bound has given its members back, unless memory was missing for that.
+void Engine::Core::free_members(RegisteredComponent const& component, Instant now) {
+    auto* session = component.own_session;
+    if (session == nullptr || component.bound_to != nullptr || component.halting || component.binds_asked > 0) return;
+    while (!session->bound.empty()) {
+        auto& member = **session->bound.begin();
+        executor_.release(*session, member, now);
+        unbind(*session, member, now);
+    }
+}
+
 void Engine::Core::perform(RegisteredComponent& component, OperationAsked&& asked, Instant now) {
     auto const& session = own_session(component, now);
     take(std::make_shared<OwnOperation>(session, std::move(asked)), now);

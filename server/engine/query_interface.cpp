@@ -126,7 +126,8 @@ Engine::Core::Later Engine::Core::perform(Session& session, Query const& query, 
     auto& selection = std::get<Selection>(compiled);
     auto const& able = registry_.with(MessageKind::query, query.query_type);
     bool const of_whole_engine = !selection.filter().restricts() && !selection.sorts() && !able.all().empty();
-    auto const demand = able.all().size() > few ? selection.filter().demand() : std::nullopt;
+    bool const looks_up = able.all().size() > few || !registry_.logical().empty();
+    auto const demand = looks_up ? selection.filter().demand() : std::nullopt;
     auto meant = able.possible(demand, seen_by(selection.filter())).rest();
     auto const inquiry = std::make_shared<Inquiry>(*this, asked, query.query_type, std::move(selection), now);
     if (of_whole_engine && is_about_the_engine(query.query_type)) return inquiry->of_whole_engine(session, able.all(), now);

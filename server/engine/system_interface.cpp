@@ -165,12 +165,14 @@ Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
         return refused<GetProfile::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     GetProfile::Reply reply;
     auto const& selected = std::get<Selection>(selection);
+    bool names_members = selected.filter().names_units();
     for (auto const* component : select(selected, session)) {
+        names_members = names_members || component->is_member;
         reply.components.push_back(component->entry());
         if (session.is_engine) reply.components.back().traits = component->traits();
     }
     if (session.is_engine) reply.space = space();
-    auto const whole = selected.filter().names_units() ? profile() : profile_without_members();
+    auto const whole = names_members ? profile() : profile_without_members();
     reply.profile = selected.filter().restricts() ? profile_of_engine_with(whole, reply.components) : whole;
     return reply;
 }

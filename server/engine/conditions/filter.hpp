@@ -58,8 +58,8 @@ public:
     // (decisions 7 and 30).
     bool depends_on_asker() const { return depends_on_asker_; }
 
-    // Returns whether the condition refers to refs, engines or robots. Only then can it match the members of logical components
-    // (docs/choosing.md).
+    // Returns whether the condition refers to engines or robots. It can then match the members of logical components; other
+    // conditions only match the members whose refs they demand (docs/choosing.md).
     bool names_units() const { return names_units_; }
 
 private:

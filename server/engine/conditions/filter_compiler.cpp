@@ -117,8 +117,7 @@ std::optional<Reference> FilterCompiler::resolve(std::string_view path) {
     auto& reference = std::get<Reference>(resolved);
     using To = Reference::To;
     depends_on_asker_ = depends_on_asker_ || reference.to == To::status || reference.to == To::parameter;
-    names_units_ =
-        names_units_ || reference.to == To::component_ref || reference.to == To::engine || reference.to == To::robot_id;
+    names_units_ = names_units_ || reference.to == To::engine || reference.to == To::robot_id;
     if (speaks_of_results(reference)) results_.push_back(reference);
     return std::move(reference);
 }

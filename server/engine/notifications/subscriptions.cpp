@@ -133,11 +133,11 @@ std::vector<Subscription*> Subscriptions::possible(std::string_view event_type, 
         std::ranges::inplace_merge(all, middle, {}, &Subscription::number);
     };
     add(of_type.without_demand);
-    if (auto const of_ref = of_type.by_ref.find(component.ref().code); of_ref != of_type.by_ref.end()) add(of_ref->second);
     if (auto const alike = of_type.by_type.find(component.type_key()); alike != of_type.by_type.end()) add(alike->second);
+    if (component.is_member) std::erase_if(all, [](auto const* each) { return seen_by(each->filter) == Members::hidden; });
+    if (auto const of_ref = of_type.by_ref.find(component.ref().code); of_ref != of_type.by_ref.end()) add(of_ref->second);
     auto const again = std::ranges::unique(all);
     all.erase(again.begin(), again.end());
-    if (component.is_member) std::erase_if(all, [](auto const* each) { return seen_by(each->filter) == Members::hidden; });
     return all;
 }
 

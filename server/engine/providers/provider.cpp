@@ -10,7 +10,11 @@
 namespace rois {
 
 void ProvidersToRun::add(std::shared_ptr<Provider> provider) noexcept {
-    if (!std::exchange(provider->is_listed_, true)) providers_.push_back(std::move(provider));
+    if (std::exchange(provider->is_listed_, true)) return;
+    if (providers_.size() == providers_.capacity()) {  // makes room without memory: no provider is listed twice
+        providers_.erase(providers_.begin(), providers_.begin() + static_cast<std::ptrdiff_t>(std::exchange(taken_, 0)));
+    }
+    providers_.push_back(std::move(provider));
 }
 
 std::shared_ptr<Provider> ProvidersToRun::take() noexcept {

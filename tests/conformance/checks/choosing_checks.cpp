@@ -10,7 +10,8 @@ namespace {
 // The components of units with the same name: "robot1.navigation" for "navigation". They are seen only by those who ask for
 // units.
 std::vector<std::string> members_of(Client& client, Component const& component) {
-    auto members = client.search(kit::where(kit::like("component_ref", "*." + component.ref)));
+    auto members =
+        client.search(kit::where(kit::both(kit::like("component_ref", "*." + component.ref), kit::like("engine", "*"))));
     auto const all = client.search();
     std::erase_if(members, [&](std::string const& ref) { return std::ranges::find(all, ref) != all.end(); });
     return members;

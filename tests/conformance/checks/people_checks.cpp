@@ -124,7 +124,8 @@ private:
         return client_.receive_now();
     }
 
-    // Throws NotObservable early if a person detection reports zero people. Without a detection, `people` waits until the patience is over.
+    // Throws NotObservable early if a person detection reports zero people. Without a detection, `people` waits until the
+    // patience is over.
     void require_a_person() {
         for (auto const& detection : context_.catalogue().components) {
             if (detection.basic() != "persondetection" || detection.engine != localization.engine) continue;

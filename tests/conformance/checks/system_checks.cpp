@@ -32,9 +32,13 @@ std::vector<std::string> components_of(Context const& context, std::string const
     return refs;
 }
 
-// Requires the components of an engine, with or without those of its sub engines.
+// Requires the components of an engine, with or without those of its sub engines. Members of logical components, which are only
+// seen by those who ask for engines, may be among them.
 void require_chosen(Context const& context, std::string const& engine, std::string const& what, std::vector<std::string> found) {
     std::ranges::sort(found);
+    std::erase_if(found, [&](std::string const& ref) {
+        return context.catalogue().find(ref) == nullptr && context.catalogue().find(ref.substr(ref.rfind('.') + 1)) != nullptr;
+    });
     auto const expected = components_of(context, engine);
     auto const whole = context.catalogue().refs_by_engine.find(engine);
     bool const is_whole = whole != context.catalogue().refs_by_engine.end() && std::ranges::equal(whole->second, found);

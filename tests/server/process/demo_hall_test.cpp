@@ -105,7 +105,9 @@ double driven(std::string const& robot, Application& in_hall, Application& desk)
 }
 
 // The components of all units.
-std::vector<std::string> members(Application& desk) { return desk.search(where(like("component_ref", "*.*"))); }
+std::vector<std::string> members(Application& desk) {
+    return desk.search(where(both(like("component_ref", "*.*"), like("engine", "*"))));
+}
 
 void await_members(Application& desk) {
     for (int i = 0; i < 250 && members(desk).size() < 40; ++i) std::this_thread::sleep_for(20ms);
