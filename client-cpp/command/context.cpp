@@ -172,7 +172,7 @@ std::vector<ComponentEntry> Context::components() {
 
 Bind::Reply Context::bound(Identifier component) {
     auto const ref = component.code;
-    return ok(Bind{std::move(component)}, [&] { return hint_for_component(ref); });
+    return ok(Bind{std::move(component), options_.switching}, [&] { return hint_for_component(ref); });
 }
 
 std::string Context::hint_for_component(std::string const& ref) {

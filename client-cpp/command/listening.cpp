@@ -156,7 +156,9 @@ void listen(Context& context, std::function<void(Update const&)> const& handle, 
         if (!update) throw Trouble{Exit::no_answer, "the connection has closed"};
         if (!wanted(*update)) continue;
         auto const* const news = std::get_if<News>(&*update);
-        if (news != nullptr && std::holds_alternative<ReceiveEvent>(news->notification)) ++events;
+        bool const is_event = news != nullptr && (std::holds_alternative<ReceiveEvent>(news->notification) ||
+                                                  std::holds_alternative<Switched>(news->notification));
+        if (is_event) ++events;
         handle(*update);
         if (news != nullptr && std::holds_alternative<ReceiveError>(news->notification))
             explain(context, std::get<ReceiveError>(news->notification));
@@ -189,10 +191,13 @@ void subscribe(Context& context) {
 
 void watch(Context& context) {
     auto const& options = context.options();
+    auto event_types = options.words;
+    std::erase(event_types, switches);
+    bool const only_switches = event_types.empty() && watches_switches(options);
     bool const is_chosen = !options.words.empty() || !options.where.empty() || !options.condition_file.empty();
     Wanted wanted;
-    if (is_chosen || !context.session().is_joined())
-        wanted = wanted_by(context, [&] { return subscribe_to(context, options.words, context.condition()); });
+    if (!only_switches && (is_chosen || !context.session().is_joined()))
+        wanted = wanted_by(context, [&] { return subscribe_to(context, event_types, context.condition()); });
     start_components(context);
     listen(
         context, [&](Update const& update) { show(context.printer(), update); }, wanted);

@@ -137,6 +137,16 @@ private:
         command.add_option("--start", options_.starts, "bind and start this component; may be repeated")->option_text("REF");
     }
 
+    void switching(CLI::App& command) {
+        std::map<std::string, Switching> const all{
+            {"none", Switching::none}, {"abort", Switching::abort}, {"restart", Switching::restart}};
+        command
+            .add_option("--switching", options_.switching,
+                        "what happens if the component that acts for a logical one fails: none, abort or restart [none]")
+            ->option_text("WHAT")
+            ->transform(CLI::CheckedTransformer(all));
+    }
+
     // Adds positional arguments.
     CLI::Option* words(CLI::App& command, std::string const& name, std::string const& what) {
         return command.add_option(name, options_.words, what)->option_text(" ");
@@ -169,6 +179,7 @@ private:
         auto& bind =
             command("bind", "bind components, and hold them until interrupted, or in the background with --session-file");
         words(bind, "REF", "components");
+        switching(bind);
         conditioned(bind);
         bounded(bind, "hold them for this time");
         auto& release =
@@ -180,6 +191,7 @@ private:
         auto& start = command("start", "start a component, and wait until the command has completed");
         ref(start);
         words(start, "NAME=VALUE", "arguments");
+        switching(start);
         bounded(start, "keep the session for this time after the command");
         unwaited(start);
         auto& stop = command("stop", "stop a component");
@@ -190,6 +202,7 @@ private:
         words(execute, "FILE|REF",
               "a file with a CommandUnitSequence (-: standard input); or a component, a command, NAME=VALUE...")
             ->required();
+        switching(execute);
         execute.add_flag("--results", options_.results, "show the results of each command");
         execute.add_flag("--check-only", options_.check_only, "only check whether the commands are possible; nothing runs");
         unwaited(execute);
@@ -204,7 +217,7 @@ private:
         counted(subscribe);
         bounded(subscribe, "end after this time");
         auto& watch = command("watch", "show all notifications: events, errors, ends of commands, and the state of the link");
-        words(watch, "EVENT", "event types; default: all");
+        words(watch, "EVENT", "event types, or switched; default: all");
         conditioned(watch);
         starting(watch);
         counted(watch);

@@ -1,11 +1,13 @@
 // The options of the command line.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -49,8 +51,13 @@ struct Options {
     bool results = false;
     bool check = false;
     bool check_only = false;
+    Switching switching = Switching::none;  // of bindings
     bool quiet = false;
 };
+
+// The word that watch takes for the notification `switched` beside event types.
+constexpr std::string_view switches = "switched";
+inline bool watches_switches(Options const& options) { return std::ranges::find(options.words, switches) != options.words.end(); }
 
 // A text to print instead of running a command: help or version.
 struct Printout {

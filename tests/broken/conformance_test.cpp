@@ -37,9 +37,10 @@ TEST(Conformance, FindsNoBrokenRuleInOurGateway) {
     EXPECT_GE(report.select_nodes("//testcase").size(), 200u);
     EXPECT_TRUE(report.select_nodes("//failure").empty());
     // Ignores skipped checks of effects: at this speed, some effects are too fast to be observed. rules_test.cpp runs each of
-    // these checks in a suitable world.
+    // these checks in a suitable world. The gateway has no logical components.
     std::vector<std::string> skipped;
-    for (auto const& one : report.select_nodes("//testcase[skipped][not(starts-with(@classname, 'Effects'))]"))
+    for (auto const& one : report.select_nodes("//testcase[skipped][not(starts-with(@classname, 'Effects'))]"
+                                               "[not(contains(@classname, 'choosing and switching'))]"))
         skipped.emplace_back(one.node().attribute("name").value());
     EXPECT_THAT(skipped, testing::ElementsAre("errors_have_details")) << "no component fails here";
     std::filesystem::remove(file);

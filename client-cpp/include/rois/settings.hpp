@@ -30,6 +30,10 @@ struct Settings {
     // most the gateway's own lease. Empty: the gateway's lease, by default 2 s.
     std::optional<std::chrono::milliseconds> motion_lease{};
 
+    // Receive each switch of a logical component (the notification Switched), not only those of components that this session has
+    // bound with `switching`.
+    bool switches = false;
+
     std::chrono::milliseconds deadline = std::chrono::seconds{10};         // of a call, retries included
     std::chrono::milliseconds connect_deadline = std::chrono::seconds{5};  // of one attempt, TLS and handshake included
     // A WebSocket is pinged after this silence. A link that is silent for twice as long is given up. Event streams have a limit

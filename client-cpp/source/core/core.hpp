@@ -132,7 +132,7 @@ private:
     Task<Answer> subscribe_at_engine(Subscribe, std::chrono::milliseconds deadline);
     void end_subscribing();
     Task<> unsubscribe_unused(SubscribeId);
-    void note_bound(Identifier const&);
+    void note_bound(Bind);
     void note_released(Identifier const&);
     void end_unused();
 
@@ -163,7 +163,7 @@ private:
     client::Loop::Ticket attempt_ = 0;
     std::string last_reason_;
     std::uint64_t random_;
-    std::vector<Identifier> bound_;
+    std::vector<Bind> bound_;
     client::Subscriptions subscriptions_;
     std::map<std::string, std::string> restoring_;  // bindings and subscriptions that are being restored, by request id
     std::optional<Gap> gap_;                        // to report when all is restored

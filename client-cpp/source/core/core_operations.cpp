@@ -75,7 +75,7 @@ Task<Answer> Core::plain(Request request, std::chrono::milliseconds deadline) {
     if (lacks_command(request.operation, answer))
         co_return NoAnswer{NoAnswer::Why::not_understood, "the answer to set_parameter has no command_id"};
     if (auto const* const op = std::get_if<Bind>(&request.operation); op != nullptr && good<Bind::Reply>(answer) != nullptr)
-        note_bound(op->component_ref);
+        note_bound(*op);
     if (auto const* const op = std::get_if<Release>(&request.operation); op != nullptr && good<Release::Reply>(answer) != nullptr)
         note_released(op->component_ref);
     co_return std::move(answer);
@@ -149,14 +149,14 @@ Task<Answer> Core::execute(Execute operation, std::chrono::milliseconds deadline
 
 // --- Bindings ---
 
-void Core::note_bound(Identifier const& ref) {
-    bool const known = std::ranges::any_of(bound_, [&](auto const& bound) { return bound.code == ref.code; });
-    if (!known) bound_.push_back(ref);
+void Core::note_bound(Bind binding) {
+    note_released(binding.component_ref);
+    bound_.push_back(std::move(binding));
     expect_signs_of_life();
 }
 
 void Core::note_released(Identifier const& ref) {
-    std::erase_if(bound_, [&](auto const& bound) { return bound.code == ref.code; });
+    std::erase_if(bound_, [&](auto const& bound) { return bound.component_ref.code == ref.code; });
 }
 
 // If the link breaks before the answer, looks for a component that the session has bound but bound_ does not contain: the engine
@@ -166,6 +166,7 @@ Task<Answer> Core::bind_any(BindAny operation, std::chrono::milliseconds deadlin
     co_await here();
     client::Deadline const due{deadline};
     auto const condition = operation.condition;
+    auto const switching = operation.switching;
     Request request{std::move(operation), {}};
     for (;;) {
         request.request_id = fresh_request_id();
@@ -173,7 +174,7 @@ Task<Answer> Core::bind_any(BindAny operation, std::chrono::milliseconds deadlin
         auto& outcome = co_await call->outcome();
         if (!std::holds_alternative<Interrupted>(outcome)) {
             auto& answer = std::get<Answer>(outcome);
-            if (auto const* const reply = good<BindAny::Reply>(answer)) note_bound(reply->component_ref);
+            if (auto const* const reply = good<BindAny::Reply>(answer)) note_bound({reply->component_ref, switching});
             co_return std::move(answer);
         }
         Request look{Search{condition}, {}};
@@ -181,11 +182,11 @@ Task<Answer> Core::bind_any(BindAny operation, std::chrono::milliseconds deadlin
         auto const* const found = good<Search::Reply>(candidates);
         if (found == nullptr) continue;
         for (auto const& ref : found->component_ref_list) {
-            if (std::ranges::any_of(bound_, [&](auto const& bound) { return bound.code == ref.code; })) continue;
+            if (std::ranges::any_of(bound_, [&](auto const& bound) { return bound.component_ref.code == ref.code; })) continue;
             Request ask{GetParameter{ref}, {}};
             auto const parameters = co_await plain(std::move(ask), due.left());
             if (good<GetParameter::Reply>(parameters) == nullptr) continue;
-            note_bound(ref);
+            note_bound({ref, switching});
             BindAny::Reply done;
             done.component_ref = ref;
             Reply reply{std::move(done)};

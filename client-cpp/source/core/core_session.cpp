@@ -54,7 +54,10 @@ void Core::connected() {
 // Asks the engine to count only requests as signs of life: this thread answers pings and keeps the event stream open even while
 // the application's own thread hangs.
 void Core::open_session() {
-    Connect const connect{.motion_lease = settings_.motion_lease, .motion_lease_http = {}, .motion_proof = MotionProof::request};
+    Connect const connect{.motion_lease = settings_.motion_lease,
+                          .motion_lease_http = {},
+                          .motion_proof = MotionProof::request,
+                          .switches = settings_.switches};
     send_on_link(client::document_of({connect, "connect"}));
 }
 
@@ -250,7 +253,7 @@ void Core::restore() {
         documents.push_back(client::document_of({std::move(operation), id}));
         restoring_.emplace(std::move(id), std::move(what));
     };
-    for (auto const& ref : bound_) add(Bind{ref}, "bind " + ref.code);
+    for (auto const& bound : bound_) add(bound, "bind " + bound.component_ref.code);
     for (auto const* const each : subscriptions_.all()) add(each->operation, "subscribe " + each->id.text);
     for (auto const& document : documents) send_on_link(document);
     if (restoring_.empty()) all_restored();
@@ -285,7 +288,8 @@ void Core::restored(std::string const& request_id, Outcome const& outcome, Reply
             subscription->engine_id = subscribed->subscribe_id;
     } else if (!good) {
         auto const name = subscription != nullptr ? "subscribe " + subscription->operation.event_type : what;
-        if (subscription == nullptr) std::erase_if(bound_, [&](auto const& ref) { return "bind " + ref.code == what; });
+        if (subscription == nullptr)
+            std::erase_if(bound_, [&](auto const& bound) { return "bind " + bound.component_ref.code == what; });
         if (subscription != nullptr) subscription->engine_id = {};
         gap_->not_restored.push_back(name + ": " + outcome.reason);
     }

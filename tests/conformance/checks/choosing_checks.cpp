@@ -13,7 +13,9 @@ std::vector<std::string> members_of(Client& client, Component const& component) 
     auto members =
         client.search(kit::where(kit::both(kit::like("component_ref", "*." + component.ref), kit::like("engine", "*"))));
     auto const all = client.search();
-    std::erase_if(members, [&](std::string const& ref) { return std::ranges::find(all, ref) != all.end(); });
+    std::erase_if(members, [&](std::string const& ref) {
+        return !ref.ends_with("." + component.ref) || std::ranges::find(all, ref) != all.end();
+    });
     return members;
 }
 
