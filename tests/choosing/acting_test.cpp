@@ -206,6 +206,26 @@ TEST_F(TwoRobots, GoOnIfOneIsLost) {
     EXPECT_EQ(desk.result_of("go"), "OK");
 }
 
+// A lost engine cannot confirm that its robot stands still.
+TEST_F(TwoRobots, StopAfterASwitchFromOneThatIsLost) {
+    bind(desk, "navigation", Switching::restart);
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    auto& lost = team.drive("robot1");
+    lost.halts_later = true;
+    lost.status_now = ComponentStatus::error;
+    lost.finishes(CompletedStatus::abort);
+    EXPECT_EQ(team.starts_of("robot2"), 1);
+    world.advance(2s);
+    desk.execute(named("stop", stop("navigation")));
+    EXPECT_EQ(desk.result_of("stop"), "OK");
+    EXPECT_EQ(desk.result_of("go"), "ABORT");
+    team.drive("robot2").calls.clear();
+    desk.leave();
+    world.advance(1s);
+    auto other = world.connect();
+    EXPECT_EQ(other.bind("navigation"), ReturnCode::ok);
+}
+
 TEST_F(TwoRobots, DoNotGoOnBeforeTheOtherStandsStill) {
     bind(desk, "navigation", Switching::restart);
     desk.execute(drive_to("go", {"1000, 0, 0"}));

@@ -138,15 +138,15 @@ TEST(DemoHall, GoesOnWithTheOtherRobotIfTheEngineOfOneIsKilled) {
 
     demo.kill("robot1");
     auto const killed = Clock::now();
-    while (driven("robot1", in_hall, desk) > 100 && Clock::now() < killed + 10s) continue;
+    while (driven("robot1", in_hall, desk) > 200 && Clock::now() < killed + 10s) continue;
     EXPECT_LT(Clock::now() - killed, 4s);
-    while (driven("robot2", in_hall, desk) < 100 && Clock::now() < killed + 20s) continue;
+    while (driven("robot2", in_hall, desk) < 300 && Clock::now() < killed + 20s) continue;
     EXPECT_LT(Clock::now() - killed, 6s) << "robot2 has driven for a while";
     EXPECT_THAT(watch.get().out, testing::HasSubstr("from robot1.navigation to robot2.navigation"));
     EXPECT_EQ(desk.execute(Command{.component = "navigation", .type = "stop", .id = "stop"}).return_code(), "OK");
-    EXPECT_EQ(desk.status_of("stop"), "OK");
     EXPECT_EQ(desk.status_of("go"), "ABORT");
-    EXPECT_LT(driven("robot2", in_hall, desk), 100) << "noise";
+    EXPECT_EQ(desk.status_of("stop"), "OK");
+    EXPECT_LT(driven("robot2", in_hall, desk), 200) << "noise";
     desk.bind("speech_synthesis");
     desk.execute(Command{.component = "speech_synthesis", .id = "hello", .arguments = {speech_text("Hello.")}});
     EXPECT_EQ(desk.status_of("hello"), "OK");
@@ -182,7 +182,7 @@ TEST(DemoHall, GreetsAVisitorWithTheOtherRobotIfOneIsKilledOnItsWay) {
         auto const killed = first->first, other = killed == "robot1" ? std::string{"robot2"} : std::string{"robot1"};
         demo.kill(killed);
         auto const then = Clock::now();
-        while (driven(killed, in_hall, desk) > 100 && Clock::now() < then + 10s) continue;
+        while (driven(killed, in_hall, desk) > 200 && Clock::now() < then + 10s) continue;
         EXPECT_LT(Clock::now() - then, 4s) << killed << " stands still";
         while (!is_on_its_way(*starts.find(other)) && Clock::now() < then + 20s) std::this_thread::sleep_for(50ms);
         EXPECT_LT(Clock::now() - then, 6s) << other << " has driven 0.7 m, which takes a second";
