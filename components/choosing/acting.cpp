@@ -72,16 +72,16 @@ std::optional<ParameterList> Acting::arguments_for(Action const& action, Member 
     return arguments;
 }
 
-void Acting::choose(SharedAction const& action, Chosen chosen) {
+void Acting::choose(SharedAction const& action, Chosen const& chosen) {
     std::vector<std::string> candidates;
     for (auto const* member : best_members(rest_of(action->parameters, action->reached)))
         if (!action->failed.contains(member->ref)) candidates.push_back(member->ref);
-    try_next(action, std::move(candidates), {}, std::move(chosen));
+    try_next(action, std::move(candidates), {}, chosen);
 }
 
 // `why_not`: the objection to report if no other candidate accepts the command.
-void Acting::try_next(SharedAction const& action, std::vector<std::string> candidates, std::optional<Outcome> why_not,
-                      Chosen chosen) {
+void Acting::try_next(SharedAction const& action, std::vector<std::string> candidates, std::optional<Outcome> const& why_not,
+                      Chosen const& chosen) {
     if (candidates.empty() || action->is_over)
         return chosen({{}, why_not.value_or(Outcome{ReturnCode::error, "none of its members is free and READY"})});
     auto const ref = candidates.front();

@@ -47,8 +47,8 @@ private:
         Outcome why;
     };
     using Chosen = std::function<void(Choice const&)>;
-    void choose(SharedAction const&, Chosen);
-    void try_next(SharedAction const&, std::vector<std::string> candidates, std::optional<Outcome> why_not, Chosen);
+    void choose(SharedAction const&, Chosen const&);
+    void try_next(SharedAction const&, std::vector<std::string> candidates, std::optional<Outcome> const& why_not, Chosen const&);
     std::vector<Member*> best_members(ParameterList const& parameters = {});
     // What the member is to do: what is left, with its own names of persons. Nothing: it does not sense the person.
     std::optional<ParameterList> arguments_for(Action const&, Member const&) const;

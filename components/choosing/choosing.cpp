@@ -34,7 +34,7 @@ void Choosing::change_logical(std::string const& name, bool senses, Members cons
     std::vector<std::string> refs;
     std::vector<ComponentDescription const*> present;
     for (auto const& engine : settings_.engines) {
-        auto const& ref = refs.emplace_back(engine + "." + name);
+        auto const& ref = refs.emplace_back(std::string{engine}.append(".").append(name));
         if (auto const member = members.find(ref); member != members.end()) present.push_back(&member->second);
     }
     auto const before = shown.find(name);
@@ -50,7 +50,7 @@ void Choosing::change_logical(std::string const& name, bool senses, Members cons
         change.going.push_back(name);
     }
     shown[name] = description.profile;
-    for (auto const& what : left_out) report_(name + " is offered without " + what);
+    for (auto const& what : left_out) report_(std::string{name}.append(" is offered without ").append(what));
     description.provider = provider;
     description.returns_at_once = true;
     description.confirms_binding = true;

@@ -97,7 +97,7 @@ void Logical::command(std::string const& ref, std::string const& type, Parameter
     });
 }
 
-void Logical::stop(std::string const& ref, std::function<void(bool stands)> then) {
+void Logical::stop(std::string const& ref, std::function<void(bool stands)> const& then) {
     auto const begun = [then](Outcome const& outcome) {
         if (outcome.return_code != ReturnCode::ok) then(false);
     };
@@ -131,13 +131,18 @@ void Logical::suspend(Ticket ticket, Instant) { pause(ticket, "suspend"); }
 void Logical::resume(Ticket ticket, Instant) { pause(ticket, "resume"); }
 
 void Logical::has_begun() {
-    if (beginning_ == 0 || --beginning_ > 0) return;
+    if (beginning_ == 0) return;
+    --beginning_;
+    if (beginning_ > 0) return;
     for (auto const& what : std::exchange(waiting_, {})) what();
 }
 
 // Suspends or resumes all members that are bound. A failure of one is the answer.
 void Logical::pause(Ticket ticket, std::string const& command_type) {
-    if (beginning_ > 0) return waiting_.push_back([this, ticket, command_type] { pause(ticket, command_type); });
+    if (beginning_ > 0) {
+        waiting_.emplace_back([this, ticket, command_type] { pause(ticket, command_type); });
+        return;
+    }
     auto const left = std::make_shared<std::size_t>(1);
     auto const one_less = [this, left, ticket](Completed const& completed, Instant) {
         if (*left == 0) return;

@@ -76,7 +76,7 @@ protected:
     using Ended = std::function<void(Completed const&, Instant now)>;
     void command(std::string const& ref, std::string const& type, ParameterList const& arguments, Answered begun, Ended ended);
     // `then` is called with whether the member has confirmed that it stands still.
-    void stop(std::string const& ref, std::function<void(bool stands)> then);
+    void stop(std::string const& ref, std::function<void(bool stands)> const& then);
 
 private:
     void forget(Member&);

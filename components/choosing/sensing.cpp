@@ -84,8 +84,8 @@ void Sensing::prepare(Ticket ticket, std::string_view command_type, ParameterLis
 }
 
 // The command is possible if one member accepts it.
-void Sensing::try_next(std::vector<std::string> refs, std::string type, ParameterList parameters, Ticket ticket,
-                       Outcome why_not) {
+void Sensing::try_next(std::vector<std::string> refs, std::string const& type, ParameterList const& parameters, Ticket ticket,
+                       Outcome const& why_not) {
     if (refs.empty()) {
         if (why_not.return_code == ReturnCode::bad_parameter) return port().answered(ticket, Refused{why_not.reason});
         return port().answered(ticket, Failed{why_not.reason});
@@ -120,7 +120,7 @@ void Sensing::begin(std::string const& command_type, ParameterList const& parame
 }
 
 // `for_command`: the application's `start`, which completes with the first member that begins. Null: it has completed.
-void Sensing::start(std::string const& ref, std::shared_ptr<CommandHandle> for_command) {
+void Sensing::start(std::string const& ref, std::shared_ptr<CommandHandle> const& for_command) {
     started_.insert(ref);
     begins();
     auto const failed = [this, ref, for_command](Outcome const& why) {
@@ -294,7 +294,7 @@ void Sensing::report_positions(Event const& event, Instant now) {
              .orientation = {},
              .certainty = Located::Covariance{{covariance(0, 0), covariance(0, 1), covariance(1, 0), covariance(1, 1)}}});
     }
-    if (std::exchange(has_reported_persons_, !names.empty()) == false && names.empty()) return;
+    if (!std::exchange(has_reported_persons_, !names.empty()) && names.empty()) return;
     results.parameters = {date_time("timestamp", now.utc),
                           references(event.kind + "_ref", std::move(names), std::string{fused_codebook}),
                           positions("position_data", std::move(points), frame)};

@@ -42,9 +42,10 @@ private:
     Event const* find(std::string_view type) const;
 
     void begin(std::string const& command_type, ParameterList const&, CommandHandle);
-    void try_next(std::vector<std::string> refs, std::string type, ParameterList parameters, Ticket, Outcome why_not);
+    void try_next(std::vector<std::string> refs, std::string const& type, ParameterList const& parameters, Ticket,
+                  Outcome const& why_not);
     void start_free_members();
-    void start(std::string const& ref, std::shared_ptr<CommandHandle> for_command);
+    void start(std::string const& ref, std::shared_ptr<CommandHandle> const& for_command);
     void complete(std::shared_ptr<CommandHandle> const&, Outcome const&);
     void change_parameters(ParameterList const&, CommandHandle);
     void end_sensing();

@@ -48,7 +48,7 @@ choosing::Settings read(json const& section, std::vector<remote::SubEngine> cons
     std::set<std::string> taken;
     auto const names_of = [&](std::string const& key) {
         if (!is_list_of_names(section[key]))
-            must_be(key, "a list of different names, none of them empty, such as [\"robot1\", \"robot2\"]");
+            must_be(key, R"(a list of different names, none of them empty, such as ["robot1", "robot2"])");
         return section[key].template get<std::vector<std::string>>();
     };
     for (auto [key, names] : {std::pair{"logical", &settings.logical}, std::pair{"sensing", &settings.sensing}}) {

@@ -99,13 +99,13 @@ void a_logical_component_cannot_be_bound_without_free_members(Context& context) 
     auto const [component, members] = logical_components(context, client).front();
     for (auto const& member : members)
         if (holder.bind(member).return_code() != "OK") throw Skipped{"another application uses " + member};
-    std::string code;
     // The engine may notice a little later that the members are not free.
-    for (code = client.bind(component->ref).return_code(); code == "OK"; code = client.bind(component->ref).return_code()) {
-        require_ok(client.release(component->ref));
+    for (;;) {
+        auto const code = client.bind(component->ref).return_code();
+        if (code == "OUT_OF_RESOURCES") return;
+        if (code == "OK") require_ok(client.release(component->ref));
         context.check_deadline();
     }
-    require_equal("bind of " + component->ref + " while all its members are bound", "OUT_OF_RESOURCES", code);
 }
 
 }  // namespace
