@@ -161,7 +161,7 @@ TEST_F(Memory, IsBoundedForUnfinishedMessages) {
 
 // Comments and CDATA sections divide a text.
 TEST_F(Memory, IsBoundedForTextsInPieces) {
-    start(64);
+    start(96);
     auto& client = another();
     client.call("connect");
     for (std::string const piece : {"x<!---->", "x<![CDATA[y]]>"}) {
