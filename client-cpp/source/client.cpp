@@ -7,17 +7,17 @@ namespace rois {
 
 using detail::asked;
 
-Task<Component> Client::bind(std::string ref) {
+Task<Component> Client::bind(std::string ref, Switching switching) {
     auto const inside = core();
-    Bind operation{{.code = std::move(ref), .authority = {}, .codebook_ref = {}, .version = {}}};
+    Bind operation{{.code = std::move(ref), .authority = {}, .codebook_ref = {}, .version = {}}, switching};
     auto bound = operation.component_ref;
     co_await asked(inside, std::move(operation), "bind ", bound.code);
     co_return Component{inside, std::move(bound)};
 }
 
-Task<Component> Client::bind_any(QueryExpression condition) {
+Task<Component> Client::bind_any(QueryExpression condition, Switching switching) {
     auto const inside = core();
-    BindAny operation{std::move(condition)};
+    BindAny operation{std::move(condition), switching};
     auto bound = co_await asked(inside, std::move(operation), "bind_any");
     co_return Component{inside, std::move(bound.component_ref)};
 }

@@ -83,9 +83,9 @@ Task<EventStream> subscribed(std::shared_ptr<detail::Core> core, std::string eve
     co_return EventStream{core, std::move(stream)};
 }
 
-Task<> bound(std::shared_ptr<detail::Core> core, Identifier ref) {
+Task<> bound(std::shared_ptr<detail::Core> core, Identifier ref, Switching switching) {
     auto whom = ref.code;
-    Bind operation{std::move(ref)};
+    Bind operation{std::move(ref), switching};
     co_await asked(std::move(core), std::move(operation), "bind ", std::move(whom));
 }
 
@@ -130,7 +130,7 @@ Task<EventStream> Component::subscribe(std::string event_type, QueryExpression c
     return subscribed(core_, std::move(event_type), narrowed(std::move(condition), conditions::component_ref == ref_.code));
 }
 
-Task<> Component::bind() const { return bound(core_, ref_); }
+Task<> Component::bind(Switching switching) const { return bound(core_, ref_, switching); }
 
 Task<> Component::release() const { return released(core_, ref_); }
 

@@ -111,4 +111,10 @@ void ScriptedGateway::event(int sequence, std::string const& subscribe_id) {
                    R"(xmlns:rois="http://www.omg.org/spec/RoIS/20240801" rois:code="c"/></receive_event>)");
 }
 
+void ScriptedGateway::switched(int sequence) {
+    inside_->write(std::string{"<switched"} + message + attribute("sequence", std::to_string(sequence)) +
+                   R"(><component_ref xmlns:rois="http://www.omg.org/spec/RoIS/20240801" rois:code="navigation"/>)"
+                   "<from>robot1.navigation</from><to>robot2.navigation</to><reason>says the script</reason></switched>");
+}
+
 }  // namespace rois::test

@@ -25,6 +25,7 @@ public:
     void answer(std::string const& content = {}, std::string const& return_code = "OK");
     void fault(std::string const& code);
     void event(int sequence, std::string const& subscribe_id);
+    void switched(int sequence);  // navigation, from robot1 to robot2
 
 private:
     class Inside;

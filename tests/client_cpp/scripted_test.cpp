@@ -108,6 +108,60 @@ TEST_F(TheScript, DeliversNoEventsToAStreamThatTheNewSessionRefused) {
     EXPECT_THAT(history.gaps().at(0).not_restored, testing::ElementsAre(testing::StartsWith("subscribe a: ")));
 }
 
+TEST_F(TheScript, RestoresBindingsWithTheirSwitching) {
+    auto const binds = [](std::string const& ref, std::string const& switching) {
+        return testing::AllOf(testing::HasSubstr("\"" + ref + "\""), testing::HasSubstr("switching=\"" + switching + "\""));
+    };
+    auto named = begun(client, client.bind("navigation", Switching::abort));
+    EXPECT_THAT(gateway.receive("bind"), binds("navigation", "abort"));
+    gateway.answer();
+    auto again = begun(client, named.get().bind(Switching::restart));
+    EXPECT_THAT(gateway.receive("bind"), binds("navigation", "restart"));
+    gateway.answer();
+    again.get();
+    auto any = begun(client, client.bind_any(type == "Move", Switching::abort));
+    EXPECT_THAT(gateway.receive("bind_any"), testing::HasSubstr("switching=\"abort\""));
+    gateway.answer(R"(<component_ref xmlns:rois="http://www.omg.org/spec/RoIS/20240801" rois:code="move"/>)");
+    any.get();
+    replace_session("two");
+    EXPECT_THAT(gateway.receive("bind"), binds("navigation", "restart")) << "the latest one";
+    gateway.answer();
+    EXPECT_THAT(gateway.receive("bind"), binds("move", "abort"));
+    gateway.answer();
+    ask();
+}
+
+TEST_F(TheScript, DeliversASwitchOnce) {
+    gateway.switched(1);
+    gateway.switched(1);
+    ask();
+    auto const all = history.notifications();
+    ASSERT_THAT(all, testing::SizeIs(1));
+    auto const& switched = std::get<Switched>(all[0].second);
+    EXPECT_EQ(switched.component_ref.code, "navigation");
+    EXPECT_EQ(switched.from, "robot1.navigation");
+    EXPECT_EQ(switched.to, "robot2.navigation");
+    EXPECT_EQ(switched.reason, "says the script");
+}
+
+TEST(AConnectionWithSwitches, RequestsThemInEachSession) {
+    ScriptedGateway gateway;
+    auto settings = quick(gateway.url());
+    settings.switches = true;
+    Connection const connection{settings};
+    for (std::string const session : {"one", "two"}) {
+        gateway.accept();
+        if (session == "two") {
+            gateway.receive("resume");
+            gateway.fault("no_session");
+            gateway.accept();
+        }
+        EXPECT_THAT(gateway.receive("connect"), testing::HasSubstr("switches=\"true\""));
+        gateway.answer("<session>" + session + "</session>");
+    }
+    gateway.cut();
+}
+
 TEST_F(TheScript, RunsNoSequenceInTwoSessions) {
     auto running = begun(client, client.component("c").start());
     gateway.receive("execute");

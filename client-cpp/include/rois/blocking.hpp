@@ -27,15 +27,19 @@ public:
     // Waits for the session. Throws Error if none is open within Settings::connect_deadline.
     void open();
 
-    Component bind(std::string ref) { return client_.wait(client_.bind(std::move(ref))); }
-    Component bind_any(QueryExpression condition) { return client_.wait(client_.bind_any(std::move(condition))); }
-    template <class Facade>
-    Facade bind(std::string ref) {
-        return client_.wait(client_.bind<Facade>(std::move(ref)));
+    Component bind(std::string ref, Switching switching = Switching::none) {
+        return client_.wait(client_.bind(std::move(ref), switching));
+    }
+    Component bind_any(QueryExpression condition, Switching switching = Switching::none) {
+        return client_.wait(client_.bind_any(std::move(condition), switching));
     }
     template <class Facade>
-    Facade bind_any(QueryExpression condition = {}) {
-        return client_.wait(client_.bind_any<Facade>(std::move(condition)));
+    Facade bind(std::string ref, Switching switching = Switching::none) {
+        return client_.wait(client_.bind<Facade>(std::move(ref), switching));
+    }
+    template <class Facade>
+    Facade bind_any(QueryExpression condition = {}, Switching switching = Switching::none) {
+        return client_.wait(client_.bind_any<Facade>(std::move(condition), switching));
     }
     std::vector<Identifier> search(QueryExpression condition = {}) { return client_.wait(client_.search(std::move(condition))); }
     Query::Reply query(std::string query_type, QueryExpression condition = {}) {

@@ -33,21 +33,22 @@ class Client : public Connection {
 public:
     using Connection::Connection;
 
-    // Binds the named component, or any free one that meets the condition.
-    Task<Component> bind(std::string ref);
-    Task<Component> bind_any(QueryExpression condition);
+    // Binds the named component, or any free one that meets the condition. `switching`: what happens to a `start` if the member
+    // that acts for a logical component fails (docs/choosing.md). Observers then receive each Switched.
+    Task<Component> bind(std::string ref, Switching switching = Switching::none);
+    Task<Component> bind_any(QueryExpression condition, Switching switching = Switching::none);
 
     // The same with the type of the component: bind_any<Navigation>(), bind<Navigation>("sub1.navigation").
     template <class Facade>
-    Task<Facade> bind(std::string ref) {
-        auto component = co_await bind(std::move(ref));
+    Task<Facade> bind(std::string ref, Switching switching = Switching::none) {
+        auto component = co_await bind(std::move(ref), switching);
         co_return Facade{std::move(component)};
     }
     template <class Facade>
-    Task<Facade> bind_any(QueryExpression condition = {}) {
+    Task<Facade> bind_any(QueryExpression condition = {}, Switching switching = Switching::none) {
         auto const of_type = conditions::type == Facade::component_type;
         auto narrower = narrowed(std::move(condition), of_type);
-        auto component = co_await bind_any(std::move(narrower));
+        auto component = co_await bind_any(std::move(narrower), switching);
         co_return Facade{std::move(component)};
     }
 

@@ -82,7 +82,7 @@ public:
         co_return Events<E>{std::move(stream)};
     }
 
-    Task<> bind() const;
+    Task<> bind(Switching switching = Switching::none) const;
     Task<> release() const;
 
 private:
