@@ -107,8 +107,8 @@ void bind_each(Context& context, QueryExpression const& condition, std::vector<B
     auto const& options = context.options();
     for (auto const& ref : options.words) done.push_back({"bind", ref_of(ref), context.bound(ref_of(ref))});
     if (options.where.empty() && options.condition_file.empty()) return;
-    auto reply =
-        context.ok(BindAny{condition, context.options().switching}, [&] { return hint_for_bind_any(context, condition); });
+    auto reply = context.ok(BindAny{condition, options.switching.value_or(Switching::none)},
+                            [&] { return hint_for_bind_any(context, condition); });
     done.push_back({"bind_any", reply.component_ref, reply});
 }
 

@@ -171,8 +171,17 @@ std::vector<ComponentEntry> Context::components() {
 }
 
 Bind::Reply Context::bound(Identifier component) {
+    // In a shared session, another bind would replace the `switching` of the present binding.
+    if (session().is_joined() && !options_.switching && owns(component)) return {};
     auto const ref = component.code;
-    return ok(Bind{std::move(component), options_.switching}, [&] { return hint_for_component(ref); });
+    return ok(Bind{std::move(component), options_.switching.value_or(Switching::none)}, [&] { return hint_for_component(ref); });
+}
+
+bool Context::owns(Identifier const& component) {
+    auto const answer = session().request(GetParameter{component});  // the engine answers it only to the owner
+    auto const* const reply = std::get_if<Reply>(&answer);
+    auto const* const parameters = reply != nullptr ? std::get_if<GetParameter::Reply>(reply) : nullptr;
+    return parameters != nullptr && parameters->return_code == ReturnCode::ok;
 }
 
 std::string Context::hint_for_component(std::string const& ref) {

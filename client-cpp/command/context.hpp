@@ -63,7 +63,7 @@ public:
         return std::get<typename Op::Reply>(std::move(reply));
     }
 
-    // Binds the component. If it is unknown, the refusal lists the known components.
+    // Binds the component with --switching. If it is unknown, the refusal lists the known components.
     Bind::Reply bound(Identifier);
 
     // The list of known components for the refusal of an unknown one; empty if the component is known.
@@ -92,6 +92,7 @@ private:
     enum class Written { no, yes };
     Reply checked(Operation, Written, std::function<std::string()> const& hint);
     [[noreturn]] void refuse(Reply const&);
+    bool owns(Identifier const& component);  // whether this session has bound it
     void take_session_file();
     void replace_lost_session(NoSession const&);
     void end_left_session();

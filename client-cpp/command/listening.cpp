@@ -16,11 +16,6 @@ namespace rois::command {
 
 namespace {
 
-bool is_event(Context& context, std::string const& type) {
-    auto const known = message_names(context.components(), MessageKind::event);
-    return std::ranges::find(known, type) != known.end();
-}
-
 void check_known(Context& context, std::vector<std::string> const& wanted, std::vector<std::string> const& known) {
     for (auto const& type : wanted)
         if (std::ranges::find(known, type) == known.end())
@@ -64,8 +59,8 @@ std::vector<SubscribeId> subscribe_to(Context& context, std::vector<std::string>
 // Selects the updates of a command. In a shared session, the command also receives older notifications and events of other
 // subscriptions.
 struct Wanted {
-    std::uint64_t after = 0;            // only notifications after this sequence
-    std::vector<SubscribeId> events{};  // only events of these subscriptions; empty: all
+    std::uint64_t after = 0;                           // only notifications after this sequence
+    std::optional<std::vector<SubscribeId>> events{};  // only events of these subscriptions; empty: all
 
     bool operator()(Update const&) const;
 };
@@ -74,7 +69,7 @@ bool Wanted::operator()(Update const& update) const {
     auto const* const news = std::get_if<News>(&update);
     if (news == nullptr) return true;
     auto const* const event = std::get_if<ReceiveEvent>(&news->notification);
-    bool const is_chosen = event == nullptr || events.empty() || std::ranges::find(events, event->subscribe_id) != events.end();
+    bool const is_chosen = event == nullptr || !events || std::ranges::find(*events, event->subscribe_id) != events->end();
     return news->sequence > after && is_chosen;
 }
 
@@ -145,6 +140,12 @@ Wanted wanted_by(Context& context, std::function<std::vector<SubscribeId>()> con
     return wanted;
 }
 
+// Whether --count counts this notification.
+bool counts(Options const& options, Notification const& notification) {
+    return std::holds_alternative<ReceiveEvent>(notification) ||
+           (std::holds_alternative<Switched>(notification) && watches_switches(options));
+}
+
 // Calls `handle` with each wanted update until --count events have arrived, --for is over, or a signal arrives. Throws Trouble if
 // the connection closes.
 void listen(Context& context, std::function<void(Update const&)> const& handle, Wanted const& wanted = {}) {
@@ -161,9 +162,7 @@ void listen(Context& context, std::function<void(Update const&)> const& handle, 
         if (!update) throw Trouble{Exit::no_answer, "the connection has closed"};
         if (!wanted(*update)) continue;
         auto const* const news = std::get_if<News>(&*update);
-        bool const is_event = news != nullptr && (std::holds_alternative<ReceiveEvent>(news->notification) ||
-                                                  std::holds_alternative<Switched>(news->notification));
-        if (is_event) ++events;
+        if (news != nullptr && counts(options, news->notification)) ++events;
         handle(*update);
         if (news != nullptr && std::holds_alternative<ReceiveError>(news->notification))
             explain(context, std::get<ReceiveError>(news->notification));
@@ -197,13 +196,14 @@ void subscribe(Context& context) {
 void watch(Context& context) {
     auto const& options = context.options();
     auto event_types = options.words;
-    // A component may have an event of this name, too.
-    std::erase_if(event_types, [&](auto const& type) { return type == switches && !is_event(context, type); });
-    bool const only_switches = event_types.empty() && watches_switches(options);
+    std::erase(event_types, switches);
+    bool const only_switches = event_types.empty() && !options.words.empty();
     bool const is_chosen = !options.words.empty() || !options.where.empty() || !options.condition_file.empty();
     Wanted wanted;
-    if (!only_switches && (is_chosen || !context.session().is_joined()))
-        wanted = wanted_by(context, [&] { return subscribe_to(context, event_types, context.condition()); });
+    if (is_chosen || !context.session().is_joined())
+        wanted = wanted_by(context, [&] {
+            return only_switches ? std::vector<SubscribeId>{} : subscribe_to(context, event_types, context.condition());
+        });
     start_components(context);
     listen(
         context, [&](Update const& update) { show(context.printer(), update); }, wanted);

@@ -138,13 +138,13 @@ private:
     }
 
     void switching(CLI::App& command) {
-        std::map<std::string, Switching> const all{
-            {"none", Switching::none}, {"abort", Switching::abort}, {"restart", Switching::restart}};
+        auto const take = [this](std::string const& text) { options_.switching = to_code<Switching>(text); };
         command
-            .add_option("--switching", options_.switching,
-                        "what happens if the component that acts for a logical one fails: none, abort or restart [none]")
+            .add_option_function<std::string>(
+                "--switching", take,
+                "what happens if the component that acts for a logical one fails: none, abort or restart [none]")
             ->option_text("WHAT")
-            ->transform(CLI::CheckedTransformer(all));
+            ->check(CLI::IsMember({"none", "abort", "restart"}));
     }
 
     // Adds positional arguments.

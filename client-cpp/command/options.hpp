@@ -51,13 +51,16 @@ struct Options {
     bool results = false;
     bool check = false;
     bool check_only = false;
-    Switching switching = Switching::none;  // of bindings
+    std::optional<Switching> switching;  // of bindings; empty: that of the present binding, or none
     bool quiet = false;
 };
 
 // The word that watch takes for the notification `switched` beside event types.
 constexpr std::string_view switches = "switched";
-inline bool watches_switches(Options const& options) { return std::ranges::find(options.words, switches) != options.words.end(); }
+inline bool watches_switches(Options const& options) {
+    bool const is_chosen = options.words.empty() || std::ranges::find(options.words, switches) != options.words.end();
+    return is_chosen && (options.command == "watch" || (options.command == "record" && options.listen.empty()));
+}
 
 // A text to print instead of running a command: help or version.
 struct Printout {

@@ -104,6 +104,59 @@ TEST_F(Rois, ReplaysARecordingWhoseLastLineIsCutOff) {
     EXPECT_EQ(run_rois({"search"}, {}, there).exit_code, 0);
 }
 
+// A recording whose engine switches navigation from robot1 to robot2.
+std::string recording_with_a_switch() {
+    auto const names = R"(xmlns=\"urn:x-rois:psm:xml:message:1\" xmlns:rois=\"http://www.omg.org/spec/RoIS/20240801\")";
+    std::string text = "{\"recording\":\"rois-recording-1\"}\n";
+    auto const add = [&](std::string const& direction, std::string document) {
+        for (std::size_t at = 0; (at = document.find('$', at)) != document.npos;) document.replace(at, 1, names);
+        text += R"({"at":1,"direction":")" + direction + R"(","document":")" + document + "\"}\n";
+    };
+    add("out", R"(<connect $ switches=\"true\"/>)");
+    add("in", R"(<connect_response $ return_code=\"OK\"><session>s</session></connect_response>)");
+    add("in", R"(<switched $ sequence=\"1\"><component_ref rois:code=\"navigation\"/><from>robot1.navigation</from>)"
+              "<to>robot2.navigation</to><reason>the link was lost</reason></switched>");
+    add("out", R"(<bind $ switching=\"restart\"><component_ref rois:code=\"navigation\"/></bind>)");
+    add("in", R"(<bind_response $ return_code=\"OK\"/>)");
+    add("out", R"(<get_parameter $><component_ref rois:code=\"navigation\"/></get_parameter>)");
+    add("in", R"(<get_parameter_response $ return_code=\"OK\"><parameters/></get_parameter_response>)");
+    return file_with("switched.jsonl", text);
+}
+
+TEST_F(Rois, PrintsSwitches) {
+    RoisProcess engine{{"replay", recording_with_a_switch(), "--listen", "127.0.0.1:0", "--json"}};
+    Variables const there{{"ROIS_URL", json::parse(engine.line())["listening"]}};
+    auto const watched = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"watch", "switched", "--count", "1"});
+        auto const ended = run_rois(arguments, {}, there);
+        EXPECT_EQ(ended.exit_code, 0) << ended.error;
+        return lines_of(ended.out).back();
+    };
+    EXPECT_EQ(watched({}), "1  switched  navigation  from robot1.navigation to robot2.navigation: the link was lost");
+    EXPECT_EQ(json::parse(watched({"--json"})), (json{{"notification", "switched"},
+                                                      {"sequence", 1},
+                                                      {"component_ref", "navigation"},
+                                                      {"from", "robot1.navigation"},
+                                                      {"to", "robot2.navigation"},
+                                                      {"reason", "the link was lost"}}));
+}
+
+TEST_F(Rois, BindsWithTheGivenSwitching) {
+    RoisProcess engine{{"replay", recording_with_a_switch(), "--listen", "127.0.0.1:0", "--json"}};
+    Variables const there{{"ROIS_URL", json::parse(engine.line())["listening"]}};
+    auto const bound = [&](std::string const& switching) {
+        return run_rois({"bind", "navigation", "--for", "0", "--switching", switching}, {}, there).exit_code;
+    };
+    EXPECT_EQ(bound("restart"), 0);
+    EXPECT_EQ(bound("abort"), 4) << "never recorded";
+    expect(2, "--switching: ", {"bind", "navigation", "--switching", "soon"});
+
+    RoisProcess holding{{"bind", "navigation", "--switching", "restart"}, there};
+    auto const id = holding.line_with("session ").substr(8);
+    EXPECT_EQ(run_rois({"--session", id, "bind", "navigation"}, {}, there).exit_code, 0) << "keeps the binding as it is";
+    EXPECT_EQ(run_rois({"--session", id, "bind", "navigation", "--switching", "none"}, {}, there).exit_code, 4);
+}
+
 TEST_F(Rois, RejectsInvalidRecordings) {
     expect(2, ":1: this is not a recording", {"replay", file_with("none.jsonl", "<xml/>\n")});
     expect(2,

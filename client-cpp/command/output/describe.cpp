@@ -132,8 +132,9 @@ struct NotificationText {
                std::string{to_text(changed.status)};
     }
     std::string operator()(Switched const& switched) const {
-        return headline("switched", switched.component_ref.code, Colour::name, coloured) + "  from " + switched.from + " to " +
-               switched.to + ": " + switched.reason;
+        auto const from = switched.from.empty() ? "" : "from " + switched.from + " ";
+        return headline("switched", switched.component_ref.code, Colour::name, coloured) + "  " +
+               harmless(from + "to " + switched.to + ": " + switched.reason);
     }
 };
 

@@ -148,7 +148,7 @@ std::string rough_key(Operation operation) {
     std::visit(Overloaded{[](Execute& execute) {
                               for (auto* const message : messages_of(execute.command_unit_list)) message->arguments.clear();
                           },
-                          [](SetParameter& set) { set.parameters.clear(); },
+                          [](SetParameter& set) { set.parameters.clear(); }, [](Connect& connect) { connect = {}; },
                           [](auto& other) {
                               if constexpr (requires { other.condition; }) other.condition = {};
                           }},

@@ -120,7 +120,7 @@ Settings settings_of(Options const& options) {
     settings.token = options.token;
     settings.ca_file = options.ca_file;
     settings.session = options.session;
-    settings.switches = options.command == "watch" && (options.words.empty() || watches_switches(options));
+    settings.switches = watches_switches(options);
     settings.deadline = options.deadline;
     settings.connect_deadline = options.deadline;
     return settings;
