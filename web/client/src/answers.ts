@@ -96,7 +96,7 @@ function located_of(from: XmlElement): Located {
   });
 }
 
-const notification_names = ['receive_event', 'receive_error', 'completed', 'lost', 'profile_changed'];
+const notification_names = ['receive_event', 'receive_error', 'completed', 'lost', 'profile_changed', 'switched'];
 
 export function is_notification(document: XmlElement): boolean {
   return notification_names.includes(document.name);
@@ -129,6 +129,15 @@ export function notification_of(document: XmlElement): Notification {
       return { name: 'lost', sequence, count: Number(needed_attribute(document, 'count')) };
     case 'profile_changed':
       return { name: 'profile_changed', sequence };
+    case 'switched':
+      return {
+        name: 'switched',
+        sequence,
+        component_ref: component_ref_of(document),
+        from: text('from'),
+        to: text('to'),
+        reason: text('reason'),
+      };
     default:
       throw broken(`'${document.name}' is not a notification`);
   }

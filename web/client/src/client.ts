@@ -28,6 +28,8 @@ export interface ClientOptions {
    * Motion lease in ms, 1000 to the gateway's own [2000]: a robot that this session moves is held after this time without a sign of life.
    */
   motion_lease?: number;
+  /** Receive each `switched` [false], not only those of components that this client has bound with `switching`. */
+  switches?: boolean;
   /** Delay in ms before the first retry [100]. Each further retry doubles it; each delay is shortened by up to half at random. */
   first_delay?: number;
   /** Longest delay between two retries in ms [5,000]. */
@@ -48,6 +50,17 @@ export interface ClientOptions {
 /** Options of one call. */
 export interface CallOptions {
   deadline?: number; // ms
+}
+
+/**
+ * What happens to a `start` when the member that acts for a logical component fails. none: it ends as it ended there. abort: it
+ * ends with ABORT. restart: another member goes on with the rest.
+ */
+export type Switching = 'none' | 'abort' | 'restart';
+
+export interface BindOptions extends CallOptions {
+  /** [none] Also used when a new session binds the component again. */
+  switching?: Switching | undefined;
 }
 
 // Options of one request. `of`: the timeout of the whole call, when it takes several requests.
@@ -87,7 +100,7 @@ export class Client {
   private readonly commands = new Commands();
   private readonly subscriptions = new Subscriptions();
   private readonly streams = new Set<Stream<Notification>>();
-  private readonly bound = new Set<string>();
+  private readonly bound = new Map<string, Switching | undefined>();
   private readonly prefix = Math.random().toString(36).slice(2, 8); // of command ids, which must be unique among the clients of a session
   private next_command = 1;
 
@@ -107,6 +120,7 @@ export class Client {
     };
     if (options.token !== undefined) settings.token = options.token;
     if (options.motion_lease !== undefined) settings.motion_lease = options.motion_lease;
+    if (options.switches) settings.switches = true;
     if (options.on_state) this.on('state', options.on_state);
     this.link = new Link(settings, {
       state_changed: (state, reason) => this.listeners.notify('state', { state, reason }),
@@ -199,21 +213,29 @@ export class Client {
     );
   }
 
-  bind(component_ref: Ref, options: CallOptions = {}): Promise<void> {
-    return this.ask('bind', () => component_ref_xml(component_ref), options, () => void this.bound.add(code_of(component_ref)));
+  bind(component_ref: Ref, options: BindOptions = {}): Promise<void> {
+    const { switching } = options;
+    const taken = () => void this.bound.set(code_of(component_ref), switching);
+    return this.asked('bind', { switching }, () => component_ref_xml(component_ref), options, taken, true);
   }
 
   /** Binds a component that matches the condition, or one of the named type. May return a component that this session has already bound. */
-  async bind_any(condition?: Writable | string, options: CallOptions = {}): Promise<Identifier> {
+  async bind_any(condition?: Writable | string, options: BindOptions = {}): Promise<Identifier> {
     const meant = typeof condition === 'string' ? component_type(condition) : condition;
     const deadline = this.deadline_of(options);
+    const { switching } = options;
+    const taken = (component: Identifier) => {
+      this.bound.set(component.code, switching);
+      return component;
+    };
     for (;;) {
       try {
-        return await this.ask('bind_any', () => condition_xml(meant), deadline(), (answer) => this.taken(component_ref_of(answer)), false);
+        const read = (answer: XmlElement) => taken(component_ref_of(answer));
+        return await this.asked('bind_any', { switching }, () => condition_xml(meant), deadline(), read, false);
       } catch (error) {
         if (!is_failure(error, 'link_lost')) throw error;
         const mine = await this.bound_unawares(meant, deadline());
-        if (mine) return this.taken(mine);
+        if (mine) return taken(mine);
       }
     }
   }
@@ -305,7 +327,7 @@ export class Client {
 
   private asked<T>(
     operation: Operation,
-    attributes: Record<string, boolean>,
+    attributes: Record<string, string | boolean | undefined>,
     content: () => string,
     { deadline, of }: RequestOptions,
     read: (answer: XmlElement) => T,
@@ -365,11 +387,6 @@ export class Client {
     return meant.find(({ code }) => mine.some((one) => one.code === code) && !this.bound.has(code));
   }
 
-  private taken(component: Identifier): Identifier {
-    this.bound.add(component.code);
-    return component;
-  }
-
   private ask_to_subscribe(subscription: Subscription, options: CallOptions): Promise<Subscription> {
     const { event_type, condition, inline_results } = subscription.wanted;
     const content = () => text_element('event_type', event_type) + condition_xml(condition);
@@ -394,8 +411,8 @@ export class Client {
       asked.catch((error: RoisError) => {
         if (!is_failure(error, 'session_lost') && !is_failure(error, 'closed')) refused(error);
       });
-    for (const code of this.bound)
-      again(this.ask('bind', () => component_ref_xml(code), { deadline: Infinity }, () => undefined), (error) => {
+    for (const [code, switching] of this.bound)
+      again(this.asked('bind', { switching }, () => component_ref_xml(code), { deadline: Infinity }, () => undefined, true), (error) => {
         if (this.bound.delete(code)) this.listeners.notify('unbound', { component_ref: code, error });
       });
     for (const subscription of this.subscriptions.list())

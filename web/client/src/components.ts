@@ -1,6 +1,6 @@
 // The basic components (7.6) and the streaming components of RoIS 2.0, with methods for their commands, queries and events. Unless
 // noted, lengths are mm, angles degrees counter-clockwise and times ms.
-import type { Client } from './client.js';
+import type { BindOptions, Client } from './client.js';
 import { command } from './commands.js';
 import { component_ref, component_type, type Condition } from './conditions.js';
 import type { ComponentStatus } from './errors.js';
@@ -35,15 +35,25 @@ export class Component {
   ) {}
 
   /** Binds this component. */
-  static async bind<Kind extends Component>(this: ComponentClass<Kind>, client: Client, component_ref: Ref): Promise<Kind> {
-    await client.bind(component_ref);
+  static async bind<Kind extends Component>(
+    this: ComponentClass<Kind>,
+    client: Client,
+    component_ref: Ref,
+    options: BindOptions = {},
+  ): Promise<Kind> {
+    await client.bind(component_ref, options);
     return new this(client, component_ref);
   }
 
   /** Binds a component of this type that matches the condition. */
-  static async bind_any<Kind extends Component>(this: ComponentClass<Kind>, client: Client, condition?: Condition): Promise<Kind> {
+  static async bind_any<Kind extends Component>(
+    this: ComponentClass<Kind>,
+    client: Client,
+    condition?: Condition,
+    options: BindOptions = {},
+  ): Promise<Kind> {
     const of_type = component_type(this.type);
-    return new this(client, await client.bind_any(condition?.and(of_type) ?? of_type));
+    return new this(client, await client.bind_any(condition?.and(of_type) ?? of_type, options));
   }
 
   release(): Promise<void> {

@@ -27,6 +27,7 @@ export interface LinkSettings {
   most_delay: number; // ms
   random: () => number; // 0 to 1: shortens each delay by up to half, so that many clients do not reconnect at once
   motion_lease?: number; // ms without a sign of life until a robot is held; at most the gateway's
+  switches?: boolean; // receive each `switched`
   open_socket: OpenSocket;
 }
 
@@ -194,7 +195,7 @@ export class Link {
   // Sends a request of the link itself, at once. If it fails, the link fails.
   private greet(
     operation: Operation,
-    attributes: Record<string, string | number | undefined>,
+    attributes: Record<string, string | number | boolean | undefined>,
     answered: (answer: XmlElement) => void,
   ): void {
     const request_id = `r${this.next_id++}`;
@@ -241,8 +242,9 @@ export class Link {
 
   // A browser answers pings even while the page hangs: only requests prove that the page is alive.
   private connect(answered: (answer: XmlElement) => void): void {
-    const { motion_lease, open_socket } = this.settings;
-    this.greet('connect', { motion_lease, motion_proof: open_socket.answers_pings_alone ? 'request' : undefined }, answered);
+    const { motion_lease, open_socket, switches } = this.settings;
+    const motion_proof = open_socket.answers_pings_alone ? 'request' : undefined;
+    this.greet('connect', { motion_lease, motion_proof, switches }, answered);
   }
 
   private begin_session(): void {

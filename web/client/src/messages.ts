@@ -44,7 +44,20 @@ export interface ProfileChanged {
   sequence: number;
 }
 
-export type Notification = ReceiveEvent | ReceiveError | Completed | Lost | ProfileChanged;
+/**
+ * A running command of a logical component goes on with another member. The session receives it if it bound the component with
+ * `switching` or connected with `switches`.
+ */
+export interface Switched {
+  name: 'switched';
+  sequence: number;
+  component_ref: Identifier;
+  from: string; // the ref of the member; may be empty
+  to: string;
+  reason: string;
+}
+
+export type Notification = ReceiveEvent | ReceiveError | Completed | Lost | ProfileChanged | Switched;
 
 /** The answer of /rois/stop and /rois/clear. */
 export interface StopState {

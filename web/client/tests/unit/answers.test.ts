@@ -50,6 +50,14 @@ test('notifications of all kinds are parsed', () => {
   ]);
   const of_component = { name: 'receive_error', sequence: 2, error_id: 'error-3', error_type: 'COMPONENT_NOT_RESPONDING', component_ref: { code: 'navigation' } };
   assert.deepEqual(notification_of(sample('receive_error')), of_component);
+  assert.deepEqual(notification_of(sample('switched')), {
+    name: 'switched',
+    sequence: 11,
+    component_ref: { code: 'navigation' },
+    from: 'robot1.navigation',
+    to: 'robot2.navigation',
+    reason: 'the link to the sub engine "robot1" was lost',
+  });
   assert.ok(!is_notification(sample('bind_response')));
   assert.throws(() => notification_of(parse_xml('<bind_response sequence="1"/>')), { failure: 'protocol' });
   assert.throws(() => notification_of(parse_xml('<completed sequence="1"/>')), { failure: 'protocol', message: /'completed' has no 'command_id'/ });

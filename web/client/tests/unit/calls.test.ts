@@ -1,7 +1,7 @@
 // Late, lost and unexpected answers, step by step, with a scripted gateway.
 import assert from 'node:assert/strict';
 
-import { type Client, command, namespaces, type Subscription, type XmlElement } from 'rois-client';
+import { type Client, command, namespaces, Navigation, type Subscription, type XmlElement } from 'rois-client';
 
 import type { Clock } from '../kit/clock.js';
 import { type Scripted, scripted } from '../kit/scripted.js';
@@ -263,6 +263,35 @@ scripted('bind_any does not return a component that the new session bound again'
   await gateway.socket.answer();
   await gateway.socket.answer('', 'OUT_OF_RESOURCES');
   assert.equal(await bind_any_when(client, gateway, clock, ['a', 'c'], ['a', 'x']), 'bind_any');
+});
+
+scripted('a new session binds again with the switching of each binding', {}, async (client, gateway, clock) => {
+  const calls = [
+    client.bind('a', { switching: 'abort' }),
+    Navigation.bind(client, 'a', { switching: 'restart' }), // replaces it
+    Navigation.bind_any(client, undefined, { switching: 'abort' }),
+    client.bind('c'),
+  ];
+  const b = `<component_ref xmlns:rois="${namespaces.rois}" rois:code="b"/>`;
+  for (const content of ['', '', b, '']) await gateway.socket.answer(content);
+  await Promise.all(calls);
+  const switchings = () => gateway.socket.came.slice(-4).map((one) => one.attribute('switching'));
+  assert.deepEqual(switchings(), ['abort', 'restart', 'abort', undefined]);
+  await anew(gateway, clock);
+  assert.deepEqual(refs_of(gateway.socket.came.slice(2)), ['a', 'b', 'c']);
+  assert.deepEqual(switchings().slice(1), ['restart', 'abort', undefined]);
+});
+
+scripted('each session of a client with switches requests them, and each switch is delivered', { switches: true }, async (client, gateway, clock) => {
+  await anew(gateway, clock);
+  for (const { came } of gateway.sockets) assert.equal(came.find((one) => one.name === 'connect')!.attribute('switches'), 'true');
+  const notifications = client.notifications();
+  const of = `<component_ref xmlns:rois="${namespaces.rois}" rois:code="navigation"/><from>robot1.navigation</from><to>robot2.navigation</to>`;
+  await gateway.socket.say(`<switched xmlns="${namespaces.message}" sequence="1">${of}<reason>it failed</reason></switched>`);
+  const switched = await notifications.next();
+  assert.ok(switched?.name === 'switched');
+  assert.deepEqual([switched.component_ref.code, switched.from, switched.to, switched.reason],
+    ['navigation', 'robot1.navigation', 'robot2.navigation', 'it failed']);
 });
 
 scripted('with rebind false, a new session binds nothing', { rebind: false }, async (client, gateway, clock) => {
