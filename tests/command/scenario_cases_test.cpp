@@ -83,6 +83,7 @@ struct Script {
     std::promise<void> stop;  // set at the step `stop`
     std::vector<std::string> problems;
     std::set<std::string> subscribed;
+    std::vector<std::string> bound;  // components or their types, each with its `switching`
 };
 
 // Plays the script of a case to one session. The session after `{"session": "ends"}` has nothing left to play.
@@ -110,10 +111,20 @@ private:
         return {};
     }
 
-    BindAny::Reply answer_to(BindAny const&) {
+    Bind::Reply answer_to(Bind const& bind) {
+        note_bound(bind.component_ref.code, bind.switching);
+        return {};
+    }
+
+    BindAny::Reply answer_to(BindAny const& bind) {
+        note_bound("SpeechSynthesis", bind.switching);
         BindAny::Reply reply;
         reply.component_ref.code = "speech";
         return reply;
+    }
+
+    void note_bound(std::string const& component, Switching switching) {
+        script_.bound.push_back(component + " " + std::string{to_text(switching)});
     }
 
     Subscribe::Reply answer_to(Subscribe const& subscribe) {
@@ -295,6 +306,9 @@ TEST(ScenarioCases, EachRunHasItsHistory) {
         EXPECT_THAT(script.problems, testing::IsEmpty());
         if (one.contains("subscribed")) {
             EXPECT_EQ(json(script.subscribed), one["subscribed"]);
+        }
+        if (one.contains("bound")) {
+            EXPECT_EQ(json(script.bound), one["bound"]);
         }
     });
 }

@@ -49,9 +49,10 @@ private:
         for (auto const& component : scenario_.components) {
             auto ref = component.ref;
             if (ref.empty()) {
-                ref = context_.ok(BindAny{QueryExpression{conditions::type == component.type}}).component_ref.code;
+                ref = context_.ok(BindAny{QueryExpression{conditions::type == component.type}, component.switching})
+                          .component_ref.code;
             } else {
-                context_.ok(Bind{{ref, {}, {}, {}}});
+                context_.ok(Bind{{ref, {}, {}, {}}, component.switching});
             }
             bound_.emplace(component.name, context_.component(ref));
         }

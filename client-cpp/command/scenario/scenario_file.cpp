@@ -52,7 +52,8 @@ public:
 
 private:
     void component(xml::Element const& element) {
-        ScenarioComponent read{element.token("name", ""), element.token("ref", ""), element.token("type", "")};
+        ScenarioComponent read{element.token("name", ""), element.token("ref", ""), element.token("type", ""),
+                               to_code<Switching>(element.token("switching", "")).value_or(Switching::none)};
         if (!read.ref.empty() && !read.type.empty())
             throw element.complain("a component has both 'ref' and 'type': give only one of them");
         if (read.ref.empty() && read.type.empty()) read.ref = read.name;

@@ -101,6 +101,7 @@ struct ScenarioComponent {
     std::string name;
     std::string ref;   // empty: any
     std::string type;  // of this type
+    Switching switching = Switching::none;
 };
 
 struct RobotScenario {

@@ -4,7 +4,7 @@ import type { ProfileState } from '../state/engine/profile_state';
 import { IconButton, SelectField, TextField } from '../ui';
 import type { Desk } from './desk';
 import { closed_choices, relation_of, relations, steps_for, suggestions, with_new, with_relation } from './editing';
-import { actions, type AttributeRule, is_of, rule_of, statuses } from './grammar';
+import { actions, type AttributeRule, type AttributeType, is_of, rule_of, statuses, switchings } from './grammar';
 import type { Problem } from './read';
 import { moved, type Node, read_source, with_attribute, with_state_renamed, with_text, without } from './source';
 import * as texts from './texts';
@@ -162,7 +162,8 @@ function AttributeField({ desk, root, node, name, rule }: FormProps & { name: st
       `${node.path} ${name}`,
     );
   };
-  const closed = rule.type === 'status' ? [...statuses] : rule.type === 'boolean' ? ['true', 'false'] : closed_choices(rule.type, root);
+  const words: Partial<Record<AttributeType, readonly string[]>> = { status: statuses, switching: switchings, boolean: ['true', 'false'] };
+  const closed = words[rule.type] ?? closed_choices(rule.type, root);
   if (closed) {
     const now = (value ?? '').trim();
     const none = rule.required

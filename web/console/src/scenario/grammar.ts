@@ -2,7 +2,7 @@
 
 /** `variable`, `component`, `state`: an existing name; `result`: a name of the engine; `text` may have {name}. */
 export type AttributeType =
-  'name' | 'variable' | 'component' | 'state' | 'result' | 'text' | 'token' | 'plain' | 'status' | 'boolean' | 'double' | 'natural';
+  'name' | 'variable' | 'component' | 'state' | 'result' | 'text' | 'token' | 'plain' | 'status' | 'switching' | 'boolean' | 'double' | 'natural';
 
 export interface AttributeRule {
   type: AttributeType;
@@ -26,6 +26,7 @@ export interface ElementRule {
 
 export const namespace = 'urn:x-rois:scenario:1';
 export const statuses = ['OK', 'ERROR', 'ABORT', 'OUT_OF_RESOURCES', 'TIMEOUT'] as const;
+export const switchings = ['none', 'abort', 'restart'] as const;
 
 const needed = (type: AttributeType): AttributeRule => ({ type, required: true });
 const optional = (type: AttributeType): AttributeRule => ({ type, required: false });
@@ -48,7 +49,10 @@ const rules: Readonly<Record<string, ElementRule>> = {
     attributes: { name: optional('plain'), start: needed('state') },
     content: [some('component'), any('variable'), some('state', 'end')],
   },
-  component: { attributes: { name: needed('name'), ref: optional('token'), type: optional('token') }, content: [] },
+  component: {
+    attributes: { name: needed('name'), ref: optional('token'), type: optional('token'), switching: optional('switching') },
+    content: [],
+  },
   variable: { attributes: { name: needed('name') }, content: [], text: 'plain' },
   state: {
     attributes: { name: needed('name') },
@@ -114,6 +118,8 @@ export function is_of(type: AttributeType, value: string): boolean {
       return a_name.test(text);
     case 'status':
       return (statuses as readonly string[]).includes(text);
+    case 'switching':
+      return (switchings as readonly string[]).includes(text);
     case 'boolean':
       return /^(true|false|1|0)$/.test(text);
     case 'double':

@@ -109,10 +109,10 @@ export class Machine {
   }
 
   private async bind(): Promise<void> {
-    for (const { name, ref, type } of this.scenario.components) {
+    for (const { name, ref, type, switching } of this.scenario.components) {
       this.check();
-      if (ref !== '') this.borrowed.push(await this.console.bindings.borrow([ref]));
-      const any = ref === '' ? await this.console.bindings.borrow_any(type) : undefined;
+      if (ref !== '') this.borrowed.push(await this.console.bindings.borrow([ref], switching));
+      const any = ref === '' ? await this.console.bindings.borrow_any(type, switching) : undefined;
       if (any) this.borrowed.push(any.give_back);
       this.refs.set(name, any?.ref ?? ref);
     }

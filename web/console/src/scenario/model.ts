@@ -1,5 +1,5 @@
 // A robot scenario (figure 1), ready to run.
-import type { CompletedStatus } from 'rois-client';
+import type { CompletedStatus, Switching } from 'rois-client';
 
 import type { Node } from './source';
 
@@ -67,7 +67,7 @@ export interface State {
 export interface Scenario {
   name: string;
   start: string;
-  components: { name: string; ref: string; type: string; node: Node }[]; // ref empty: any of the type
+  components: { name: string; ref: string; type: string; switching?: Switching; node: Node }[]; // ref empty: any of the type
   variables: Map<string, string>;
   states: Map<string, State>;
   root: Node;

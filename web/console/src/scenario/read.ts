@@ -1,5 +1,5 @@
 // Reads scenarios as `rois scenario` does (schemas/scenario.xsd and further rules), and reports all problems.
-import { type CompletedStatus, XmlError } from 'rois-client';
+import { type CompletedStatus, type Switching, XmlError } from 'rois-client';
 
 import { type ElementRule, is_of, namespace, rule_of, steps, to_double, triggers } from './grammar';
 import type { Relation, Scenario, ScenarioCommand, State, Step, Trigger, TriggerKind } from './model';
@@ -126,7 +126,9 @@ class ScenarioReader {
   // --- Content ---
 
   private component(node: Node): Scenario['components'][number] {
-    const read = { name: name(node, 'name'), ref: name(node, 'ref'), type: name(node, 'type'), node };
+    const read: Scenario['components'][number] = { name: name(node, 'name'), ref: name(node, 'ref'), type: name(node, 'type'), node };
+    const switching = node.element.attribute('switching');
+    if (switching !== undefined) read.switching = switching.trim() as Switching;
     if (read.ref !== '' && read.type !== '') this.complain(node, () => texts.ref_or_type());
     if (read.ref === '' && read.type === '') read.ref = read.name;
     if (this.components.has(read.name)) this.complain(node, () => texts.duplicate('component', read.name));

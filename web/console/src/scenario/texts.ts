@@ -1,6 +1,6 @@
 // Texts of the panel and problems of a scenario.
 import { type Both, text, text_of } from '../i18n/i18n';
-import { type AttributeType, statuses } from './grammar';
+import { type AttributeType, statuses, switchings } from './grammar';
 
 const kinds_ja: Record<string, string> = { component: 'コンポーネント', variable: '変数', state: '状態' };
 
@@ -220,6 +220,7 @@ const forms: Partial<Record<AttributeType, Both>> = {
   state: a_name,
   result: a_name,
   status: [`one of ${statuses.join(', ')}`, `${statuses.join(', ')} のいずれか`],
+  switching: [`one of ${switchings.join(', ')}`, `${switchings.join(', ')} のいずれか`],
   boolean: ['true or false', 'true か false'],
   double: ['a number', '数'],
   natural: ['a whole number, 0 or more, of 32 bits', '0 以上の 32 ビットの整数'],
@@ -281,4 +282,5 @@ const attributes: Record<string, Both> = {
   ref: ['ref', '参照'],
   start: ['start', '開始状態'],
   failed: ['failed', '失敗'],
+  switching: ['switching', '切り替え'],
 };

@@ -25,6 +25,7 @@ describe('a run', () => {
     if (one.end.startsWith('error: ')) expect(end_of(desk)).toContain(one.end.slice('error: '.length));
     else expect(end_of(desk)).toBe(one.end);
     if (one.subscribed) expect([...engine.subscriptions.keys()].sort()).toEqual(one.subscribed);
+    if (one.bound) expect(engine.bound).toEqual(one.bound);
     expect(console.bindings.mine.value.size).toBe(0);
   });
 });

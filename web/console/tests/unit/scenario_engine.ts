@@ -27,6 +27,7 @@ export interface Case {
   history: string[];
   end: string;
   subscribed?: string[];
+  bound?: string[];
 }
 
 const folder = new URL('../../../../tests/scenarios/', import.meta.url);
@@ -87,6 +88,16 @@ export class Engine {
     answers.set('subscribe', (request) => this.subscribe(request));
     answers.set('execute', (request) => this.execute(request));
     answers.set('query', (request) => this.query(request));
+  }
+
+  /** The bound components or their types in order, each with its `switching`. */
+  get bound(): string[] {
+    return this.world.requests
+      .filter(({ name }) => name === 'bind' || name === 'bind_any')
+      .map((one) => {
+        const component = one.name === 'bind' ? attribute_of(one.child('component_ref')!, 'code') : 'SpeechSynthesis';
+        return `${component} ${one.attribute('switching') ?? 'none'}`;
+      });
   }
 
   /** Waits for the next request of the script. */

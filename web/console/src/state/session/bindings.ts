@@ -1,6 +1,6 @@
 // The components that this console has bound, and binding on demand.
 import { signal } from '@preact/signals';
-import { type Client, code_of, namespaces, parse_xml } from 'rois-client';
+import { type Client, code_of, namespaces, parse_xml, type Switching } from 'rois-client';
 
 import type { LoggedDocument } from './document_log';
 
@@ -51,11 +51,11 @@ export class Bindings {
   }
 
   /** Binds all or none. Components that were not bound before are released when the last borrower returns them. */
-  async borrow(refs: readonly string[]): Promise<GiveBack> {
+  async borrow(refs: readonly string[], switching?: Switching): Promise<GiveBack> {
     const taken: string[] = [];
     try {
       for (const ref of new Set(refs)) {
-        await this.take(ref);
+        await this.take(ref, switching);
         taken.push(ref);
       }
     } catch (error) {
@@ -70,22 +70,24 @@ export class Bindings {
   }
 
   /** Binds a component of this type; may choose one that this console has already bound. */
-  async borrow_any(type: string): Promise<{ ref: string; give_back: GiveBack }> {
+  async borrow_any(type: string, switching?: Switching): Promise<{ ref: string; give_back: GiveBack }> {
     const before = this.mine.value;
-    const ref = code_of(await this.client().bind_any(type));
+    const ref = code_of(await this.client().bind_any(type, { switching }));
     if (!before.has(ref)) this.borrowed.set(ref, 0); // bound only for borrowers
     return { ref, give_back: await this.borrow([ref]) };
   }
 
-  private async take(ref: string): Promise<void> {
+  // Binds a component that is bound already only to change its `switching`.
+  private async take(ref: string, switching: Switching | undefined): Promise<void> {
     const count = this.borrowed.get(ref);
-    if (count === undefined && this.mine.value.has(ref)) return;
-    this.borrowed.set(ref, (count ?? 0) + 1);
-    if (count !== undefined && this.mine.value.has(ref)) return;
+    const is_mine = this.mine.value.has(ref);
+    const counts = count !== undefined || !is_mine;
+    if (counts) this.borrowed.set(ref, (count ?? 0) + 1);
+    if (is_mine && switching === undefined) return;
     await this.client()
-      .bind(ref)
+      .bind(ref, { switching })
       .catch((error: unknown) => {
-        this.lower(ref);
+        if (counts) this.lower(ref);
         throw error;
       });
   }
