@@ -2,7 +2,7 @@
 import { useConsole } from '../context';
 import { shown_description, useDraft } from '../forms';
 import type { ComponentView } from '../state/engine/profile_state';
-import { Button, StatusBadge, Tabs, tried } from '../ui';
+import { Badge, Button, StatusBadge, Tabs, tried } from '../ui';
 import { CommandsTab } from './commands_tab';
 import { EventsTab } from './events_tab';
 import { holder_text } from './holder';
@@ -44,6 +44,22 @@ export function Detail({ view }: { view: ComponentView }) {
   );
 }
 
+// The members of a logical component. Several may act for one that senses.
+function Members({ component }: { component: string }) {
+  const { members } = useConsole();
+  const acting = members.acting_for(component);
+  if (members.of(component).length === 0) return null;
+  return (
+    <ul class="component-members" aria-label={texts.members()}>
+      {members.of(component).map((ref) => (
+        <li key={ref}>
+          <code>{ref}</code> {acting.includes(ref) && <Badge tone="good">{texts.acts()}</Badge>}
+        </li>
+      ))}
+    </ul>
+  );
+}
+
 function Head({ view }: { view: ComponentView }) {
   const console = useConsole();
   const { status, bindings, now, link } = console;
@@ -76,6 +92,7 @@ function Head({ view }: { view: ComponentView }) {
           </Button>
         )}
       </div>
+      <Members component={view.ref} />
       {view.description !== '' && <p>{shown_description(view.description)}</p>}
       <p class="soft"><code>{view.type}</code></p>
       {view.unresolved.length > 0 && <p class="soft">{texts.unresolved(view.unresolved.join(', '))}</p>}

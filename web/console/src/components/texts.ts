@@ -15,6 +15,8 @@ export const running = text('running', '実行中');
 export const runs = text_of((name: string) => [`The command ${name} is running.`, `コマンド ${name} を実行中です。`]);
 export const goes_on = text('Started. It works until it is stopped or released.', '開始済みです。停止または解放するまで動作します。');
 export const unasked = text('no status', '状態なし');
+export const members = text('Members', 'メンバー');
+export const acts = text('acts', '動作中');
 export const bind = text('Bind', 'バインド');
 export const release = text('Release', '解放');
 export const bind_it = text_of((ref: string) => [`Bind ${ref}`, `${ref} をバインド`]);

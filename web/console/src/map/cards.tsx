@@ -10,7 +10,7 @@ import { distance, obstacle_at, turned } from '../state/floor/floor';
 import { Button, error_text, Fact, Form, IconButton, SelectField, TextField } from '../ui';
 import { type Driver, follow, go, motions_of, stop, target_text } from './driving';
 import type { Target } from './interaction';
-import { age, certainty, degrees, metres, position } from './formats';
+import { acts_text, age, certainty, degrees, metres, position } from './formats';
 import type { Shown } from './scene';
 import { session_of } from './session';
 import * as texts from './texts';
@@ -226,6 +226,7 @@ export function ThingCard({ thing, close }: { thing: Shown; close: () => void })
         {th !== undefined && <Fact name={texts.direction()}>{degrees(th)}</Fact>}
         <Fact name={texts.certainty()}>{ellipse ? certainty(ellipse) : texts.uncertain()}</Fact>
         <Fact name={texts.reported_by()}><ComponentLink component={thing.thing.component} /></Fact>
+        {acts_text(thing) !== '' && <Fact name={texts.acts_for()}>{acts_text(thing)}</Fact>}
         {thing.frame && <Fact name={texts.own_frame()}><code>{thing.frame.crs}</code></Fact>}
         {others?.robot && <Fact name={texts.distance()}>{texts.near(others.name, metres(distance(others.robot, thing), 1))}</Fact>}
       </dl>

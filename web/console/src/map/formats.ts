@@ -2,6 +2,7 @@
 import { duration } from '../i18n/i18n';
 import type { Target } from './interaction';
 import { confidence } from './painting/glyphs';
+import type { Shown } from './scene';
 import * as texts from './texts';
 
 /** `4.20 m`; below a metre `0.25 m`. */
@@ -31,6 +32,11 @@ export function age(ms: number): string {
 export function certainty(ellipse: { a: number; b: number }): string {
   const [a, b] = [metres(ellipse.a * confidence), metres(ellipse.b * confidence)];
   return texts.certain(a === b ? a : `${a} × ${b}`);
+}
+
+/** The logical components for which a robot acts. */
+export function acts_text({ acts_for = [] }: Shown): string {
+  return acts_for.join(', ');
 }
 
 /** A target in words: a place or person by name, else the position. */

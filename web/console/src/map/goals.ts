@@ -6,6 +6,7 @@ import { useConsole } from '../context';
 import type { Console } from '../state/console';
 import { distance, on_map } from '../state/floor/floor';
 import type { FloorMap } from '../state/floor/floor_map';
+import type { Thing } from '../state/floor/things';
 import { type Driver, drivers_of, motions_of, whither_of } from './driving';
 import { position } from './formats';
 import type { Shown } from './scene';
@@ -13,6 +14,8 @@ import type { Point } from './view';
 
 export interface Goal extends Point {
   driver: Driver;
+  /** The robot on its way; of a logical component, the one that acts. Undefined if unknown. */
+  robot: Thing | undefined;
   kind: 'go' | 'follow';
   th?: number;
   text: string; // name of the place or followed person, or the position
@@ -20,7 +23,7 @@ export interface Goal extends Point {
   is_mine: boolean;
 }
 
-type Place = Omit<Goal, 'driver' | 'is_mine'>;
+type Place = Omit<Goal, 'driver' | 'robot' | 'is_mine'>;
 
 const arrived = 300; // mm
 
@@ -40,8 +43,9 @@ function goal_of(console: Console, driver: Driver, shown: readonly Shown[]): Goa
         ? followed(given('target_object_ref'), shown)
         : place_of(given('target_position'), view.state === 'there' ? view.map : undefined);
     if (!goal) continue;
-    const is_there = driver.robot !== undefined && distance(driver.robot, goal) < arrived;
-    if (motion || !is_there) return { ...goal, text: whither_of(motion) ?? goal.text, driver, is_mine: motion !== undefined };
+    const robot = driver.robot ?? shown.find(({ acts_for }) => acts_for?.includes(ref))?.thing;
+    const is_there = robot !== undefined && distance(robot, goal) < arrived;
+    if (motion || !is_there) return { ...goal, text: whither_of(motion) ?? goal.text, driver, robot, is_mine: motion !== undefined };
   }
   return undefined;
 }

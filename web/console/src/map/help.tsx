@@ -15,6 +15,7 @@ export function Help({ open, close }: { open: boolean; close: () => void }) {
   ];
   const signs = [
     ['robot', texts.kind('robot')],
+    ['acts', `${texts.kind('robot')}, ${texts.sign_acts()}`],
     ['person', texts.kind('person')],
     ['known', `${texts.kind('person')}, ${texts.sign_known()}`],
     ['face', texts.kind('face')],
@@ -51,12 +52,13 @@ export function Help({ open, close }: { open: boolean; close: () => void }) {
   );
 }
 
-function Sign({ of }: { of: 'robot' | 'person' | 'known' | 'face' | 'sound' | 'gone' }) {
+function Sign({ of }: { of: 'robot' | 'acts' | 'person' | 'known' | 'face' | 'sound' | 'gone' }) {
   return (
     <svg class={`map-sign map-sign-${of}`} width="26" height="26" viewBox="-13 -13 26 26" aria-hidden="true">
-      {of === 'robot' && (
+      {(of === 'robot' || of === 'acts') && (
         <>
-          <circle r="10" />
+          {of === 'acts' && <circle class="map-sign-ring" r="12" />}
+          <circle r={of === 'acts' ? 8 : 10} />
           <path class="map-sign-inner" d="M7 0-5-5-2 0-5 5z" />
         </>
       )}

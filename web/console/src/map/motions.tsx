@@ -23,7 +23,7 @@ export function Motions() {
     <ul class="map-motions">
       {rows.map(({ driver, motion, goal }) => (
         <li key={driver.engine} class="map-motion">
-          <span>{words(driver.name, goal)}</span>
+          <span>{words(goal?.robot?.ref ?? driver.name, goal)}</span>
           {motion ? (
             <>
               <span class="map-soft">

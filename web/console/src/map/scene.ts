@@ -27,6 +27,8 @@ export interface Shown extends Point {
   freshness: Freshness;
   age: number; // ms since the last report
   identity?: Entity['identity'];
+  /** Of a robot: the logical components for which it acts. */
+  acts_for?: readonly string[];
   /** The frame of its trail. */
   frame?: RobotFrame;
 }
@@ -40,6 +42,8 @@ export interface SceneInput {
   is_live: boolean;
   /** Whether a component is working for any session. */
   senses(component: string): boolean;
+  /** The logical components for which the unit of a component acts. */
+  acts_for(component: string): readonly string[];
 }
 
 export interface Scene {
@@ -58,9 +62,9 @@ const echo = 6000; // ms that a sound or face is shown after its last report
 const head = 500; // mm
 const surely_sensed = 2000; // ms for which a thing counts as watched after its last report, even if no sensor is bound
 
-export function scene_of({ robots, entities, map, now, is_live, senses }: SceneInput): Scene {
+export function scene_of({ robots, entities, map, now, is_live, senses, acts_for }: SceneInput): Scene {
   const scene: Scene = { shown: [], lost: [] };
-  const add = (thing: Thing, kind: Kind, more: Pick<Shown, 'name' | 'radius' | 'freshness' | 'identity'>) => {
+  const add = (thing: Thing, kind: Kind, more: Pick<Shown, 'name' | 'radius' | 'freshness' | 'identity' | 'acts_for'>) => {
     const frame = frame_named(map, thing.crs);
     if (frame === 'unknown') return void scene.lost.push(thing);
     const pose = frame ? out_of(frame, thing) : thing;
@@ -85,7 +89,8 @@ export function scene_of({ robots, entities, map, now, is_live, senses }: SceneI
   }
   for (const robot of robots) {
     const radius = map?.robots.find((one) => one.name === robot.ref)?.radius || robot_radius;
-    add(robot, 'robot', { name: robot.ref, radius, freshness: is_live && now - robot.at <= quiet_after.robot ? 'live' : 'gone' });
+    const freshness = is_live && now - robot.at <= quiet_after.robot ? 'live' : 'gone';
+    add(robot, 'robot', { name: robot.ref, radius, freshness, acts_for: acts_for(robot.component) });
   }
   return scene;
 }

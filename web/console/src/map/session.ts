@@ -41,7 +41,7 @@ export class MapSession {
 
   /** The present scene. */
   scene(): Scene {
-    const { robots, entities, environment, link, bindings, commands, status } = this.console;
+    const { robots, entities, environment, link, bindings, commands, status, members } = this.console;
     return scene_of({
       robots: robots.all.values(),
       entities: entities.all.values(),
@@ -49,6 +49,7 @@ export class MapSession {
       now: environment.now(),
       is_live: link.is_open,
       senses: (ref) => (bindings.mine.value.has(ref) ? commands.goes_on(ref) : status.of(ref)?.status !== 'READY'),
+      acts_for: (ref) => members.acts_for(ref),
     });
   }
 

@@ -120,6 +120,7 @@ export const freshness = text_of((state: string, kind: string, age: string) =>
   : state === 'unknown' ? ['Unknown', '不明']
   : gone[kind] ?? ['Out of sight', '見えません']);
 export const state = text('State', '状態');
+export const acts_for = text('Acts for', '担当');
 export const own_frame = text('Own frame', '固有の座標系');
 export const follow = text('Follow', '追う');
 export const follow_whom = text_of((name: string) => [`Follow ${name}`, `${name} を追う`]);
@@ -176,5 +177,6 @@ export const pointer_pan = text_of(() =>
 );
 export const signs = text('Signs', '記号');
 export const sign_known = text('full: identified', '塗りつぶし: 識別済み');
+export const sign_acts = text('with a ring: acts for a logical component', '輪つき: 論理コンポーネントを担当');
 export const sign_gone = text('dashed: out of sight or outdated, with its age', '破線: 見えない、または古い(経過時間つき)');
 

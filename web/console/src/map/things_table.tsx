@@ -3,7 +3,7 @@ import { untracked } from '@preact/signals';
 
 import { useConsole } from '../context';
 import { Button } from '../ui';
-import { age, certainty, degrees, position } from './formats';
+import { acts_text, age, certainty, degrees, position } from './formats';
 import type { Shown } from './scene';
 import { session_of } from './session';
 import * as texts from './texts';
@@ -39,7 +39,11 @@ export function ThingsTable() {
         {sorted(shown).map((one) => (
           <tr key={one.key} aria-selected={is_shown ? one.key === chosen : undefined}>
             <td>{texts.kind(one.kind)}</td>
-            <th scope="row">{one.name}{one.identity && <span class="map-soft"> {one.thing.ref}</span>}</th>
+            <th scope="row">
+              {one.name}
+              {one.identity && <span class="map-soft"> {one.thing.ref}</span>}
+              {acts_text(one) !== '' && <span class="map-soft"> {texts.acts_for()} {acts_text(one)}</span>}
+            </th>
             <td>{texts.freshness(one.freshness, one.kind, age(one.age))}</td>
             <td>{position(one)}</td>
             <td>{one.th === undefined ? '–' : degrees(one.th)}</td>

@@ -37,6 +37,7 @@ export function expire_of({ name, text }: LoggedDocument): number | undefined {
 function made_of(document: LoggedDocument): string {
   const { name, text, kind } = document;
   const reason = first_text(text, 'reason');
+  if (name === 'switched') return `${first_text(text, 'from')} → ${first_text(text, 'to')}: ${reason}`.trim();
   if (reason !== '') return reason;
   switch (name) {
     case 'receive_event':

@@ -21,6 +21,7 @@ import {
 import type { Environment, Stop } from './base/environment';
 import { reason_of } from './base/reason_of';
 import { EverythingState } from './engine/everything';
+import { MembersState } from './engine/members_state';
 import { MetricsState } from './engine/metrics_state';
 import { ParametersState } from './engine/parameters_state';
 import { ProfileState } from './engine/profile_state';
@@ -75,6 +76,7 @@ export class Console {
   readonly status: StatusState;
   readonly parameters: ParametersState;
   readonly metrics: MetricsState;
+  readonly members: MembersState;
   readonly bindings: Bindings;
   readonly commands: CommandsState;
   readonly events: EventsState;
@@ -110,6 +112,7 @@ export class Console {
       () => this.client,
       () => this.metrics.bound.value,
     );
+    this.members = new MembersState(environment, requests, this.profile, this.metrics, () => this.bindings.mine.value);
     this.commands = new CommandsState(environment, this.documents, client, (ref) => this.profile.lasts(ref));
     this.events = new EventsState(environment, this.documents, client);
     this.subscriptions = new SubscriptionsState(
@@ -166,7 +169,7 @@ export class Console {
     // Bindings are not repeated: borrowers bind again in the new session.
     const client = new Client(
       this.environment.origin,
-      { most_delay, rebind: false, ...(token !== undefined && { token }) },
+      { most_delay, rebind: false, switches: true, ...(token !== undefined && { token }) },
       this.environment.open_socket,
     );
     this.current_client = client;
@@ -234,6 +237,7 @@ export class Console {
     try {
       this.profile.update(await this.documents.as_own(() => this.client.get_profile()), this.environment.now());
       this.entities.profile_changed();
+      void this.members.read();
       this.status.poll.now();
       this.notices.dismiss('profile');
     } catch (error) {
@@ -267,6 +271,10 @@ export class Console {
         break;
       case 'profile_changed':
         void this.read_profile();
+        break;
+      case 'switched':
+        this.events.switched(notification, document);
+        this.members.on_switched(notification);
         break;
       case 'lost':
         break; // reported as a gap

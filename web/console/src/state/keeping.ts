@@ -5,19 +5,15 @@ import type { Console } from './console';
 import type { Span } from './history';
 import type { CommandEntry } from './session/commands_state';
 import type { LoggedDocument } from './session/document_log';
-import type { EventEntry, ErrorEntry, GapEntry } from './session/events_state';
+import type { EarlierEvents, ErrorEntry, EventEntry } from './session/events_state';
 
 /** Rows of each kind to store, the newest: about 1 MB in all. If the browser refuses, the next smaller number is tried. */
 const offers = [1000, 200, 40];
 const no_document = -1; // the number of a document that is not stored
 
-interface Kept {
+interface Kept extends EarlierEvents {
   spans: Span[];
   commands: CommandEntry[];
-  events: EventEntry[];
-  own_events: EventEntry[];
-  errors: ErrorEntry[];
-  gaps: GapEntry[];
   refused: LoggedDocument[];
 }
 
@@ -34,6 +30,7 @@ function kept_text({ history, commands, events, traffic }: Console, most: number
     events: newest(events.events),
     own_events: newest(events.own_events),
     errors: newest(events.errors),
+    switches: newest(events.switches),
     gaps: newest(events.gaps),
     refused: newest(traffic.refused).map(in_short),
   };
@@ -45,11 +42,17 @@ function kept_text({ history, commands, events, traffic }: Console, most: number
 export function restore(console: Console, text: string | undefined): void {
   if (text === undefined) return;
   try {
-    const { spans, commands, events, own_events, errors, gaps, refused } = JSON.parse(text) as Kept;
+    const { spans, commands, events, own_events, errors, switches, gaps, refused } = JSON.parse(text) as Kept;
     const details = <T extends EventEntry | ErrorEntry>(entry: T): T => ({ ...entry, document: no_document, details: with_results(entry) });
     console.history.recall(spans);
     console.commands.recall(commands.map((one) => ({ ...one, ...(one.results && { results: results_of(one.results) }) })));
-    console.events.recall(events.map(revived).map(details), own_events.map(revived).map(details), errors.map(details), gaps);
+    console.events.recall({
+      events: events.map(revived).map(details),
+      own_events: own_events.map(revived).map(details),
+      errors: errors.map(details),
+      switches: switches.map((one) => ({ ...one, document: no_document })),
+      gaps,
+    });
     console.traffic.recall(refused.map((one, i) => ({ ...one, number: no_document - i })));
   } catch {
     // stored by another version of the page

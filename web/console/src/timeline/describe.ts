@@ -130,6 +130,10 @@ export function of_mark(mark: Mark): Description {
       state: mark.entry.return_code ?? '',
       facts: [...facts, [texts.reason(), reason_in(mark.entry.text)]],
     };
+  if (mark.kind === 'switched') {
+    const { from, to, reason } = mark.entry.switched;
+    return { at, kind: texts.switched(), title: `${from} → ${to}`.trim(), component, state: '', facts: [...facts, [texts.reason(), reason]] };
+  }
   if (mark.kind === 'error') return { at, kind: texts.error(), title: mark.entry.error.error_type, component, state: '', facts };
   return { at, kind: texts.event(), title: mark.entry.event.event_type, component, state: '', facts: [...facts, ...located(mark.entry)] };
 }

@@ -110,6 +110,7 @@ function MarkDetails({ mark }: { mark: Mark }) {
     if (mark.kind === 'error') void events.fetch_error(mark.entry);
   }, [mark_key(mark)]);
   if (mark.kind === 'gap' || mark.kind === 'failed') return null;
+  if (mark.kind === 'switched') return <LoggedText title={texts.document()} number={mark.entry.document} />;
   if (mark.kind === 'refused')
     return (
       <>
@@ -155,7 +156,7 @@ function Many({ marks, view, open }: { marks: readonly Mark[]; view: TimeView; o
               <button type="button" onClick={() => open({ kind: 'marks', marks: [mark] })}>
                 <span class="timeline-many-time">{clock_time(mark.entry.at)}</span>
                 <span class="unseen">{kind}</span>
-                <span class={mark.kind === 'event' ? undefined : 'timeline-bad'}>{title}</span>
+                <span class={mark.kind === 'event' || mark.kind === 'switched' ? undefined : 'timeline-bad'}>{title}</span>
                 <span class="timeline-many-ref">{component}</span>
               </button>
             </li>

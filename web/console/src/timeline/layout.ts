@@ -151,7 +151,7 @@ function spans_in(sources: Sources, { from, to }: Range): Lasting[] {
 }
 
 function marks_in(
-  { commands, events, own_events, errors, gaps, refused, at: until }: Sources,
+  { commands, events, own_events, errors, switches, gaps, refused, at: until }: Sources,
   { from, to }: Range,
   with_own: boolean,
 ): Mark[] {
@@ -166,6 +166,7 @@ function marks_in(
   since(events, (entry) => ({ kind: 'event', entry }));
   if (with_own) since(own_events, (entry) => ({ kind: 'event', entry }));
   since(errors, (entry) => ({ kind: 'error', entry }));
+  since(switches, (entry) => ({ kind: 'switched', entry }));
   since(gaps, (entry) => ({ kind: 'gap', entry }));
   since(refused, (entry) => ({ kind: 'refused', entry }));
   for (const command of commands) {

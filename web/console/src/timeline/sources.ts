@@ -4,7 +4,7 @@ import type { Console } from '../state/console';
 import { longest_blink, type Span } from '../state/history';
 import type { CommandEntry } from '../state/session/commands_state';
 import type { LoggedDocument } from '../state/session/document_log';
-import type { ErrorEntry, EventEntry, GapEntry } from '../state/session/events_state';
+import type { ErrorEntry, EventEntry, GapEntry, SwitchEntry } from '../state/session/events_state';
 
 /** Common interface of a ring and its copy. */
 export interface Rows<T> extends Iterable<T> {
@@ -19,6 +19,7 @@ export interface Sources {
   events: Rows<EventEntry>;
   own_events: Rows<EventEntry>;
   errors: Rows<ErrorEntry>;
+  switches: Rows<SwitchEntry>;
   gaps: Rows<GapEntry>;
   refused: Rows<LoggedDocument>; // refusals
   past: Rows<Span>;
@@ -32,6 +33,7 @@ export function live_sources(console: Console): Sources {
     events: events.events,
     own_events: events.own_events,
     errors: events.errors,
+    switches: events.switches,
     gaps: events.gaps,
     refused: traffic.refused,
     past: history.past,
@@ -41,13 +43,14 @@ export function live_sources(console: Console): Sources {
 
 /** A copy for a pause, as bounded as its source. */
 export function stopped_sources(console: Console): Sources {
-  const { commands, events, own_events, errors, gaps, refused, past, present, ...rest } = live_sources(console);
+  const { commands, events, own_events, errors, switches, gaps, refused, past, present, ...rest } = live_sources(console);
   return {
     ...rest,
     commands: copy(commands),
     events: copy(events),
     own_events: copy(own_events),
     errors: copy(errors),
+    switches: copy(switches),
     gaps: copy(gaps),
     refused: copy(refused),
     past: copy(past),

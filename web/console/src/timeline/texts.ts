@@ -41,6 +41,7 @@ export const command = text('Command', 'コマンド');
 export const event = text('Event', 'イベント');
 export const error = text('Error', 'エラー');
 export const refused = text('Refused', '拒否');
+export const switched = text('Switched', '切り替え');
 export const gap = text('Missed', '受信漏れ');
 export const status = text('Status', '状態');
 export const holder = text('Bound', 'バインド');

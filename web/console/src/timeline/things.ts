@@ -2,7 +2,7 @@
 import type { Span } from '../state/history';
 import type { CommandEntry } from '../state/session/commands_state';
 import type { LoggedDocument } from '../state/session/document_log';
-import type { ErrorEntry, EventEntry, GapEntry } from '../state/session/events_state';
+import type { ErrorEntry, EventEntry, GapEntry, SwitchEntry } from '../state/session/events_state';
 import { type Tone, tone_of } from '../ui';
 
 /** The time at which a command failed. */
@@ -15,6 +15,7 @@ export interface Failure {
 export type Mark =
   | { kind: 'event'; entry: EventEntry }
   | { kind: 'error'; entry: ErrorEntry }
+  | { kind: 'switched'; entry: SwitchEntry }
   | { kind: 'gap'; entry: GapEntry }
   | { kind: 'refused'; entry: LoggedDocument }
   | { kind: 'failed'; entry: Failure };
@@ -38,13 +39,14 @@ export function mark_ref(mark: Mark): string {
   if (mark.kind === 'event') return mark.entry.event.component_ref.code;
   if (mark.kind === 'refused') return mark.entry.request?.component ?? '';
   if (mark.kind === 'failed') return mark.entry.command.component;
+  if (mark.kind === 'switched') return mark.entry.switched.component_ref.code;
   return mark.kind === 'error' ? (mark.entry.error.component_ref?.code ?? '') : '';
 }
 
 /** The worst tone of the marks. */
 export function marks_tone(marks: readonly Mark[]): Tone {
   if (marks.some((one) => is_bad(one))) return 'bad';
-  return marks.some((one) => one.kind === 'gap') ? 'warning' : 'busy';
+  return marks.some((one) => one.kind === 'gap' || one.kind === 'switched') ? 'warning' : 'busy';
 }
 
 function is_bad({ kind }: Mark): boolean {

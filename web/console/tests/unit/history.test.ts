@@ -158,11 +158,12 @@ describe('a reload', () => {
     return another;
   };
 
-  test('leaves gaps and refusals with their reasons', async () => {
+  test('leaves gaps, switches, and refusals with their reasons', async () => {
     world.answers.set('bind', () => 'ERROR');
     world.reasons.set('bind', 'navigation &lt;is&gt; taken');
     await console.bindings.bind('navigation').catch(() => undefined);
     console.events.gap({ reason: 'lost', first: 1, last: 3, count: 3 });
+    await world.notifies('switched', '<component_ref rois:code="navigation"/><from>a.navigation</from><to>b.navigation</to><reason>it failed</reason>');
     const before = console.traffic.refused.at(0)!;
     const after = reloaded();
     const [refused] = after.traffic.refused.list();
@@ -170,6 +171,7 @@ describe('a reload', () => {
     expect(of_mark({ kind: 'refused', entry: refused! })).toMatchObject({ title: 'bind', component: 'navigation', state: 'ERROR' });
     expect(reason_of(refused!)).toBe('navigation <is> taken');
     expect(after.events.gaps.list()).toEqual(console.events.gaps.list());
+    expect(after.events.switches.at(0)!.switched).toEqual(console.events.switches.at(0)!.switched);
     expect(log_of(after).map((one) => one.kind).sort()).toEqual(['gap', 'refused']);
     expect(after.documents.ring.numbered(refused!.number)).toBeUndefined();
     console = after;

@@ -207,7 +207,7 @@ describe('the scene', () => {
   const thing = { codebook: '', component: 'localization', crs: 'urn:hall', x: 1000, y: 2000, z: 0, at: now - 100 };
   const person = (ref: string, more: Partial<Entity> = {}): Entity => ({ ...thing, ref, kind: 'person', is_seen: true, trail: new Ring(9), ...more });
   const robot = (ref: string, more: Partial<Robot> = {}): Robot => ({ ...thing, ref, trail: new Ring(9), ...more });
-  const input = (more: Partial<SceneInput>): SceneInput => ({ robots: [], entities: [], map, now, is_live: true, senses: () => true, ...more });
+  const input = (more: Partial<SceneInput>): SceneInput => ({ robots: [], entities: [], map, now, is_live: true, senses: () => true, acts_for: () => [], ...more });
   const states = (more: Partial<SceneInput>) => scene_of(input(more)).shown.map((one) => one.freshness);
 
   test("robots have the map's size, people their identified name", () => {

@@ -1,5 +1,5 @@
 // The time line without drawing: layout, hit tests, keys and range.
-import { type ReceiveEvent, Results } from 'rois-client';
+import { type ReceiveEvent, Results, type Switched } from 'rois-client';
 import { beforeEach, describe, expect, test } from 'vitest';
 
 import { Ring } from '../../src/state/base/ring';
@@ -11,7 +11,7 @@ import type { GapEntry } from '../../src/state/session/events_state';
 import { describe as describe_thing, sentence } from '../../src/timeline/describe';
 import { clusters, lay_out, type Layout, next_thing, type Placed, rows_of, thing_at } from '../../src/timeline/layout';
 import { end_of, first_since, oldest_of, type Sources, stopped_sources } from '../../src/timeline/sources';
-import { type Mark, opened_by } from '../../src/timeline/things';
+import { type Mark, marks_tone, opened_by } from '../../src/timeline/things';
 import { TimeView, within, zoomed } from '../../src/timeline/view';
 import { time_marks, value_marks } from '../../src/ui/drawing/scales';
 import { profile_xml, settled, World } from './world';
@@ -38,7 +38,7 @@ function span(kind: Span['kind'], ref: string, value: string, from: number, to: 
   return { number: next++, kind, ref, value, from, to, note: '' };
 }
 function sources(some: Partial<Sources> = {}): Sources {
-  return { at: 100_000, refs: ['follow', 'navigation', 'person_detection'], commands: ring(), events: ring(), own_events: ring(), errors: ring(), gaps: ring(), refused: ring(), past: ring(), present: [], ...some };
+  return { at: 100_000, refs: ['follow', 'navigation', 'person_detection'], commands: ring(), events: ring(), own_events: ring(), errors: ring(), switches: ring(), gaps: ring(), refused: ring(), past: ring(), present: [], ...some };
 }
 const range = { from: 40_000, to: 100_000 };
 const wide = { width: 600, hides_quiet: false, with_own: false }; // 100 ms per pixel
@@ -112,6 +112,15 @@ describe('events', () => {
     expect(shown).toHaveLength(3);
     const apart = (a: (typeof shown)[0], b: (typeof shown)[0]) => a.y + a.height <= b.y || b.y + b.height <= a.y || Math.abs(a.x + a.width / 2 - b.x - b.width / 2) > 30;
     for (const [i, one] of shown.entries()) for (const other of shown.slice(i + 1)) expect(apart(one, other)).toBe(true);
+  });
+
+  test('of a switch are in the lane of the logical component, with a warning', () => {
+    const switched: Switched = { name: 'switched', sequence: 1, component_ref: { code: 'navigation' }, from: 'robot1.navigation', to: 'robot2.navigation', reason: 'it failed' };
+    const layout = lay_out(sources({ switches: ring({ number: 0, at: 70_000, switched, document: 0 }) }), range, wide);
+    expect(layout.placed.map(({ lane }) => lanes_of(layout)[lane])).toEqual(['navigation', 'events']);
+    const { thing } = layout.placed[0]!;
+    expect(thing.kind === 'marks' && marks_tone(thing.marks)).toBe('warning');
+    expect(sentence(describe_thing(thing, 100_000))).toMatch(/^Switched, robot1.navigation → robot2.navigation, navigation, Time .*, Reason it failed$/);
   });
 
   test("of the console's own subscriptions are shown on request", () => {

@@ -200,7 +200,10 @@ export class Drawing {
     const { shown } = this.session.scene();
     const { age_text } = this.tools;
     const is_same = (one: Shown, before: Shown | undefined) =>
-      one.key === before?.key && one.freshness === before.freshness && label_of(one, age_text) === label_of(before, age_text);
+      one.key === before?.key &&
+      one.freshness === before.freshness &&
+      `${one.acts_for}` === `${before.acts_for}` &&
+      label_of(one, age_text) === label_of(before, age_text);
     return (
       shown.length !== this.shown.length ||
       shown.some((one, i) => !is_same(one, this.shown[i]) || this.glide.is_news(one.key, received_pose(one), now, this.slack_of(one)))

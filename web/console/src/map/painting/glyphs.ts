@@ -29,8 +29,13 @@ export function draw_thing(pen: Pen, thing: Shown, at: Point): void {
   pen.dashed();
 }
 
-function draw_robot(pen: Pen, { th, freshness }: Shown, at: Point, radius: number, style: string): void {
+// With a ring if it acts for a logical component.
+function draw_robot(pen: Pen, { th, freshness, acts_for = [] }: Shown, at: Point, radius: number, style: string): void {
   const { context, palette } = pen;
+  if (acts_for.length > 0) {
+    pen.circle(at, radius + 4);
+    pen.stroke(palette.path, 2);
+  }
   pen.circle(at, radius);
   pen.fill(freshness === 'gone' ? palette.panel : style, freshness === 'gone' ? 0.8 : 1);
   pen.stroke(style, 2);

@@ -54,7 +54,7 @@ export function draw_picture(pen: Pen, picture: Picture, labels: Labels): void {
       return [{ ...one, ...pose }, pose, pen.at(pose)];
     });
   const place_of = new Map(seen.map(([one, , at]) => [one.key, at]));
-  for (const goal of picture.goals) draw_goal(pen, goal, goal.driver.robot && place_of.get(`robot ${goal.driver.robot.ref}`));
+  for (const goal of picture.goals) draw_goal(pen, goal, goal.robot && place_of.get(`robot ${goal.robot.ref}`));
   if (layers.certainty) for (const [one, , at] of seen) draw_certainty(pen, one, at);
   for (const [one, , at] of seen) {
     if (one.key === chosen) draw_choice(pen, at, radius_of(pen, one));

@@ -9,7 +9,7 @@ const a_component = /<(?:[\w.-]+:)?component_ref\s[^>]*?\bcode\s*=\s*["']([^"']*
 const the_sequence = /\ssequence\s*=\s*["'](\d+)["']/;
 const the_subscription = /<(?:[\w.-]+:)?subscribe_id>([^<]*)</;
 const the_return_code = /\sreturn_code\s*=\s*["'](\w+)["']/;
-const notifications = ['receive_event', 'receive_error', 'completed', 'lost', 'profile_changed'];
+const notifications = ['receive_event', 'receive_error', 'completed', 'lost', 'profile_changed', 'switched'];
 
 /** Called for each document. */
 export interface DocumentListener {

@@ -1,5 +1,5 @@
-// Received events, errors and gaps.
-import { type Client, type Gap, type ReceiveError, type ReceiveEvent, type Results, RoisError } from 'rois-client';
+// Received events, errors, switches and gaps.
+import { type Client, type Gap, type ReceiveError, type ReceiveEvent, type Results, RoisError, type Switched } from 'rois-client';
 
 import type { Environment } from '../base/environment';
 import { Pulse } from '../base/pulse';
@@ -25,14 +25,32 @@ export interface ErrorEntry {
   details: Details;
 }
 
+/** A logical component goes on with another member. */
+export interface SwitchEntry {
+  number: number;
+  at: number;
+  switched: Switched;
+  document: number;
+}
+
 export interface GapEntry {
   at: number;
   gap: Gap;
 }
 
+/** The entries before a reload of the page. */
+export interface EarlierEvents {
+  events: EventEntry[];
+  own_events: EventEntry[];
+  errors: ErrorEntry[];
+  switches: SwitchEntry[];
+  gaps: GapEntry[];
+}
+
 const most_events = 5000;
 const most_own_events = 1000;
 const most_errors = 500;
+const most_switches = 500;
 const most_gaps = 100;
 const most_fetched_at_once = 8;
 
@@ -41,10 +59,12 @@ export class EventsState {
   /** Events of the console's own subscriptions. They are frequent and must not displace the user's. */
   readonly own_events = new Ring<EventEntry>(most_own_events);
   readonly errors = new Ring<ErrorEntry>(most_errors);
+  readonly switches = new Ring<SwitchEntry>(most_switches);
   readonly gaps = new Ring<GapEntry>(most_gaps);
   readonly pulse: Pulse;
   private next_event = 0;
   private next_error = 0;
+  private next_switch = 0;
   private fetching = 0;
 
   constructor(
@@ -72,9 +92,15 @@ export class EventsState {
     return entry;
   }
 
+  switched(switched: Switched, document: number): void {
+    this.switches.push({ number: this.next_switch++, at: this.environment.now(), switched, document });
+    this.pulse.touch();
+  }
+
   /** Adds the entries of this page before its reload. */
-  recall(events: readonly EventEntry[], own_events: readonly EventEntry[], errors: readonly ErrorEntry[], gaps: readonly GapEntry[]): void {
+  recall({ events, own_events, errors, switches, gaps }: EarlierEvents): void {
     for (const one of gaps) this.gaps.push(one);
+    for (const one of switches) this.switches.push({ ...one, number: this.next_switch++ });
     for (const one of events) this.events.push({ ...one, number: this.next_event++ });
     for (const one of own_events) this.own_events.push({ ...one, number: this.next_event++ });
     for (const one of errors) this.errors.push({ ...one, number: this.next_error++ });
