@@ -16,6 +16,11 @@ namespace rois::command {
 
 namespace {
 
+bool is_event(Context& context, std::string const& type) {
+    auto const known = message_names(context.components(), MessageKind::event);
+    return std::ranges::find(known, type) != known.end();
+}
+
 void check_known(Context& context, std::vector<std::string> const& wanted, std::vector<std::string> const& known) {
     for (auto const& type : wanted)
         if (std::ranges::find(known, type) == known.end())
@@ -196,7 +201,8 @@ void subscribe(Context& context) {
 void watch(Context& context) {
     auto const& options = context.options();
     auto event_types = options.words;
-    std::erase(event_types, switches);
+    // A component may have an event of this name, too.
+    std::erase_if(event_types, [&](auto const& type) { return type == switches && !is_event(context, type); });
     bool const only_switches = event_types.empty() && !options.words.empty();
     bool const is_chosen = !options.words.empty() || !options.where.empty() || !options.condition_file.empty();
     Wanted wanted;
