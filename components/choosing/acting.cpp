@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 
 constexpr auto between_switches = 5s;  // of a command, at least
 
-// The arguments for what is left to do.
+// The arguments without the targets that are reached.
 ParameterList rest_of(ParameterList parameters, std::size_t reached) {
     for (auto& parameter : parameters) {
         if (!equal_ignoring_case(parameter.name, "target_position")) continue;
@@ -50,17 +50,20 @@ void Acting::note_current(std::string const& ref) {
 
 // --- Choosing ---
 
-std::vector<Member*> Acting::best_members(ParameterList const& parameters) {
+std::vector<std::string> Acting::candidates(ParameterList const& parameters) {
     Occasion occasion{.session = binding().session, .order = binding().order, .target = {}, .current = current_};
     if (auto const* targets = find(parameters, "target_position"); targets != nullptr && !targets->values.empty())
         occasion.target = roster().position_of(targets->values.front());
     if (auto const* person = find(parameters, "target_object_ref"); person != nullptr && !person->values.empty())
         occasion.target = sightings_->position_of(person->values.front());
-    return in_order(members(), occasion, roster());
+    std::vector<std::string> refs;
+    for (auto const* member : in_order(members(), occasion, roster())) refs.push_back(member->ref);
+    return refs;
 }
 
-std::optional<ParameterList> Acting::arguments_for(Action const& action, Member const& member) const {
-    auto arguments = rest_of(action.parameters, action.reached);
+// With the member's own names of persons.
+std::optional<ParameterList> Acting::arguments_for(ParameterList const& parameters, Member const& member) const {
+    auto arguments = parameters;
     for (auto& parameter : arguments) {
         bool const is_fused = parameter.data_type_ref.codebook_ref == fused_codebook && parameter.values.size() == 1;
         if (!is_fused) continue;
@@ -72,64 +75,32 @@ std::optional<ParameterList> Acting::arguments_for(Action const& action, Member 
     return arguments;
 }
 
-void Acting::choose(SharedAction const& action, Chosen const& chosen) {
-    std::vector<std::string> candidates;
-    for (auto const* member : best_members(rest_of(action->parameters, action->reached)))
-        if (!action->failed.contains(member->ref)) candidates.push_back(member->ref);
-    try_next(action, std::move(candidates), {}, chosen);
-}
-
-// `why_not`: the objection to report if no other candidate accepts the command.
-void Acting::try_next(SharedAction const& action, std::vector<std::string> candidates, std::optional<Outcome> const& why_not,
-                      Chosen const& chosen) {
-    if (candidates.empty() || action->is_over)
-        return chosen({{}, why_not.value_or(Outcome{ReturnCode::error, "none of its members is free and READY"})});
-    auto const ref = candidates.front();
-    candidates.erase(candidates.begin());
-    auto const judge = [this, action, ref, candidates, why_not, chosen](Outcome const& outcome) {
-        if (outcome.return_code == ReturnCode::ok && !action->is_over) return chosen({ref, {}});
-        if (roster().find(ref)->is_bound && !is_used(ref)) give_back(ref);
-        // BAD_PARAMETER only if all say so.
-        bool const counts = !why_not || outcome.return_code != ReturnCode::bad_parameter;
-        try_next(action, candidates, counts ? Outcome{outcome.return_code, ref + ": " + outcome.reason} : why_not, chosen);
-    };
-    use(ref, [this, action, ref, judge](Outcome const& bound) {
-        if (bound.return_code != ReturnCode::ok) return judge(bound);
-        auto const arguments = arguments_for(*action, *roster().find(ref));
-        if (!arguments) return judge({ReturnCode::error, "it does not sense the target now"});
-        ask(execution(ref, action->type, *arguments, true), judge);
+void Acting::choose_for(SharedAction const& action, Chosen const& chosen) {
+    auto const parameters = rest_of(action->parameters, action->reached);
+    auto refs = candidates(parameters);
+    std::erase_if(refs, [&](std::string const& ref) { return action->failed.contains(ref); });
+    choose(std::move(refs), action->type, parameters, [this, action, chosen](Choice const& choice) {
+        if (choice.ref.empty() || !action->is_over) return chosen(choice);
+        give_back_unused(choice.ref);
+        chosen({{}, {ReturnCode::error, "it was stopped meanwhile"}});
     });
 }
 
 // --- Commands ---
 
-// The member that accepts the command now need not be the one that carries it out: the command may begin later.
-void Acting::prepare(Ticket ticket, std::string_view command_type, ParameterList const& parameters, Instant) {
-    auto const action = std::make_shared<Action>(Action{.type = std::string{command_type}, .parameters = parameters});
-    choose(action, [this, action, ticket](Choice const& choice) {
-        if (choice.ref.empty() && choice.why.return_code == ReturnCode::bad_parameter)
-            return port().answered(ticket, Refused{choice.why.reason});
-        if (choice.ref.empty()) return port().answered(ticket, Failed{choice.why.reason});
-        if (!is_used(choice.ref)) give_back(choice.ref);
-        port().answered(ticket, [this, action](CommandHandle handle, Instant) {
-            action->handle = handle;
-            begin(action);
-        });
-    });
-}
-
-void Acting::begin(SharedAction const& action) {
+void Acting::begin(std::string const& command_type, ParameterList const& parameters, CommandHandle command) {
+    auto const action = std::make_shared<Action>(Action{.type = command_type, .parameters = parameters, .handle = command});
     actions_.push_back(action);
-    is_suspended_ = false;
+    end_suspension();
     begins();
-    choose(action, [this, action](Choice const& choice) {
+    choose_for(action, [this, action](Choice const& choice) {
         if (!choice.ref.empty()) return carry_out(action, choice.ref);
         finish(action, failure(choice.why));
         has_begun();
     });
 }
 
-// From here on the member carries out the command, or what is left of it.
+// From here on the member carries out the command, or the rest of it.
 void Acting::carry_out(SharedAction const& action, std::string const& ref) {
     action->member = ref;
     note_current(ref);
@@ -138,62 +109,65 @@ void Acting::carry_out(SharedAction const& action, std::string const& ref) {
         if (outcome.return_code == ReturnCode::ok) {
             if (!action->is_over) port().started(action->handle);
         } else {
-            note_speech(*action, engine, false, {});
-            ended(action, failure(outcome), {});
+            note_speech(*action, engine, false);
+            ended(action, failure(outcome));
         }
         has_begun();
     };
-    auto const over = [this, action, engine](Completed const& completed, Instant now) {
-        note_speech(*action, engine, false, now);
-        ended(action, completed, now);
+    auto const over = [this, action, engine](Completed const& completed) {
+        note_speech(*action, engine, false);
+        ended(action, completed);
     };
-    note_speech(*action, engine, true, {});
-    auto const arguments = arguments_for(*action, *roster().find(ref));
+    note_speech(*action, engine, true);
+    auto const arguments = arguments_for(rest_of(action->parameters, action->reached), *roster().find(ref));
     if (!arguments) return begun({ReturnCode::error, "it does not sense the target now"});
     command(ref, action->type, *arguments, begun, over);
 }
 
-void Acting::note_speech(Action const& action, std::string const& engine, bool speaks, Instant now) const {
+void Acting::note_speech(Action const& action, std::string const& engine, bool speaks) const {
     if (action.type == "start" && find_parameter(description().profile->parameters, "speech_text") != nullptr)
-        roster().note_speech(engine, speaks, now.steady);
+        roster().note_speech(engine, speaks, sightings_->now());
 }
 
 // The member's command has ended, which was not asked for.
-void Acting::ended(SharedAction const& action, Completed const& completed, Instant now) {
+void Acting::ended(SharedAction const& action, Completed const& completed) {
     if (action->is_over || action->is_leaving) return;
     bool const is_good = completed.status == CompletedStatus::ok;
     if (is_good || action->type != "start" || binding().switching == Switching::none) return finish(action, completed);
     action->failed.insert(action->member);
     // With ABORT its engine has stopped it, or it is lost and its engine has given up our session: it stands still.
-    if (completed.status == CompletedStatus::abort) return go_on_with_another(action, completed, now);
-    leave(action, completed, now);
+    if (completed.status == CompletedStatus::abort) return go_on_with_another(action, completed);
+    leave(action, completed);
 }
 
 // Stops the member first. `as`: how the command ends if no other member goes on.
-void Acting::leave(SharedAction const& action, Completed const& as, Instant now) {
+void Acting::leave(SharedAction const& action, Completed const& as) {
     action->is_leaving = true;
-    stop(action->member, [this, action, as, now](bool stands) {
+    stop(action->member, [this, action, as](bool stands) {
         action->is_leaving = false;
         if (action->is_over) return;
-        if (stands) return go_on_with_another(action, as, now);
+        if (stands) return go_on_with_another(action, as);
         auto last = as;
         last.reason += "; " + action->member + " has not confirmed that it stands still";
         finish(action, last);
     });
 }
 
-void Acting::leave_outside(Instant now) {
+void Acting::leave_outside() {
     if (binding().switching == Switching::none) return;
     for (auto const& action : std::vector{actions_}) {
         auto const* member = roster().find(action->member);
         bool const acts = member != nullptr && action->type == "start" && !action->is_leaving;
-        bool const is_early = action->switched && now.steady < *action->switched + between_switches;
-        if (acts && member->is_outside && !is_early)
-            leave(action, {{}, CompletedStatus::abort, {}, member->ref + " has left its area", {}}, now);
+        if (acts && member->is_outside && !was_switched_just_now(*action))
+            leave(action, {{}, CompletedStatus::abort, {}, member->ref + " has left its area", {}});
     }
 }
 
-void Acting::go_on_with_another(SharedAction const& action, Completed const& completed, Instant now) {
+bool Acting::was_switched_just_now(Action const& action) const {
+    return action.switched && sightings_->now() < *action.switched + between_switches;
+}
+
+void Acting::go_on_with_another(SharedAction const& action, Completed const& completed) {
     auto const end = [this, action, completed](std::string const& why) {
         auto last = completed;
         last.status = CompletedStatus::abort;
@@ -201,15 +175,13 @@ void Acting::go_on_with_another(SharedAction const& action, Completed const& com
         finish(action, last);
     };
     if (binding().switching == Switching::abort) return end({});
-    if (is_suspended_) return end("; no other component goes on, because the application has suspended it");
-    if (action->switched && now.steady < *action->switched + between_switches)
-        return end("; it was switched less than " + in_seconds(between_switches) + " ago");
+    if (is_suspended()) return end("; no other component goes on, because the application has suspended it");
+    if (was_switched_just_now(*action)) return end("; it was switched less than " + in_seconds(between_switches) + " ago");
     auto const from = std::exchange(action->member, {});
-    action->switched = now.steady;
+    action->switched = sightings_->now();
     begins();
-    choose(action, [this, action, completed, from, end](Choice const& choice) {
-        if (action->is_over || choice.ref.empty()) {
-            if (!choice.ref.empty() && !is_used(choice.ref)) give_back(choice.ref);  // stopped meanwhile
+    choose_for(action, [this, action, completed, from, end](Choice const& choice) {
+        if (choice.ref.empty()) {
             end("; no other component can go on: " + choice.why.reason);
             return has_begun();
         }
@@ -226,27 +198,16 @@ void Acting::finish(SharedAction const& action, Completed const& completed) {
                      completed.reason);
 }
 
-void Acting::forget_commands(Instant) {
+void Acting::forget_commands() {
     for (auto const& action : actions_) action->is_over = true;
     actions_.clear();
-    is_suspended_ = false;
 }
 
-void Acting::abort_commands(Instant now) {
-    for (auto const* member : members()) roster().note_speech(member->engine, false, now.steady);
+void Acting::abort_commands() {
+    for (auto const* member : members()) roster().note_speech(member->engine, false, sightings_->now());
     for (auto const& action : std::vector{actions_})
         finish(action, {{}, CompletedStatus::abort, {}, "its session has ended", {}});
     current_.clear();
-}
-
-void Acting::suspend(Ticket ticket, Instant now) {
-    is_suspended_ = true;
-    Logical::suspend(ticket, now);
-}
-
-void Acting::resume(Ticket ticket, Instant now) {
-    is_suspended_ = false;
-    Logical::resume(ticket, now);
 }
 
 void Acting::happened(ReceiveEvent const& event, Member const& member, Instant) {
@@ -259,8 +220,8 @@ void Acting::happened(ReceiveEvent const& event, Member const& member, Instant) 
 
 Member const* Acting::shown() {
     if (auto const* current = roster().find(current_)) return current;
-    auto const best = best_members();
-    return best.empty() ? nullptr : best.front();
+    auto const first = std::ranges::find_if(members(), &Member::can_act);
+    return first == members().end() ? nullptr : *first;
 }
 
 }  // namespace rois::choosing

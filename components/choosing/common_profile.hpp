@@ -1,4 +1,4 @@
-// What all members of a logical component have in common (docs/choosing.md).
+// The messages and parameters that all members of a logical component have (docs/choosing.md).
 #pragma once
 
 #include <string>

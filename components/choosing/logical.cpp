@@ -25,16 +25,16 @@ Execute execution(std::string const& ref, std::string const& type, ParameterList
 }
 
 Logical::Logical(ComponentDescription description, std::shared_ptr<Roster> roster)
-    : description_{std::move(description)}, roster_{std::move(roster)} {}
+    : description_{std::move(description)}, roster_{std::move(roster)}, members_{roster_->members_of(description_.ref.code)} {}
 
 void Logical::attach(ComponentPort& port) {
     port_ = &port;
     show();
 }
 
-void Logical::session_began(Instant now) {
-    abort_commands(now);
-    for (auto* member : members()) forget(*member);
+void Logical::session_began(Instant) {
+    abort_commands();
+    for (auto* member : members_) forget(*member);
     running_.clear();
     subscribed_.clear();
     beginning_ = 0;
@@ -45,7 +45,7 @@ void Logical::session_began(Instant now) {
 // --- Binding ---
 
 void Logical::bind(Ticket ticket, Binding const& binding, Instant) {
-    bool const is_possible = binding.session == binding_.session || std::ranges::any_of(members(), &Member::can_act);
+    bool const is_possible = binding.session == binding_.session || std::ranges::any_of(members_, &Member::can_act);
     if (!is_possible) return port_->answered(ticket, Refused{"none of its members is free and READY"});
     binding_ = binding;
     port_->answered(ticket, Done{});
@@ -53,7 +53,7 @@ void Logical::bind(Ticket ticket, Binding const& binding, Instant) {
 
 // Members that have not confirmed a halt are given back when they have.
 void Logical::released(Instant) {
-    for (auto const* member : members())
+    for (auto const* member : members_)
         if (member->is_bound && !halting_.contains(member->ref)) give_back(member->ref);
     roster_->use(binding_.session, name(), {});
     binding_ = {};
@@ -77,6 +77,10 @@ void Logical::give_back(std::string const& ref) {
     ask(Release{identifier(ref)}, [](Outcome const&) {});
 }
 
+void Logical::give_back_unused(std::string const& ref) {
+    if (roster_->find(ref)->is_bound && !is_used(ref)) give_back(ref);
+}
+
 // It has left, and its binding has ended.
 void Logical::forget(Member& member) {
     member.is_bound = false;
@@ -84,6 +88,39 @@ void Logical::forget(Member& member) {
 }
 
 // --- Commands ---
+
+// The member that accepts the command now need not be the one that performs it: the command may begin later.
+void Logical::prepare(Ticket ticket, std::string_view command_type, ParameterList const& parameters, Instant) {
+    if (auto why = why_never(command_type)) return port_->answered(ticket, Refused{std::move(*why)});
+    auto const type = std::string{command_type};
+    choose(candidates(parameters), type, parameters, [this, type, parameters, ticket](Choice const& choice) {
+        if (choice.ref.empty() && choice.why.return_code == ReturnCode::bad_parameter)
+            return port_->answered(ticket, Refused{choice.why.reason});
+        if (choice.ref.empty()) return port_->answered(ticket, Failed{choice.why.reason});
+        give_back_unused(choice.ref);
+        port_->answered(ticket, [this, type, parameters](CommandHandle command, Instant) { begin(type, parameters, command); });
+    });
+}
+
+// `why_not`: the objection to report if no other member accepts the command. BAD_PARAMETER only if all say so.
+void Logical::choose(std::vector<std::string> refs, std::string const& type, ParameterList const& parameters,
+                     Chosen const& chosen, std::optional<Outcome> const& why_not) {
+    if (refs.empty()) return chosen({{}, why_not.value_or(Outcome{ReturnCode::error, "none of its members is free and READY"})});
+    auto const ref = refs.front();
+    refs.erase(refs.begin());
+    auto const judge = [this, ref, refs, type, parameters, chosen, why_not](Outcome const& outcome) {
+        if (outcome.return_code == ReturnCode::ok) return chosen({ref, {}});
+        give_back_unused(ref);
+        bool const counts = !why_not || outcome.return_code != ReturnCode::bad_parameter;
+        choose(refs, type, parameters, chosen, counts ? Outcome{outcome.return_code, ref + ": " + outcome.reason} : why_not);
+    };
+    use(ref, [this, ref, type, parameters, judge](Outcome const& bound) {
+        if (bound.return_code != ReturnCode::ok) return judge(bound);
+        auto const arguments = arguments_for(parameters, *roster_->find(ref));
+        if (!arguments) return judge({ReturnCode::error, "it does not sense the target now"});
+        ask(execution(ref, type, *arguments, true), judge);
+    });
+}
 
 void Logical::command(std::string const& ref, std::string const& type, ParameterList const& arguments, Answered begun,
                       Ended ended) {
@@ -101,18 +138,18 @@ void Logical::stop(std::string const& ref, std::function<void(bool stands)> cons
     auto const begun = [then](Outcome const& outcome) {
         if (outcome.return_code != ReturnCode::ok) then(false);
     };
-    command(ref, "stop", {}, begun,
-            [then](Completed const& completed, Instant) { then(completed.status == CompletedStatus::ok); });
+    command(ref, "stop", {}, begun, [then](Completed const& completed) { then(completed.status == CompletedStatus::ok); });
 }
 
 // All members that are bound may be moving: during a switch, these are two.
-void Logical::halt(Ticket ticket, Instant now) {
-    forget_commands(now);
+void Logical::halt(Ticket ticket, Instant) {
+    forget_commands();
+    is_suspended_ = false;
     auto const moving = std::make_shared<std::size_t>(1);
     auto const one_less = [this, moving, ticket] {
         if (--*moving == 0) port_->halted(ticket);
     };
-    for (auto const* member : members()) {
+    for (auto const* member : members_) {
         if (!member->is_bound) continue;
         ++*moving;
         halting_.insert(member->ref);
@@ -126,9 +163,15 @@ void Logical::halt(Ticket ticket, Instant now) {
     one_less();
 }
 
-void Logical::suspend(Ticket ticket, Instant) { pause(ticket, "suspend"); }
+void Logical::suspend(Ticket ticket, Instant) {
+    is_suspended_ = true;
+    pause(ticket, "suspend");
+}
 
-void Logical::resume(Ticket ticket, Instant) { pause(ticket, "resume"); }
+void Logical::resume(Ticket ticket, Instant) {
+    is_suspended_ = false;
+    pause(ticket, "resume");
+}
 
 void Logical::has_begun() {
     if (beginning_ == 0) return;
@@ -144,7 +187,7 @@ void Logical::pause(Ticket ticket, std::string const& command_type) {
         return;
     }
     auto const left = std::make_shared<std::size_t>(1);
-    auto const one_less = [this, left, ticket](Completed const& completed, Instant) {
+    auto const one_less = [this, left, ticket](Completed const& completed) {
         if (*left == 0) return;
         if (completed.status != CompletedStatus::ok) {
             *left = 0;
@@ -152,15 +195,15 @@ void Logical::pause(Ticket ticket, std::string const& command_type) {
         }
         if (--*left == 0) port_->answered(ticket, Done{});
     };
-    for (auto const* member : members()) {
+    for (auto const* member : members_) {
         if (!member->is_bound) continue;
         ++*left;
         auto const begun = [one_less](Outcome const& outcome) {
-            if (outcome.return_code != ReturnCode::ok) one_less({{}, CompletedStatus::error, {}, outcome.reason, {}}, {});
+            if (outcome.return_code != ReturnCode::ok) one_less({{}, CompletedStatus::error, {}, outcome.reason, {}});
         };
         command(member->ref, command_type, {}, begun, one_less);
     }
-    one_less({}, {});
+    one_less({});
 }
 
 void Logical::query(Ticket ticket, std::string_view query_type, Instant) {
@@ -179,8 +222,8 @@ void Logical::query(Ticket ticket, std::string_view query_type, Instant) {
 // --- What the members report ---
 
 void Logical::notified(Notification const& notification, Instant now) {
-    if (auto const* completed = std::get_if<Completed>(&notification)) notified_of(*completed, now);
-    if (auto const* change = std::get_if<ComponentChanged>(&notification)) notified_of(*change, now);
+    if (auto const* completed = std::get_if<Completed>(&notification)) notified_of(*completed);
+    if (auto const* change = std::get_if<ComponentChanged>(&notification)) notified_of(*change);
     if (std::holds_alternative<ProfileChanged>(notification)) learn_space();
     if (auto const* event = std::get_if<ReceiveEvent>(&notification); event != nullptr && event->results != nullptr)
         if (auto const* member = roster_->find(event->component_ref.code)) happened(*event, *member, now);
@@ -191,15 +234,15 @@ void Logical::notified(Notification const& notification, Instant now) {
         port_->error(error->error_type, ref + ": " + error->text.value_or(""));
 }
 
-void Logical::notified_of(Completed const& completed, Instant now) {
+void Logical::notified_of(Completed const& completed) {
     auto const found = running_.find(completed.command_id.text);
     if (found == running_.end()) return;
     auto const over = std::move(found->second);
     running_.erase(found);
-    over(completed, now);
+    over(completed);
 }
 
-void Logical::notified_of(ComponentChanged const& change, Instant now) {
+void Logical::notified_of(ComponentChanged const& change) {
     auto const& ref = change.component_ref.code;
     auto* member = roster_->find(ref);
     if (member == nullptr) return;
@@ -208,7 +251,7 @@ void Logical::notified_of(ComponentChanged const& change, Instant now) {
         subscribe_to(ref);
     else
         forget(*member);
-    changed(*member, now);
+    changed(*member);
     show();
 }
 
@@ -230,8 +273,8 @@ void Logical::subscribe_to(std::string const& ref) {
 // The status is the best of the members'. An application that has bound a member does not change it.
 void Logical::show() {
     ComponentState state;
-    auto const has = [all = members()](ComponentStatus status) {
-        return std::ranges::find(all, status, [](Member const* each) { return each->status; }) != all.end();
+    auto const has = [this](ComponentStatus status) {
+        return std::ranges::any_of(members_, [&](Member const* each) { return each->status == status; });
     };
     using Status = ComponentStatus;
     if (has(Status::ready) || has(Status::busy))

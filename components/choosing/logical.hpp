@@ -1,4 +1,4 @@
-// What all logical components have in common: they use their members in their own session of the engine (docs/choosing.md).
+// The base of the logical components, which use their members in their own session of the engine (docs/choosing.md).
 #pragma once
 
 #include <functional>
@@ -31,34 +31,48 @@ public:
 
     void bind(Ticket, Binding const&, Instant now) final;
     void released(Instant now) final;
+    void prepare(Ticket, std::string_view command_type, ParameterList const& parameters, Instant now) final;
     void halt(Ticket, Instant now) final;
-    void suspend(Ticket, Instant now) override;
-    void resume(Ticket, Instant now) override;
+    void suspend(Ticket, Instant now) final;
+    void resume(Ticket, Instant now) final;
     void query(Ticket, std::string_view query_type, Instant now) final;
 
 protected:
     // --- For the kinds of logical components ---
 
+    // Returns why the component never performs this command, or nullopt.
+    virtual std::optional<std::string> why_never(std::string_view /*command_type*/) const { return {}; }
+    // The refs of the members that can perform a command now, the best one first.
+    virtual std::vector<std::string> candidates(ParameterList const& parameters) = 0;
+    // The arguments of the member's own command; nullopt if it cannot perform it now.
+    virtual std::optional<ParameterList> arguments_for(ParameterList const& parameters, Member const&) const {
+        return parameters;
+    }
+    // Returns whether the member stays bound after a question.
+    virtual bool is_used(std::string const& ref) const = 0;
+    virtual void begin(std::string const& command_type, ParameterList const& parameters, CommandHandle) = 0;
     // Ends all commands without a report: the engine has ended them.
-    virtual void forget_commands(Instant now) = 0;
+    virtual void forget_commands() = 0;
     // The same with ABORT.
-    virtual void abort_commands(Instant now) = 0;
+    virtual void abort_commands() = 0;
     // The application has released the component, and its members are free.
     virtual void is_free() {}
     // An event of a member.
     virtual void happened(ReceiveEvent const&, Member const&, Instant now) = 0;
     // The state of a member has changed.
-    virtual void changed(Member&, Instant now) = 0;
+    virtual void changed(Member const&) = 0;
     // The member whose position, parameters and errors are shown, and that answers queries; null: none.
     virtual Member const* shown() = 0;
     // What changes the status from READY to WARNING.
     virtual bool has_warning() const { return false; }
 
     std::string const& name() const { return description_.ref.code; }
-    std::vector<Member*> members() const { return roster_->members_of(name()); }
+    std::vector<Member*> const& members() const { return members_; }  // the preferred ones first
     Roster& roster() const { return *roster_; }
     ComponentPort& port() const { return *port_; }
     Binding const& binding() const { return binding_; }
+    bool is_suspended() const { return is_suspended_; }
+    void end_suspension() { is_suspended_ = false; }
     void show();
 
     // `then` is called later, as the engine calls the component.
@@ -67,13 +81,24 @@ protected:
     // Binds the member.
     void use(std::string const& ref, Answered then);
     void give_back(std::string const& ref);
+    void give_back_unused(std::string const& ref);
+
+    // The member that is bound and accepts a command. An empty ref: there is none; `why` says why.
+    struct Choice {
+        std::string ref;
+        Outcome why;
+    };
+    using Chosen = std::function<void(Choice const&)>;
+    // Finds the first of these members that accepts the command.
+    void choose(std::vector<std::string> refs, std::string const& type, ParameterList const& parameters, Chosen const&,
+                std::optional<Outcome> const& why_not = {});
 
     // `suspend` and `resume` wait until the members have begun all commands: from the first of these calls to the second.
     void begins() { ++beginning_; }
     void has_begun();
 
     // Performs a command. `ended` follows `begun` with OK, once.
-    using Ended = std::function<void(Completed const&, Instant now)>;
+    using Ended = std::function<void(Completed const&)>;
     void command(std::string const& ref, std::string const& type, ParameterList const& arguments, Answered begun, Ended ended);
     // `then` is called with whether the member has confirmed that it stands still.
     void stop(std::string const& ref, std::function<void(bool stands)> const& then);
@@ -81,15 +106,17 @@ protected:
 private:
     void forget(Member&);
     void pause(Ticket, std::string const& command_type);
-    void notified_of(Completed const&, Instant now);
-    void notified_of(ComponentChanged const&, Instant now);
+    void notified_of(Completed const&);
+    void notified_of(ComponentChanged const&);
     void learn_space();
     void subscribe_to(std::string const& ref);
 
     ComponentDescription const description_;
     std::shared_ptr<Roster> const roster_;
+    std::vector<Member*> const members_;
     ComponentPort* port_ = nullptr;
     Binding binding_{};
+    bool is_suspended_ = false;
     int beginning_ = 0;                           // commands that a member has not accepted or refused yet
     std::vector<std::function<void()>> waiting_;  // until all have begun
     std::set<std::string> halting_;               // refs of the members that have not confirmed a halt

@@ -10,7 +10,7 @@ namespace rois::choosing {
 
 namespace {
 
-double way(Member const& member, Occasion const& occasion) {
+double distance(Member const& member, Occasion const& occasion) {
     if (!occasion.target) return 0;
     if (!member.location) return std::numeric_limits<double>::max();
     auto const& position = member.location->position;
@@ -23,6 +23,7 @@ double way(Member const& member, Occasion const& occasion) {
 
 std::vector<Member*> in_order(std::vector<Member*> members, Occasion const& occasion, Roster const& roster) {
     std::erase_if(members, [](Member const* each) { return !each->can_act(); });
+    auto loads = roster.loads();
     auto const rank = [&](Member* member) {
         auto const sorted = std::ranges::find(occasion.order, member->ref) - occasion.order.begin();
         // The one that acts at a target is chosen by its distance; the other components of the application follow it.
@@ -30,9 +31,9 @@ std::vector<Member*> in_order(std::vector<Member*> members, Occasion const& occa
         return std::tuple{member->status != ComponentStatus::ready,
                           sorted,
                           -static_cast<std::ptrdiff_t>(crew),
-                          way(*member, occasion),
+                          distance(*member, occasion),
                           member->ref != occasion.current,
-                          roster.load(member->engine),
+                          loads[member->engine],
                           member->preference,
                           std::string_view{member->ref},
                           member};

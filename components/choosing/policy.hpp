@@ -11,7 +11,7 @@
 
 namespace rois::choosing {
 
-// What a member is chosen for.
+// The purpose for which a member is chosen.
 struct Occasion {
     std::uint64_t session = 0;                    // of the application
     std::vector<std::string> order;               // refs, in the sort order of the application's condition; empty: it has none

@@ -41,6 +41,7 @@ std::vector<Member*> Roster::members_of(std::string_view logical) {
     std::vector<Member*> members;
     for (auto& [ref, member] : members_)
         if (member.logical == logical) members.push_back(&member);
+    std::ranges::sort(members, {}, &Member::preference);
     return members;
 }
 
@@ -54,11 +55,11 @@ void Roster::note(Member& member, ComponentStatus status, Results const& state) 
                         !is_inside(area->second, member.location->position[0], member.location->position[1]);
 }
 
-std::size_t Roster::load(std::string_view engine) const {
-    return static_cast<std::size_t>(std::ranges::count_if(members_, [&](auto const& each) {
-        auto const& member = each.second;
-        return member.engine == engine && (member.is_bound || member.status == ComponentStatus::busy);
-    }));
+std::map<std::string_view, std::size_t> Roster::loads() const {
+    std::map<std::string_view, std::size_t> loads;
+    for (auto const& [ref, member] : members_)
+        if (member.is_bound || member.status == ComponentStatus::busy) ++loads[member.engine];
+    return loads;
 }
 
 void Roster::use(std::uint64_t session, std::string const& logical, std::string const& engine) {

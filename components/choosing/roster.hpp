@@ -1,4 +1,4 @@
-// The members of the logical components: what is known about them, and who uses them.
+// The members of the logical components, their states, and their users.
 #pragma once
 
 #include <array>
@@ -41,12 +41,13 @@ public:
 
     // Returns null for a component that is not a member.
     Member* find(std::string_view ref);
+    // The preferred ones first. The pointers stay valid.
     std::vector<Member*> members_of(std::string_view logical);
     // Sets the status, location and parameters of a member.
     void note(Member&, ComponentStatus, Results const&) const;
 
-    // The number of members of this engine that are in use.
-    std::size_t load(std::string_view engine) const;
+    // The number of members in use, by engine. Engines without one are missing.
+    std::map<std::string_view, std::size_t> loads() const;
 
     // Notes the engine whose member a logical component uses for the session of an application. An empty engine: it uses none.
     void use(std::uint64_t session, std::string const& logical, std::string const& engine);

@@ -73,48 +73,27 @@ Sensing::Event const* Sensing::find(std::string_view type) const {
 
 // --- Commands ---
 
-void Sensing::prepare(Ticket ticket, std::string_view command_type, ParameterList const& parameters, Instant) {
-    if (command_type != "start" && command_type != "set_parameter")
-        return port().answered(ticket, Refused{"only one of its members could carry it out; use the member's ref"});
+std::optional<std::string> Sensing::why_never(std::string_view command_type) const {
+    if (command_type == "start" || command_type == "set_parameter") return {};
+    return "only one of its members could carry it out; use the member's ref";
+}
+
+std::vector<std::string> Sensing::candidates(ParameterList const&) {
     std::vector<std::string> refs;
     for (auto const* member : members())
         if (member->can_act()) refs.push_back(member->ref);
-    try_next(std::move(refs), std::string{command_type}, parameters, ticket,
-             {ReturnCode::error, "none of its members is free and READY"});
-}
-
-// The command is possible if one member accepts it.
-void Sensing::try_next(std::vector<std::string> refs, std::string const& type, ParameterList const& parameters, Ticket ticket,
-                       Outcome const& why_not) {
-    if (refs.empty()) {
-        if (why_not.return_code == ReturnCode::bad_parameter) return port().answered(ticket, Refused{why_not.reason});
-        return port().answered(ticket, Failed{why_not.reason});
-    }
-    auto const ref = refs.front();
-    refs.erase(refs.begin());
-    auto const judge = [this, ref, refs, type, parameters, ticket](Outcome const& outcome) {
-        if (!started_.contains(ref) && roster().find(ref)->is_bound) give_back(ref);
-        if (outcome.return_code != ReturnCode::ok)
-            return try_next(refs, type, parameters, ticket, {outcome.return_code, ref + ": " + outcome.reason});
-        port().answered(ticket, [this, type, parameters](CommandHandle command, Instant) { begin(type, parameters, command); });
-    };
-    use(ref, [this, ref, type, parameters, judge](Outcome const& bound) {
-        if (bound.return_code != ReturnCode::ok) return judge(bound);
-        ask(execution(ref, type, parameters, true), judge);
-    });
+    return refs;
 }
 
 void Sensing::begin(std::string const& command_type, ParameterList const& parameters, CommandHandle command) {
     if (command_type == "set_parameter") return change_parameters(parameters, command);
     is_active_ = true;
-    is_suspended_ = false;
+    end_suspension();
     parameters_ = parameters;
     for (auto const& event : events_)
         if (event.reports == Reports::positions) sightings_->begin(event.kind);
     auto const first = std::make_shared<CommandHandle>(command);
-    std::vector<std::string> refs;
-    for (auto const* member : members())
-        if (member->can_act()) refs.push_back(member->ref);
+    auto const refs = candidates(parameters);
     if (refs.empty()) return complete(first, {ReturnCode::error, "none of its members is free and READY"});
     for (auto const& ref : refs) start(ref, first);
 }
@@ -126,7 +105,7 @@ void Sensing::start(std::string const& ref, std::shared_ptr<CommandHandle> const
     auto const failed = [this, ref, for_command](Outcome const& why) {
         started_.erase(ref);
         if (!is_active_) return;
-        if (roster().find(ref)->is_bound) give_back(ref);
+        give_back_unused(ref);
         if (started_.empty()) complete(for_command, {why.return_code, ref + ": " + why.reason});
     };
     use(ref, [this, ref, for_command, failed](Outcome const& bound) {
@@ -138,7 +117,7 @@ void Sensing::start(std::string const& ref, std::shared_ptr<CommandHandle> const
             if (outcome.return_code != ReturnCode::ok) failed(outcome);
             has_begun();
         };
-        command(ref, "start", parameters_, begun, [this, for_command, failed](Completed const& completed, Instant) {
+        command(ref, "start", parameters_, begun, [this, for_command, failed](Completed const& completed) {
             if (completed.status != CompletedStatus::ok) return failed({ReturnCode::error, completed.reason});
             complete(for_command, {});
         });
@@ -165,23 +144,13 @@ void Sensing::change_parameters(ParameterList const& parameters, CommandHandle c
             [one_less](Outcome const& outcome) {
                 if (outcome.return_code != ReturnCode::ok) one_less();
             },
-            [one_less](Completed const&, Instant) { one_less(); });
+            [one_less](Completed const&) { one_less(); });
     one_less();
 }
 
-void Sensing::forget_commands(Instant) { end_sensing(); }
-
-void Sensing::suspend(Ticket ticket, Instant now) {
-    is_suspended_ = true;
-    Logical::suspend(ticket, now);
-}
-
-void Sensing::resume(Ticket ticket, Instant now) {
-    is_suspended_ = false;
-    Logical::resume(ticket, now);
-}
-
 void Sensing::end_sensing() {
+    for (auto const* member : members())
+        if (started_.contains(member->ref)) lose(*member);
     if (std::exchange(is_active_, false))
         for (auto const& event : events_)
             if (event.reports == Reports::positions) sightings_->end(event.kind);
@@ -193,23 +162,27 @@ void Sensing::end_sensing() {
     misplaced_.clear();
 }
 
-// --- What the members sense ---
-
-void Sensing::changed(Member& member, Instant now) {
-    if (!is_active_) return;
-    if (member.can_act()) {
-        if (!started_.contains(member.ref)) start(member.ref, nullptr);
-        return;
-    }
-    if (started_.erase(member.ref) == 0) return;
+// The member does not sense any longer.
+void Sensing::lose(Member const& member) {
     counts_.erase(member.ref);
     for (auto const& event : events_)
         if (auto* fusion = event.reports == Reports::positions ? sightings_->of(event.kind) : nullptr)
-            fusion->lost(member.engine, now.steady);
+            fusion->lost(member.engine, sightings_->now());
+}
+
+// --- What the members sense ---
+
+void Sensing::changed(Member const& member) {
+    if (!is_active_) return;
+    if (!member.can_act()) {
+        if (started_.erase(member.ref) > 0) lose(member);
+    } else if (!started_.contains(member.ref)) {
+        start(member.ref, nullptr);
+    }
 }
 
 Member const* Sensing::shown() {
-    auto const all = members();
+    auto const& all = members();
     auto const found =
         std::ranges::find_if(all, [&](auto const* each) { return is_active_ ? started_.contains(each->ref) : each->can_act(); });
     return found == all.end() ? nullptr : *found;
@@ -217,7 +190,7 @@ Member const* Sensing::shown() {
 
 void Sensing::happened(ReceiveEvent const& event, Member const& member, Instant now) {
     auto const* known = find(event.event_type);
-    if (is_active_ && !is_suspended_ && known != nullptr && started_.contains(member.ref)) take(*known, event, member, now);
+    if (is_active_ && !is_suspended() && known != nullptr && started_.contains(member.ref)) take(*known, event, member, now);
 }
 
 void Sensing::take(Event const& event, ReceiveEvent const& received, Member const& member, Instant now) {
@@ -229,7 +202,7 @@ void Sensing::take(Event const& event, ReceiveEvent const& received, Member cons
             return report_names(event, received, member, now);
         case Reports::number:
             counts_[member.ref] = to_number<int>(number->values.front()).value_or(0);
-            return report_number(event, 0, now);
+            return report_number(event, now);
         case Reports::other:
             return report_once(event, *received.results, member, now);
     }
@@ -260,7 +233,7 @@ void Sensing::take_positions(Event const& event, ReceiveEvent const& received, M
 }
 
 void Sensing::time_passed(Instant now) {
-    if (!is_active_ || is_suspended_) return;
+    if (!is_active_ || is_suspended()) return;
     for (auto const& event : events_) {
         auto* fusion = event.reports == Reports::positions ? sightings_->of(event.kind) : nullptr;
         if (fusion == nullptr) continue;
@@ -273,7 +246,7 @@ void Sensing::time_passed(Instant now) {
     }
     for (auto const& event : events_)
         if (event.reports == Reports::number && reported_number_ && sightings_->of(event.kind) != nullptr)
-            report_number(event, 0, now);
+            report_number(event, now);
 }
 
 void Sensing::report_positions(Event const& event, Instant now) {
@@ -318,7 +291,7 @@ void Sensing::report_names(Event const& event, ReceiveEvent const& received, Mem
     report_once(event, std::move(results), member, now);
 }
 
-// What several units report within a short time is one event. What the own robots say is none.
+// Equal events of several units within a short time are one. The own robots' speech, heard by another unit, is none.
 void Sensing::report_once(Event const& event, Results results, Member const& member, Instant now) {
     if (event.kind == "speech" && roster().is_heard_by_others(member.engine, now.steady)) return;
     std::erase_if(reported_, [&](Reported const& each) { return now.steady - each.at > one_event; });
@@ -333,7 +306,8 @@ void Sensing::report_once(Event const& event, Results results, Member const& mem
 }
 
 // The number of persons in the list of their positions, if there is one; otherwise the greatest number that one unit reports.
-void Sensing::report_number(Event const& event, std::size_t number, Instant now) {
+void Sensing::report_number(Event const& event, Instant now) {
+    std::size_t number = 0;
     if (auto const* fusion = sightings_->of(event.kind)) {
         for (auto const& person : fusion->persons(now.steady))
             if (!person.sensed_by.empty()) ++number;

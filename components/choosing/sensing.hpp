@@ -21,10 +21,6 @@ public:
     Sensing(Sensing const&) = delete;
     Sensing& operator=(Sensing const&) = delete;
 
-    void prepare(Ticket, std::string_view command_type, ParameterList const& parameters, Instant now) override;
-    void suspend(Ticket, Instant now) override;
-    void resume(Ticket, Instant now) override;
-
 private:
     // What an event reports, by the results in its profile.
     enum class Reports : std::uint8_t {
@@ -41,27 +37,28 @@ private:
     static std::vector<Event> events_of(ComponentProfile const&);
     Event const* find(std::string_view type) const;
 
-    void begin(std::string const& command_type, ParameterList const&, CommandHandle);
-    void try_next(std::vector<std::string> refs, std::string const& type, ParameterList const& parameters, Ticket,
-                  Outcome const& why_not);
-    void start_free_members();
+    std::optional<std::string> why_never(std::string_view command_type) const override;
+    std::vector<std::string> candidates(ParameterList const& parameters) override;
+    bool is_used(std::string const& ref) const override { return started_.contains(ref); }
+    void begin(std::string const& command_type, ParameterList const&, CommandHandle) override;
     void start(std::string const& ref, std::shared_ptr<CommandHandle> const& for_command);
     void complete(std::shared_ptr<CommandHandle> const&, Outcome const&);
     void change_parameters(ParameterList const&, CommandHandle);
     void end_sensing();
+    void lose(Member const&);
 
     void take(Event const&, ReceiveEvent const&, Member const&, Instant now);
     void take_positions(Event const&, ReceiveEvent const&, Member const&, Instant now);
     void report_positions(Event const&, Instant now);
     void report_names(Event const&, ReceiveEvent const&, Member const&, Instant now);
     void report_once(Event const&, Results, Member const&, Instant now);
-    void report_number(Event const&, std::size_t number, Instant now);
+    void report_number(Event const&, Instant now);
     void report_misplaced(Event const&);
 
-    void forget_commands(Instant now) override;
-    void abort_commands(Instant now) override { forget_commands(now); }
+    void forget_commands() override { end_sensing(); }
+    void abort_commands() override { end_sensing(); }
     void happened(ReceiveEvent const&, Member const&, Instant now) override;
-    void changed(Member&, Instant now) override;
+    void changed(Member const&) override;
     Member const* shown() override;
     bool has_warning() const override { return !misplaced_.empty(); }
     void time_passed(Instant now) override;
@@ -69,7 +66,6 @@ private:
     std::shared_ptr<Sightings> const sightings_;
     std::vector<Event> const events_;
     bool is_active_ = false;
-    bool is_suspended_ = false;
     ParameterList parameters_;           // of `start`
     std::set<std::string> started_;      // refs of the members that sense, or have been told to
     std::map<std::string, int> counts_;  // the last number of each member, by ref

@@ -28,6 +28,8 @@ class Sightings final : public Device {
 public:
     void advance(Instant now) override;
 
+    Steady now() const { return now_; }
+
     void add(Observer& observer) { observers_.push_back(&observer); }
     void remove(Observer const& observer) { std::erase(observers_, &observer); }
 
@@ -43,7 +45,6 @@ public:
     std::optional<Identifier> translated(std::string const& name, std::string const& unit) const;
     // In mm.
     std::optional<std::array<double, 2>> position_of(std::string_view name) const;
-    bool know(std::string_view name) const { return position_of(name).has_value(); }
 
 private:
     struct Kind {

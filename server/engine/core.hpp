@@ -113,6 +113,8 @@ private:
     Reply perform(Session&, Disconnect const&, Instant now);
     Reply perform(Session&, GetProfile const&, Instant now);
     Reply perform(Session&, GetErrorDetail const&, Instant now);
+    bool owns_present_stop(Session const&) const;
+    bool present_stop_has_owners() const;
     Reply perform(Session&, StopEverything const&, Instant now);
     Reply perform(Session&, ClearStop const&, Instant now);
 
@@ -271,7 +273,8 @@ private:
     bool sessions_must_end_ = false;
     bool shutting_down_ = false;
     bool everything_is_stopped_ = false;
-    std::uint64_t last_stop_ = 0;  // a number that no other stop has, also not one before the engine was started
+    std::size_t stops_of_ended_sessions_ = 0;  // owners of the present stop that have ended without clearing it
+    std::uint64_t last_stop_ = 0;              // a number that no other stop has, also not one before the engine was started
     std::function<void(bool)> on_stop_ = [](bool) {};
     std::optional<Steady> stop_reported_;    // when the sessions last received the error of a stop of everything
     bool stop_unreported_ = false;           // a later stop has not been reported yet: a tick will report it

@@ -214,6 +214,7 @@ void Engine::Core::remove(Session& session, Instant now) {
     journal_->session_ended(session.number, session.why_it_ends);
     free_slots_.push_back(session.events.slot);  // cannot throw: `connect` reserved the room
     std::erase(engines_, &session);
+    if (owns_present_stop(session)) ++stops_of_ended_sessions_;
     if (session.owner != nullptr) session.owner->own_session = nullptr;
     sessions_.erase(sessions_.find(session.id));
 }
@@ -221,6 +222,7 @@ void Engine::Core::remove(Session& session, Instant now) {
 void Engine::Core::stop_everything(Instant now) {
     everything_is_stopped_ = true;
     stop_unreported_ = true;
+    stops_of_ended_sessions_ = 0;
     ++last_stop_;
     Attempts attempts;
     attempts([&] { on_stop_(true); });  // before the components are halted

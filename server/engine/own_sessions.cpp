@@ -21,7 +21,7 @@ public:
     void refuse(Refusal) override { call(nullptr); }
 
 private:
-    // Without memory for the call the component is halted (Executor::repair), which ends what waits for the answer.
+    // Without memory for the call the component is halted (Executor::repair), which ends the commands that wait for the answer.
     void call(std::shared_ptr<Reply const> reply) {
         try {
             owner_->call([then = std::move(then_), reply = std::move(reply)](Component&) { then(reply.get()); });
@@ -52,7 +52,7 @@ Session& Engine::Core::own_session(RegisteredComponent& component, Instant now) 
     return *component.own_session;
 }
 
-// A logical component that nobody has bound has given its members back, unless memory was missing for that.
+// A logical component without a binding has given its members back, unless memory was missing for that.
 void Engine::Core::free_members(RegisteredComponent const& component, Instant now) {
     auto* session = component.own_session;
     if (session == nullptr || component.bound_to != nullptr || component.halting || component.binds_asked > 0) return;

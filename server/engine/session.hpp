@@ -55,6 +55,7 @@ struct Session {
     std::chrono::milliseconds window{};
 
     std::uint64_t last_stop = 0;  // number of the last stop of everything that it has asked for
+    bool owns_stop = false;       // that stop does not end before this session has cleared it
 
     bool receives_switches = false;  // of all components
 

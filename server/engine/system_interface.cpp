@@ -113,28 +113,44 @@ Reply Engine::Core::perform(Session& session, Resume const& resume, Instant) {
                                                                  ", not " + std::to_string(resume.last_sequence));
 }
 
-// Sessions share a stop: it ends when all of them have cleared it. A stop by anyone else cannot be shared: `last_stop` is then
-// the complement of its number. A session that asks again sees how far the stop is.
+bool Engine::Core::owns_present_stop(Session const& session) const {
+    return everything_is_stopped_ && session.owns_stop && session.last_stop == last_stop_;
+}
+
+bool Engine::Core::present_stop_has_owners() const {
+    return stops_of_ended_sessions_ > 0 ||
+           std::ranges::any_of(sessions_, [&](auto const& each) { return owns_present_stop(*each.second); });
+}
+
+// A stop ends when each session that owns it has cleared it. A stop without owners, such as one of POST /rois/stop, ends only
+// with POST /rois/clear. A session that asks again sees how far the stop is.
 Reply Engine::Core::perform(Session& session, StopEverything const&, Instant now) {
-    bool const was_stopped = everything_is_stopped_;
-    auto const number = last_stop_;
     StopEverything::Reply reply;
-    if (!was_stopped || (session.last_stop != number && session.last_stop != ~number)) {
-        auto const has_asked = [&](auto const& each) { return each.second->last_stop == number; };
-        bool const may_clear = !was_stopped || std::ranges::any_of(sessions_, has_asked);
+    bool const was_stopped = everything_is_stopped_;
+    if (!was_stopped || session.last_stop != last_stop_) {
+        session.owns_stop = !was_stopped || present_stop_has_owners();
+        auto const number = last_stop_;
+        auto const of_ended_sessions = stops_of_ended_sessions_;
         stop_everything(now);
-        if (was_stopped) last_stop_ = number;
-        session.last_stop = may_clear ? last_stop_ : ~last_stop_;
-        if (may_clear) reply.stop = last_stop_;
+        if (was_stopped) {
+            last_stop_ = number;
+            // The session may follow one that has ended.
+            stops_of_ended_sessions_ = of_ended_sessions - std::min<std::size_t>(of_ended_sessions, 1);
+        }
+        session.last_stop = last_stop_;
+        if (session.owns_stop) reply.stop = last_stop_;
     }
     reply.not_halted = not_halted();
     return reply;
 }
 
 Reply Engine::Core::perform(Session& session, ClearStop const& asked, Instant) {
-    if (asked.stop != last_stop_) return ClearStop::Reply{};
-    session.last_stop = 0;
-    if (std::ranges::none_of(sessions_, [&](auto const& each) { return each.second->last_stop == last_stop_; })) clear();
+    if (asked.stop != last_stop_ || !present_stop_has_owners()) return ClearStop::Reply{};
+    if (owns_present_stop(session))
+        session.owns_stop = false;
+    else if (stops_of_ended_sessions_ > 0)
+        --stops_of_ended_sessions_;
+    if (!present_stop_has_owners()) clear();
     return ClearStop::Reply{};
 }
 

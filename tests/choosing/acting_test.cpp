@@ -257,6 +257,16 @@ TEST_F(TwoRobots, SwitchAtMostOnceInFiveSeconds) {
     EXPECT_EQ(team.starts_of("robot1"), 1);
 }
 
+TEST_F(TwoRobots, SwitchOnceInFiveSecondsAlsoAfterARefusal) {
+    bind(desk, "navigation", Switching::restart);
+    team.drive("robot1").accepts = 2;  // twice it only checks the command
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    EXPECT_EQ(team.starts_of("robot2"), 1);
+    team.drive("robot2").finishes(CompletedStatus::error);
+    EXPECT_EQ(desk.result_of("go"), "ABORT");
+    EXPECT_THAT(desk.reason_of("go"), HasSubstr("switched less than 5 s ago"));
+}
+
 TEST_F(TwoRobots, EndTheCommandIfNoneIsLeft) {
     bind(desk, "navigation", Switching::restart);
     desk.execute(drive_to("go", {"1000, 0, 0"}));

@@ -259,7 +259,7 @@ TEST_F(TwoEars, HearOneSentenceOnce) {
     EXPECT_EQ(heard(), 1u);
     world.advance(2s);
     hears("robot2", "goodbye");
-    EXPECT_EQ(heard(), 1u) << "it was said again";
+    EXPECT_EQ(heard(), 1u) << "another sentence with the same words";
 }
 
 TEST_F(TwoEars, DoNotHearTheOwnRobots) {

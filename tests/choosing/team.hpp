@@ -50,7 +50,7 @@ public:
                 Located{.of = {}, .ref = robot, .crs = "crs1", .position = {x, y, 0}, .orientation = {}, .certainty = {}};
         look();
     }
-    // The logical components notice what has changed.
+    // The logical components notice the changes of their members.
     void look() {
         world.happen([] {});
         world.advance(200ms);

@@ -181,6 +181,7 @@ ComponentStatus ScriptedComponent::status() const {
 
 Prepared ScriptedComponent::prepare(std::string_view command_type, ParameterList const& parameters) {
     called("prepare");
+    if (accepts && (*accepts)-- <= 0) return Refused{"it accepts no more commands"};
     if (command_type == "set_parameter")
         return [this, parameters](CommandHandle, Instant now) { parameters_changed(parameters, now); };
     if (command_type != "start")

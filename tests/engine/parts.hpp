@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -54,6 +55,7 @@ public:
     ComponentStatus status_now = ComponentStatus::ready;
     // Calls that throw, or fail in another way: "nothing performed", "nothing known", "nothing right".
     std::set<std::string> throws_in;
+    std::optional<int> accepts;        // number of commands that `prepare` accepts; it refuses later ones
     bool throws_no_exception = false;  // throws another type
     bool halts_later = false;          // `halt` returns `not_yet`
     std::vector<std::string> calls;    // the calls that it received

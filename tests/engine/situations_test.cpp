@@ -1,4 +1,5 @@
-// Which sessions receive errors, and during which time (7.4.1.2); ends of commands that the notes below tables 7 and 8 leave open.
+// Which sessions receive errors, and during which time (7.4.1.2); ends of commands that the notes below tables 7 and 8 leave
+// open.
 #include "engine/conditions/conditions.hpp"
 #include "engine/world.hpp"
 

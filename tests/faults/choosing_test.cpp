@@ -21,6 +21,7 @@ public:
         choosing_.change(std::move(change),
                          [this](ComponentChange all) { return world.engine->change(std::move(all), world.now); });
         world.engine->add(hand_);
+        world.engine->Engine::add(choosing_.device(), choosing::Choosing::provider);
         for (int i = 1; i <= 20; ++i) world.notified[SessionId{"secret-" + std::to_string(i)}] = 0;
         world.advance(100ms);
     }

@@ -132,9 +132,8 @@ struct NotificationText {
                std::string{to_text(changed.status)};
     }
     std::string operator()(Switched const& switched) const {
-        auto const from = switched.from.empty() ? "" : "from " + switched.from + " ";
         return headline("switched", switched.component_ref.code, Colour::name, coloured) + "  " +
-               harmless(from + "to " + switched.to + ": " + switched.reason);
+               harmless("from " + switched.from + " to " + switched.to + ": " + switched.reason);
     }
 };
 

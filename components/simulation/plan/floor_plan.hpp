@@ -64,7 +64,7 @@ struct RobotFrame {
 struct RobotPlan {
     std::string name;
     Pose start;
-    bool fixed = false;  // on a wall or ceiling: has no wheels and no voice, and is in nobody's way
+    bool fixed = false;  // on a wall or ceiling: has neither wheels nor a voice, and robots drive past it freely
     Metres radius = 0.28;
     MetresPerSecond max_speed = 0.9;
     double max_acceleration = 0.8;  // m/s^2, also when braking on the way

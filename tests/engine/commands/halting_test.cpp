@@ -329,6 +329,31 @@ TEST_F(Halting, OfEverythingByTwoSessionsEndsWhenBothHaveClearedIt) {
     EXPECT_FALSE(world.engine->everything_is_stopped());
 }
 
+TEST_F(Halting, OfEverythingByASessionThatHasEndedIsNotClearedByAnother) {
+    auto hall = world.connect();
+    auto const first = desk.ask(StopEverything{});
+    auto const second = hall.ask(StopEverything{});
+    desk.leave();
+    hall.ask(ClearStop{second.stop.value()});
+    EXPECT_TRUE(world.engine->everything_is_stopped());
+    auto successor = world.connect();
+    successor.ask(ClearStop{first.stop.value()});
+    EXPECT_FALSE(world.engine->everything_is_stopped());
+}
+
+TEST_F(Halting, OfEverythingIsClearedByASessionThatAskedForItAgain) {
+    auto hall = world.connect();
+    desk.ask(StopEverything{});
+    auto const second = hall.ask(StopEverything{});
+    desk.leave();
+    auto successor = world.connect();
+    auto const again = successor.ask(StopEverything{});
+    successor.ask(ClearStop{again.stop.value()});
+    EXPECT_TRUE(world.engine->everything_is_stopped());
+    hall.ask(ClearStop{second.stop.value()});
+    EXPECT_FALSE(world.engine->everything_is_stopped());
+}
+
 TEST_F(Halting, OfEverythingByTheOperatorIsClearedByNoSession) {
     auto hall = world.connect();
     auto const first = desk.ask(StopEverything{});

@@ -82,7 +82,7 @@ private:
     std::map<std::string, std::size_t> places_;
 };
 
-// Where a robot is in the world: mm.
+// Returns the position of a robot in the world, in mm.
 using Place = std::pair<double, double>;
 Place place_of(std::string const& robot, Application& in_hall) {
     auto const answer = in_hall.query("robot_position", where(equal("component_ref", robot + ".system_information")));

@@ -2,7 +2,19 @@
 
 /** `variable`, `component`, `state`: an existing name; `result`: a name of the engine; `text` may have {name}. */
 export type AttributeType =
-  'name' | 'variable' | 'component' | 'state' | 'result' | 'text' | 'token' | 'plain' | 'status' | 'switching' | 'boolean' | 'double' | 'natural';
+  | 'name'
+  | 'variable'
+  | 'component'
+  | 'state'
+  | 'result'
+  | 'text'
+  | 'token'
+  | 'plain'
+  | 'status'
+  | 'switching'
+  | 'boolean'
+  | 'double'
+  | 'natural';
 
 export interface AttributeRule {
   type: AttributeType;

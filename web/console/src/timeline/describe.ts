@@ -132,7 +132,8 @@ export function of_mark(mark: Mark): Description {
     };
   if (mark.kind === 'switched') {
     const { from, to, reason } = mark.entry.switched;
-    return { at, kind: texts.switched(), title: `${from} → ${to}`.trim(), component, state: '', facts: [...facts, [texts.reason(), reason]] };
+    const title = `${from} → ${to}`.trim();
+    return { at, kind: texts.switched(), title, component, state: '', facts: [...facts, [texts.reason(), reason]] };
   }
   if (mark.kind === 'error') return { at, kind: texts.error(), title: mark.entry.error.error_type, component, state: '', facts };
   return { at, kind: texts.event(), title: mark.entry.event.event_type, component, state: '', facts: [...facts, ...located(mark.entry)] };
