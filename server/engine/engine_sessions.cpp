@@ -5,7 +5,7 @@ namespace rois {
 
 namespace {
 
-constexpr std::chrono::milliseconds between_states{200};  // of one component
+constexpr std::chrono::milliseconds between_states{200};  // of one component; a logical component learns a status at once
 constexpr std::chrono::milliseconds signs_of_life_wanted{1'000};
 constexpr std::chrono::seconds silence{2};  // after which a link counts as lost
 
@@ -48,7 +48,8 @@ void Engine::Core::notify_of_state(Session& session, RegisteredComponent const& 
     if (last != session.notified.end()) {
         auto const& before = last->second;
         bool const changed = before.status != status || before.state != state;
-        if (!changed || now.steady - before.at < between_states) return;
+        bool const waits = session.owner == nullptr || before.status == status;
+        if (!changed || (waits && now.steady - before.at < between_states)) return;
     }
     notifier_.notify(session, ComponentChanged{component.ref(), status, component.reported()});
     session.notified[&component] = {now.steady, status, state};

@@ -140,6 +140,16 @@ TEST_F(TwoRobots, AreNotChosenIfAnotherApplicationHasBoundThem) {
     EXPECT_EQ(desk.bind("navigation"), ReturnCode::out_of_resources);
 }
 
+TEST_F(TwoRobots, AreChosenAsSoonAsTheyAreFree) {
+    auto other = world.connect();
+    for (auto* each : {"robot1.navigation", "robot2.navigation"}) other.bind(each);
+    world.advance(20ms);
+    EXPECT_EQ(desk.bind("navigation"), ReturnCode::out_of_resources);
+    for (auto* each : {"robot1.navigation", "robot2.navigation"}) other.release(each);
+    world.advance(20ms);
+    EXPECT_EQ(desk.bind("navigation"), ReturnCode::ok);
+}
+
 TEST_F(TwoRobots, AreChosenIfTheOtherRefusesTheParameters) {
     world["robot1.navigation"].throws_in = {"prepare"};
     desk.bind("navigation");
