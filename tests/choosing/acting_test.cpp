@@ -47,6 +47,19 @@ TEST_F(TwoRobots, AreSeenByThoseWhoAskByRefOrEngine) {
     EXPECT_EQ(desk.bind("robot1.navigation"), ReturnCode::ok);
 }
 
+TEST_F(TwoRobots, AreSeenByThoseWhoAskForAnyEngine) {
+    Condition const any_engine{PropertyIsLike{{ValueReference{"engine"}}, {Literal{"*"}}, "*", "?", "!"}};
+    EXPECT_THAT(desk.search(any_engine), Contains("robot1.navigation"));
+    desk.subscribe("reached_target", any_engine);
+    desk.subscribe("reached_target");
+    desk.bind("navigation");
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    team.drive("robot1").fires("reached_target", {text("target", "1000, 0, 0"), boolean("is_final_target", true)});
+    EXPECT_THAT(desk.received(),
+                ElementsAre("1 reached_target robot1.navigation", "2 reached_target navigation", "3 reached_target navigation"))
+        << "the first condition also matches the main engine";
+}
+
 TEST_F(TwoRobots, FireOneEventForThoseWhoDoNotAskForUnits) {
     desk.subscribe("reached_target");
     desk.bind("navigation");

@@ -27,13 +27,18 @@ std::variant<Filter, std::string> Filter::compile(std::optional<Condition> const
     filter.predicates_ = compiler.predicates();
     filter.text_bytes_ = compiler.text_bytes();
     filter.results_ = compiler.results();
-    if (filter.predicate_->met_by_everything()) return Filter{};
     filter.depends_on_asker_ = compiler.depends_on_asker();
+    if (filter.predicate_->met_by_everything()) filter = Filter{};
     filter.names_units_ = compiler.names_units();
     return filter;
 }
 
-std::string Filter::meaning() const { return predicate_ ? predicate_->canonical() : std::string{}; }
+// A reference to units counts, even if the rest of the canonical text does not show it.
+std::string Filter::meaning() const {
+    std::string meaning = names_units_ ? "units " : "";
+    if (predicate_) meaning += predicate_->canonical();
+    return meaning;
+}
 
 Match Filter::match(Candidate const& candidate) const { return predicate_ ? predicate_->match(candidate) : Match::yes; }
 
