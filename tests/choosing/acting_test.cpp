@@ -50,6 +50,9 @@ TEST_F(TwoRobots, AreSeenByThoseWhoAskByRefOrEngine) {
 TEST_F(TwoRobots, AreSeenByThoseWhoAskForAnyEngine) {
     Condition const any_engine{PropertyIsLike{{ValueReference{"engine"}}, {Literal{"*"}}, "*", "?", "!"}};
     EXPECT_THAT(desk.search(any_engine), Contains("robot1.navigation"));
+    EXPECT_THAT(desk.search(equal("engine", "main")), ElementsAre("navigation", "speech"));
+    Condition const of_main = both({equal("engine", "main"), equal("component_type", navigation.profile.object.identifier)});
+    EXPECT_THAT(desk.search(of_main), ElementsAre("navigation"));
     desk.subscribe("reached_target", any_engine);
     desk.subscribe("reached_target");
     desk.bind("navigation");

@@ -332,11 +332,13 @@ private:
 }  // namespace
 
 PredicatePtr FilterCompiler::operator()(PropertyComparison const& comparison) {
+    bool const named_units = names_units_;
     auto made = std::make_unique<Comparison>(*this, comparison);
     if (problem_) return nullptr;
     bool const equal = comparison.comparator == Comparator::equal;
     bool const equality = equal || comparison.comparator == Comparator::not_equal;
     if (!equality || !made->speaks_of_main_engine(vocabulary_.main_engine)) return made;
+    names_units_ = named_units;  // the main engine is the whole
     return equal ? (*this)(And{}) : (*this)(Not{{Condition{And{}}}});
 }
 
