@@ -136,6 +136,7 @@ public:
     std::string const& crs() const override { return crs_; }
     bool uses_engines_frame() const override { return true; }
     std::vector<NamedPlace> const& places() const override { return places_; }
+    std::optional<double> battery() const override { return charge; }
     Pose pose() const override { return {Point{1, 2}, 0}; }
     PoseEstimate measured_pose() const override { return {{Point{1.001, 2}, 0}, Covariance::Identity() * 1e-4}; }
     void join(Observer& observer) override { observers_.push_back(&observer); }
@@ -157,6 +158,7 @@ public:
     std::size_t observers() const { return observers_.size(); }
 
     bool may_block = false;
+    std::optional<double> charge;
     FakeBase wheels;
     FakeSpeech voice;
     FakePerception senses;

@@ -196,5 +196,17 @@ TEST_F(FollowOfABody, RefusesBadParameters) {
                 HasSubstr("must be 0 or more, not -1"));
 }
 
+TEST(BatteryOfABody, IsAParameterOfTheComponentsThatDrive) {
+    auto const body = std::make_shared<FakeBody>();
+    body->charge = 41.7;
+    std::vector<std::string> refs;
+    for (auto const& component : robot_components({.bodies = {body}, .media = std::make_shared<FakeMedia>()}, own_profiles())) {
+        auto const& [ref, profile] = std::tie(component->description().ref.code, component->description().profile);
+        auto const* reading = find_message(*profile, MessageKind::query, "get_parameter");
+        if (reading != nullptr && find_parameter(reading->results, "battery") != nullptr) refs.push_back(ref);
+    }
+    EXPECT_THAT(refs, testing::UnorderedElementsAre("navigation", "follow", "move"));
+}
+
 }  // namespace
 }  // namespace rois::basic::stage

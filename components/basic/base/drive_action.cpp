@@ -1,10 +1,39 @@
 #include "basic/base/drive_action.hpp"
 
+#include <cmath>
+#include <cstdint>
+#include <memory>
 #include <variant>
 
 #include "types/text/texts.hpp"
 
 namespace rois::basic {
+namespace {
+
+// Adds the read-only parameter `battery` to the profile, if the body knows its charge.
+Context with_battery(Context context) {
+    if (!context.body->battery()) return context;
+    auto profile = std::make_shared<ComponentProfile>(*context.description.profile);
+    for (auto& message : profile->messages)
+        if (message.kind == MessageKind::query && message.name == "get_parameter")
+            message.results.push_back({.name = "battery",
+                                       .data_type_ref = {.code = "int", .authority = {}, .codebook_ref = {}, .version = {}},
+                                       .default_value = {},
+                                       .description = "Charge of the battery, in percent."});
+    context.description.profile = std::move(profile);
+    return context;
+}
+
+}  // namespace
+
+DriveAction::DriveAction(Context context, std::string_view owner)
+    : Action{with_battery(with_motion(std::move(context)))}, owner_{owner} {}
+
+ParameterList DriveAction::readable_parameters() const {
+    auto const charge = body().battery();
+    if (!charge) return {};
+    return {integer("battery", static_cast<std::int64_t>(std::floor(*charge)))};
+}
 
 bool DriveAction::drive(Motion motion, std::span<std::string const> names) {
     blocked_ = {};

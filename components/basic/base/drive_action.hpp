@@ -13,7 +13,10 @@ namespace rois::basic {
 class DriveAction : public Action {
 public:
     // `owner` names the component to the mobile base. It must be a literal.
-    DriveAction(Context context, std::string_view owner) : Action{with_motion(std::move(context))}, owner_{owner} {}
+    DriveAction(Context, std::string_view owner);
+
+    // `battery`, if the body knows its charge.
+    ParameterList readable_parameters() const override;
 
 protected:
     MobileBase& base() const { return body().base(); }

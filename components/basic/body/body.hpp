@@ -78,6 +78,8 @@ public:
     virtual bool uses_engines_frame() const = 0;  // whether crs() is the frame of the main engine
     virtual std::vector<NamedPlace> const& places() const = 0;
 
+    virtual std::optional<double> battery() const { return {}; }  // its charge in percent; nothing: always unknown
+
     virtual Pose pose() const = 0;                   // the best knowledge
     virtual PoseEstimate measured_pose() const = 0;  // with its uncertainty
 

@@ -93,6 +93,7 @@ RobotPlan robot(xml::Element const& element) {
     read_length(element, "max_acceleration", plan.max_acceleration);
     read_angle(element, "max_turn_rate", plan.max_turn_rate);
     read_angle(element, "max_turn_acceleration", plan.max_turn_acceleration);
+    if (double const charge = element.number("battery", 0); charge > 0) plan.battery = charge;
     plan.sensors = sensors(element);
     if (auto const frame = element.child("frame")) plan.frame = robot_frame(*frame);
     return plan;

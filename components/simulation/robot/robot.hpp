@@ -23,6 +23,7 @@ struct Robot {
     Twist twist;
     std::optional<Speech> speaking;  // absent while held
     std::optional<Showing> showing;
+    std::optional<double> battery;  // its charge in percent; absent: it never gets empty
 };
 
 }  // namespace rois::simulation

@@ -24,6 +24,7 @@ public:
     std::string const& crs() const override { return plan_.frame ? plan_.frame->crs : hall().plan().crs; }
     bool uses_engines_frame() const override { return !plan_.frame; }
     std::vector<basic::NamedPlace> const& places() const override { return places_; }
+    std::optional<double> battery() const override { return state().battery; }
     Pose pose() const override { return reported(state().pose); }
     basic::PoseEstimate measured_pose() const override;
     void join(Observer& observer) override { simulation_->join(observer); }

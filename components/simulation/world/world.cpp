@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "simulation/world/visibility.hpp"
 
@@ -11,6 +12,7 @@ namespace {
 constexpr Agility on_foot{.speed = 1.1, .acceleration = 3.0, .turn_rate = 3.0, .turn_acceleration = 12.0};
 constexpr Metres free_entrance = 0.15;  // gap around a person who enters
 constexpr WorldTime tracking_period{100};
+constexpr Metres metres_per_percent = 10;  // of a battery
 
 FloorPlan checked(FloorPlan plan) {
     if (auto found = flaw(plan)) throw std::invalid_argument(found->reason);
@@ -43,7 +45,7 @@ Hall::World::World(FloorPlan plan, Scenario scenario, std::uint64_t hall_seed)
         RobotId const id{static_cast<std::uint32_t>(i)};
         drives.emplace_back(id, plan_.robots[i], plan_);
         voices.emplace_back(id);
-        robots.push_back({id, plan_.robots[i].name, plan_.robots[i].start, {}, {}, {}});
+        robots.push_back({id, plan_.robots[i].name, plan_.robots[i].start, {}, {}, {}, plan_.robots[i].battery});
     }
 }
 
@@ -197,7 +199,8 @@ void Hall::World::step_robots() {
     for (Robot& each : robots) {
         auto const i = static_cast<std::size_t>(each.id);
         drives[i].step(*this, in_seconds(Hall::step_length));
-        each.pose = drives[i].pose();
+        auto const before = std::exchange(each.pose, drives[i].pose()).position;
+        if (each.battery) each.battery = std::max(1.0, *each.battery - distance(before, each.pose.position) / metres_per_percent);
         each.twist = drives[i].twist();
         each.speaking = voices[i].speech();
         if (each.showing && now >= each.showing->ends) each.showing.reset();

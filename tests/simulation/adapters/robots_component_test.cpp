@@ -81,6 +81,23 @@ TEST(Robots, ThatAreFixedSenseAndAreInNobodysWay) {
     EXPECT_EQ(stage.robot(1).position, Point(5, 4));
 }
 
+TEST(Robots, ReportTheChargeOfTheirBatteries) {
+    auto plan = reception();
+    Stage without{{}, plan};
+    without["navigation"].start({texts("target_position", {"8000, 4000"})});
+    without.run(5);
+    EXPECT_THAT(without["navigation"].readable_parameters(), testing::IsEmpty());
+
+    plan.robots.front().battery = 2;
+    Stage stage{{}, plan};
+    auto const charge = [&](std::string const& ref) { return find(stage[ref].readable_parameters(), "battery")->values.at(0); };
+    stage.run(0.1);
+    for (auto const* ref : {"navigation", "move", "follow"}) EXPECT_EQ(charge(ref), "2");
+    stage["navigation"].start({texts("target_position", {"8000, 4000", "2000, 4000", "8000, 4000"})});
+    EXPECT_EQ(stage.outcome("navigation"), "OK");
+    EXPECT_EQ(charge("move"), "1") << "it does not get empty";
+}
+
 TEST(Robots, MayAllHavePrefixes) {
     auto plan = reception_with_two_robots();
     plan.prefix_first = true;

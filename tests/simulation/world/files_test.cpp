@@ -41,7 +41,7 @@ std::string complaint_of_scenario(std::string const& text) {
 TEST(FloorPlanFile, IsReadIntoMetresAndRadians) {
     FloorPlan const plan =
         read_plan(plan_text(places,
-                            "<robot name=\"robot1\" x=\"2000\" y=\"4000\" heading=\"-90\" radius=\"300\" max_turn_rate=\"45\">"
+                            "<robot name=\"robot1\" x=\"2000\" y=\"4000\" heading=\"-90\" radius=\"300\" max_turn_rate=\"45\" battery=\"87.5\">"
                             "<faces range=\"4000\" turned_within=\"30\" heading_sigma=\"2\"/></robot>"));
     EXPECT_EQ(plan.bounds.high, Point(10, 8));
     ASSERT_EQ(plan.walls.size(), 1u);
@@ -52,6 +52,7 @@ TEST(FloorPlanFile, IsReadIntoMetresAndRadians) {
     EXPECT_NEAR(robot.start.heading, from_degrees(-90), 1e-12);
     EXPECT_DOUBLE_EQ(robot.radius, 0.3);
     EXPECT_NEAR(robot.max_turn_rate, from_degrees(45), 1e-12);
+    EXPECT_EQ(robot.battery, 87.5);
     EXPECT_DOUBLE_EQ(robot.max_speed, RobotPlan{}.max_speed) << "missing attributes have defaults";
     EXPECT_DOUBLE_EQ(robot.sensors.faces.range, 4);
     EXPECT_NEAR(robot.sensors.faces.turned_within, from_degrees(30), 1e-12);
