@@ -11,6 +11,7 @@
 #include "command/input/request_file.hpp"
 #include "command/output/terminal.hpp"
 #include "files/files.hpp"
+#include "types/asking.hpp"
 #include "types/text/listing.hpp"
 #include "types/text/texts.hpp"
 #include "xml/codec/decoding.hpp"
@@ -145,7 +146,7 @@ Reply Context::checked(Operation operation, Written written, std::function<std::
 }
 
 void Context::refuse(Reply const& reply) {
-    auto const& outcome = std::visit([](auto const& one) -> Outcome const& { return one; }, reply);
+    auto const& outcome = outcome_of(reply);
     if (printer_.form() == Form::human) throw Trouble{exit_of(outcome.return_code), outcome.reason};
     printer_.reply(reply, xml::operation_names()[reply.index()]);
     throw Trouble{exit_of(outcome.return_code), ""};

@@ -8,6 +8,7 @@
 #include "command/input/input.hpp"
 #include "command/output/pretty.hpp"
 #include "command/output/terminal.hpp"
+#include "types/asking.hpp"
 #include "types/text/texts.hpp"
 #include "xml/codec/codec.hpp"
 #include "xml/codec/decoding.hpp"
@@ -49,7 +50,7 @@ void send(Context& context) {
         printer.text(pretty(answer));
     }
     if (answered == nullptr) throw Trouble{Exit::no_answer, "the answer is not a document of RoIS"};
-    auto const code = std::visit([](auto const& one) { return one.return_code; }, answered->reply);
+    auto const code = outcome_of(answered->reply).return_code;
     if (code != ReturnCode::ok) throw Trouble{exit_of(code), ""};
 }
 

@@ -40,11 +40,11 @@ bool Acting::is_used(std::string const& ref) const {
     return ref == current_ || std::ranges::any_of(actions_, [&](auto const& each) { return each->member == ref; });
 }
 
-// The one that was chosen before is given back, unless another command still runs on it.
+// Releases the previous member, unless another command still runs on it.
 void Acting::note_current(std::string const& ref) {
     auto const before = std::exchange(current_, ref);
-    if (!before.empty() && !is_used(before) && roster().find(before)->is_bound) give_back(before);
-    roster().use(binding().session, name(), roster().find(ref)->engine);
+    if (!before.empty() && !is_used(before) && roster().find(before)->is_bound) release_member(before);
+    roster().note_engine_in_use(binding().session, name(), roster().find(ref)->engine);
     show();
 }
 
@@ -61,7 +61,7 @@ std::vector<std::string> Acting::candidates(ParameterList const& parameters) {
     return refs;
 }
 
-// With the member's own names of persons.
+// Replaces fused names of persons by the member's own. Returns nullopt if the member does not sense the person.
 std::optional<ParameterList> Acting::arguments_for(ParameterList const& parameters, Member const& member) const {
     auto arguments = parameters;
     for (auto& parameter : arguments) {
@@ -81,8 +81,8 @@ void Acting::choose_for(SharedAction const& action, Chosen const& chosen) {
     std::erase_if(refs, [&](std::string const& ref) { return action->failed.contains(ref); });
     choose(std::move(refs), action->type, parameters, [this, action, chosen](Choice const& choice) {
         if (choice.ref.empty() || !action->is_over) return chosen(choice);
-        give_back_unused(choice.ref);
-        chosen({{}, {ReturnCode::error, "it was stopped meanwhile"}});
+        release_unused(choice.ref);
+        chosen({{}, {ReturnCode::error, "the command was stopped while a member was being chosen"}});
     });
 }
 
@@ -92,17 +92,18 @@ void Acting::begin(std::string const& command_type, ParameterList const& paramet
     auto const action = std::make_shared<Action>(Action{.type = command_type, .parameters = parameters, .handle = command});
     actions_.push_back(action);
     end_suspension();
-    begins();
+    start_began();
     choose_for(action, [this, action](Choice const& choice) {
         if (!choice.ref.empty()) return carry_out(action, choice.ref);
         finish(action, failure(choice.why));
-        has_begun();
+        start_ended();
     });
 }
 
 // From here on the member carries out the command, or the rest of it.
 void Acting::carry_out(SharedAction const& action, std::string const& ref) {
     action->member = ref;
+    action->began_low = roster().find(ref)->has_low_battery;
     note_current(ref);
     auto const engine = roster().find(ref)->engine;
     auto const begun = [this, action, engine](Outcome const& outcome) {
@@ -112,7 +113,7 @@ void Acting::carry_out(SharedAction const& action, std::string const& ref) {
             note_speech(*action, engine, false);
             ended(action, failure(outcome));
         }
-        has_begun();
+        start_ended();
     };
     auto const over = [this, action, engine](Completed const& completed) {
         note_speech(*action, engine, false);
@@ -120,7 +121,7 @@ void Acting::carry_out(SharedAction const& action, std::string const& ref) {
     };
     note_speech(*action, engine, true);
     auto const arguments = arguments_for(rest_of(action->parameters, action->reached), *roster().find(ref));
-    if (!arguments) return begun({ReturnCode::error, "it does not sense the target now"});
+    if (!arguments) return begun({ReturnCode::error, ref + ": it does not sense the target now"});
     command(ref, action->type, *arguments, begun, over);
 }
 
@@ -129,13 +130,13 @@ void Acting::note_speech(Action const& action, std::string const& engine, bool s
         roster().note_speech(engine, speaks, sightings_->now());
 }
 
-// The member's command has ended, which was not asked for.
+// The member's command has ended without a `stop` from here.
 void Acting::ended(SharedAction const& action, Completed const& completed) {
     if (action->is_over || action->is_leaving) return;
     bool const is_good = completed.status == CompletedStatus::ok;
     if (is_good || action->type != "start" || binding().switching == Switching::none) return finish(action, completed);
     action->failed.insert(action->member);
-    // With ABORT its engine has stopped it, or it is lost and its engine has given up our session: it stands still.
+    // ABORT: the member stands still. Either its engine has stopped it, or its engine was lost and has ended our session.
     if (completed.status == CompletedStatus::abort) return go_on_with_another(action, completed);
     leave(action, completed);
 }
@@ -153,13 +154,25 @@ void Acting::leave(SharedAction const& action, Completed const& as) {
     });
 }
 
-void Acting::leave_outside() {
+// Returns why the member should not go on with the action. With a low battery it goes on if no other member is there to take
+// over.
+std::optional<std::string> Acting::why_leave(Action const& action, Member const& member) {
+    if (member.is_outside) return member.ref + " has left its area";
+    if (!member.has_low_battery || action.began_low) return {};
+    bool const has_other = std::ranges::any_of(members(), [&](Member const* each) {
+        return each != &member && each->can_act() && !each->has_low_battery && !action.failed.contains(each->ref);
+    });
+    if (binding().switching == Switching::restart && !has_other) return {};
+    return "the battery of " + member.ref + " is low";
+}
+
+void Acting::leave_unsuitable() {
     if (binding().switching == Switching::none) return;
     for (auto const& action : std::vector{actions_}) {
         auto const* member = roster().find(action->member);
         bool const acts = member != nullptr && action->type == "start" && !action->is_leaving;
-        if (acts && member->is_outside && !was_switched_just_now(*action))
-            leave(action, {{}, CompletedStatus::abort, {}, member->ref + " has left its area", {}});
+        if (!acts || was_switched_just_now(*action)) continue;
+        if (auto const why = why_leave(*action, *member)) leave(action, {{}, CompletedStatus::abort, {}, *why, {}});
     }
 }
 
@@ -179,11 +192,11 @@ void Acting::go_on_with_another(SharedAction const& action, Completed const& com
     if (was_switched_just_now(*action)) return end("; it was switched less than " + in_seconds(between_switches) + " ago");
     auto const from = std::exchange(action->member, {});
     action->switched = sightings_->now();
-    begins();
+    start_began();
     choose_for(action, [this, action, completed, from, end](Choice const& choice) {
         if (choice.ref.empty()) {
             end("; no other component can go on: " + choice.why.reason);
-            return has_begun();
+            return start_ended();
         }
         port().switched(from, choice.ref, completed.reason);
         carry_out(action, choice.ref);

@@ -16,8 +16,8 @@
 
 namespace rois::choosing {
 
-// Which member acts is decided when a command begins; only then, and until another one is chosen or the application releases the
-// logical component, is the member bound.
+// Chooses a member when a command begins, and binds it. The member stays bound until another one is chosen or the application
+// releases the logical component.
 class Acting final : public Logical {
 public:
     Acting(ComponentDescription, std::shared_ptr<Roster>, std::shared_ptr<Sightings>);
@@ -29,10 +29,11 @@ private:
         ParameterList parameters;
         CommandHandle handle{};
         std::string member{};              // ref of the member that carries it out; empty: it is being chosen
-        std::size_t reached = 0;           // targets
-        std::optional<Steady> switched{};  // for the last time
+        std::size_t reached = 0;           // number of targets reached
+        std::optional<Steady> switched{};  // time of the last switch
         std::set<std::string> failed{};    // refs of members that have failed
         bool is_leaving = false;           // its member is asked to stop, so that another one goes on
+        bool began_low = false;            // its member had a low battery already when it began
         bool is_over = false;              // completed, or halted
     };
     using SharedAction = std::shared_ptr<Action>;
@@ -42,13 +43,15 @@ private:
     bool is_used(std::string const& ref) const override;
     void begin(std::string const& command_type, ParameterList const& parameters, CommandHandle) override;
 
-    // Finds a member that has not failed at the action. Without one, `why` is the reason; also if the action has ended meanwhile.
+    // Finds a member that has not failed at the action. If there is none, or the action has ended meanwhile, passes an empty ref
+    // and the reason.
     void choose_for(SharedAction const&, Chosen const&);
     void note_current(std::string const& ref);
     void carry_out(SharedAction const&, std::string const& ref);
     void note_speech(Action const&, std::string const& engine, bool speaks) const;
     void ended(SharedAction const&, Completed const&);
-    void leave_outside();
+    std::optional<std::string> why_leave(Action const&, Member const&);
+    void leave_unsuitable();
     void leave(SharedAction const&, Completed const& as);
     bool was_switched_just_now(Action const&) const;
     void go_on_with_another(SharedAction const&, Completed const&);
@@ -56,9 +59,9 @@ private:
 
     void forget_commands() override;
     void abort_commands() override;
-    void is_free() override { current_.clear(); }
+    void members_released() override { current_.clear(); }
     void happened(ReceiveEvent const&, Member const&, Instant now) override;
-    void changed(Member const&) override { leave_outside(); }
+    void changed(Member const&) override { leave_unsuitable(); }
     Member const* shown() override;
 
     std::shared_ptr<Sightings> const sightings_;

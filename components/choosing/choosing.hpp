@@ -22,12 +22,13 @@ public:
     // `report` receives lines for the log, within calls of `change`.
     Choosing(Settings const&, std::function<void(std::string const& line)> report);
 
-    // Calls `perform` with the change, and logical components that come with their first member and go with their last. A logical
-    // component whose common profile changes is replaced. Exceptions of `perform` are passed on; then nothing has changed.
+    // Adds logical components to the change, and calls `perform` with it. A logical component comes with its first member, leaves
+    // with its last, and is replaced if the common profile of its members changes. Exceptions of `perform` are passed on; then
+    // nothing has changed.
     using Perform = std::function<std::vector<std::string>(ComponentChange)>;
     std::vector<std::string> change(ComponentChange, Perform const& perform);
 
-    // A device by which the logical components see time pass. Add it to the engine, with this provider.
+    // Passes the engine's time to the logical components. Add it to the engine, with this provider.
     static constexpr char const* provider = "choosing";
     std::shared_ptr<Device> device() const { return sightings_; }
 

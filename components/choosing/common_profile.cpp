@@ -41,16 +41,21 @@ void keep_common(std::vector<ParameterProfile>& list, std::vector<ParameterProfi
     });
 }
 
-// A result that another member does not have would not fit the common profile, so such a message is left out.
+// A result that another member does not have would not fit the common profile, so such a message is left out. Of `get_parameter`
+// only such results are left out.
 template <class Note>
 void keep_common(ComponentProfile& profile, ComponentProfile const& other, Note const& note) {
     std::erase_if(profile.messages, [&](MessageProfile& message) {
         auto const* theirs = find_message(other, message.kind, message.name);
         auto const shown = std::string{name_of(message.kind)} + " " + quoted(message.name);
-        if (theirs == nullptr || !have_same_names(message.results, theirs->results)) {
+        bool const reads = message.kind == MessageKind::query && message.name == "get_parameter";
+        if (theirs == nullptr || (!reads && !have_same_names(message.results, theirs->results))) {
             note(shown);
             return true;
         }
+        keep_common(message.results, theirs->results, [&](std::string const& name) {
+            if (find_parameter(profile.parameters, name) == nullptr) note("parameter " + quoted(name));
+        });
         keep_common(message.arguments, theirs->arguments,
                     [&](std::string const& name) { note("argument " + quoted(name) + " of the " + shown); });
         if (message.timeout && theirs->timeout) message.timeout = std::max(*message.timeout, *theirs->timeout);

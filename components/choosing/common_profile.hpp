@@ -9,7 +9,7 @@
 namespace rois::choosing {
 
 struct Common {
-    // `ref` and the profile's messages and parameters; traits that concern the members' positions and commands.
+    // Has the ref, the common messages and parameters, and the traits of positions and commands.
     ComponentDescription description;
     std::vector<std::string> left_out;  // what some members lack, each with the ref of one that lacks it
 };

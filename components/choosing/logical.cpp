@@ -3,21 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "types/asking.hpp"
+
 namespace rois::choosing {
-
-namespace {
-
-Condition is_component(std::string const& ref) {
-    return {PropertyComparison{Comparator::equal, {ValueReference{"component_ref"}}, {Literal{ref}}}};
-}
-
-}  // namespace
 
 Identifier identifier(std::string const& ref) { return {ref, {}, {}, {}}; }
 
 Outcome outcome_of(Reply const* reply) {
-    if (reply == nullptr) return {ReturnCode::error, "the engine could not perform the operation"};
-    return std::visit([](Outcome const& outcome) { return outcome; }, *reply);
+    return reply != nullptr ? rois::outcome_of(*reply) : Outcome{ReturnCode::error, "the engine could not perform the operation"};
 }
 
 Execute execution(std::string const& ref, std::string const& type, ParameterList const& arguments, bool check_only) {
@@ -46,18 +39,18 @@ void Logical::session_began(Instant) {
 
 void Logical::bind(Ticket ticket, Binding const& binding, Instant) {
     bool const is_possible = binding.session == binding_.session || std::ranges::any_of(members_, &Member::can_act);
-    if (!is_possible) return port_->answered(ticket, Refused{"none of its members is free and READY"});
+    if (!is_possible) return port_->answered(ticket, Refused{none_is_free()});
     binding_ = binding;
     port_->answered(ticket, Done{});
 }
 
-// Members that have not confirmed a halt are given back when they have.
+// A member that has not confirmed a halt yet is released when it does.
 void Logical::released(Instant) {
     for (auto const* member : members_)
-        if (member->is_bound && !halting_.contains(member->ref)) give_back(member->ref);
-    roster_->use(binding_.session, name(), {});
+        if (member->is_bound && !halting_.contains(member->ref)) release_member(member->ref);
+    roster_->note_engine_in_use(binding_.session, name(), {});
     binding_ = {};
-    is_free();
+    members_released();
     show();
 }
 
@@ -65,23 +58,23 @@ void Logical::ask(Operation operation, Answered then) {
     port_->ask(std::move(operation), [then = std::move(then)](Reply const* reply) { then(outcome_of(reply)); });
 }
 
-void Logical::use(std::string const& ref, Answered then) {
+void Logical::bind_member(std::string const& ref, Answered then) {
     ask(Bind{identifier(ref)}, [this, ref, then = std::move(then)](Outcome const& outcome) {
         if (outcome.return_code == ReturnCode::ok) roster_->find(ref)->is_bound = true;
         then(outcome);
     });
 }
 
-void Logical::give_back(std::string const& ref) {
+void Logical::release_member(std::string const& ref) {
     roster_->find(ref)->is_bound = false;
     ask(Release{identifier(ref)}, [](Outcome const&) {});
 }
 
-void Logical::give_back_unused(std::string const& ref) {
-    if (roster_->find(ref)->is_bound && !is_used(ref)) give_back(ref);
+void Logical::release_unused(std::string const& ref) {
+    if (roster_->find(ref)->is_bound && !is_used(ref)) release_member(ref);
 }
 
-// It has left, and its binding has ended.
+// The member has left, which ended its binding.
 void Logical::forget(Member& member) {
     member.is_bound = false;
     halting_.erase(member.ref);
@@ -89,7 +82,7 @@ void Logical::forget(Member& member) {
 
 // --- Commands ---
 
-// The member that accepts the command now need not be the one that performs it: the command may begin later.
+// Only checks: `begin` chooses again, because the command may begin later.
 void Logical::prepare(Ticket ticket, std::string_view command_type, ParameterList const& parameters, Instant) {
     if (auto why = why_never(command_type)) return port_->answered(ticket, Refused{std::move(*why)});
     auto const type = std::string{command_type};
@@ -97,24 +90,24 @@ void Logical::prepare(Ticket ticket, std::string_view command_type, ParameterLis
         if (choice.ref.empty() && choice.why.return_code == ReturnCode::bad_parameter)
             return port_->answered(ticket, Refused{choice.why.reason});
         if (choice.ref.empty()) return port_->answered(ticket, Failed{choice.why.reason});
-        give_back_unused(choice.ref);
+        release_unused(choice.ref);
         port_->answered(ticket, [this, type, parameters](CommandHandle command, Instant) { begin(type, parameters, command); });
     });
 }
 
-// `why_not`: the objection to report if no other member accepts the command. BAD_PARAMETER only if all say so.
+// `why_not`: the reason to report if no other member accepts the command; BAD_PARAMETER only if all members answered that.
 void Logical::choose(std::vector<std::string> refs, std::string const& type, ParameterList const& parameters,
                      Chosen const& chosen, std::optional<Outcome> const& why_not) {
-    if (refs.empty()) return chosen({{}, why_not.value_or(Outcome{ReturnCode::error, "none of its members is free and READY"})});
+    if (refs.empty()) return chosen({{}, why_not.value_or(Outcome{ReturnCode::error, none_is_free()})});
     auto const ref = refs.front();
     refs.erase(refs.begin());
     auto const judge = [this, ref, refs, type, parameters, chosen, why_not](Outcome const& outcome) {
         if (outcome.return_code == ReturnCode::ok) return chosen({ref, {}});
-        give_back_unused(ref);
+        release_unused(ref);
         bool const counts = !why_not || outcome.return_code != ReturnCode::bad_parameter;
         choose(refs, type, parameters, chosen, counts ? Outcome{outcome.return_code, ref + ": " + outcome.reason} : why_not);
     };
-    use(ref, [this, ref, type, parameters, judge](Outcome const& bound) {
+    bind_member(ref, [this, ref, type, parameters, judge](Outcome const& bound) {
         if (bound.return_code != ReturnCode::ok) return judge(bound);
         auto const arguments = arguments_for(parameters, *roster_->find(ref));
         if (!arguments) return judge({ReturnCode::error, "it does not sense the target now"});
@@ -156,7 +149,7 @@ void Logical::halt(Ticket ticket, Instant) {
         stop(member->ref, [this, one_less, ref = member->ref](bool stands) {
             if (!stands) return;  // the engine calls `halt` again
             bool const is_first = halting_.erase(ref) > 0;
-            if (is_first && binding_.session == 0 && roster_->find(ref)->is_bound) give_back(ref);
+            if (is_first && binding_.session == 0 && roster_->find(ref)->is_bound) release_member(ref);
             one_less();
         });
     }
@@ -173,7 +166,7 @@ void Logical::resume(Ticket ticket, Instant) {
     pause(ticket, "resume");
 }
 
-void Logical::has_begun() {
+void Logical::start_ended() {
     if (beginning_ == 0) return;
     --beginning_;
     if (beginning_ > 0) return;
@@ -208,15 +201,8 @@ void Logical::pause(Ticket ticket, std::string const& command_type) {
 
 void Logical::query(Ticket ticket, std::string_view query_type, Instant) {
     if (shown_member_.empty()) return port_->answered(ticket, std::vector<Results>{});
-    port_->ask(Query{std::string{query_type}, is_component(shown_member_)}, [this, ticket](Reply const* reply) {
-        std::vector<Results> rows;
-        if (auto const* answer = reply == nullptr ? nullptr : std::get_if<Query::Reply>(reply);
-            answer != nullptr && answer->return_code == ReturnCode::ok) {
-            rows.push_back(answer->results);
-            rows.insert(rows.end(), answer->other_rows.begin(), answer->other_rows.end());
-        }
-        port_->answered(ticket, std::move(rows));
-    });
+    port_->ask(Query{std::string{query_type}, is_component(shown_member_)},
+               [this, ticket](Reply const* reply) { port_->answered(ticket, rows_of(reply)); });
 }
 
 // --- What the members report ---
@@ -260,7 +246,7 @@ void Logical::learn_space() {
         auto const* known = reply == nullptr ? nullptr : std::get_if<GetProfile::Reply>(reply);
         if (known == nullptr || known->profile == nullptr) return;
         auto const* crs = find_parameter(known->profile->parameters, "crs");
-        roster_->know(known->space, crs == nullptr ? std::string{} : crs->default_value.value_or(""));
+        roster_->set_space(known->space, crs == nullptr ? std::string{} : crs->default_value.value_or(""));
     });
 }
 
@@ -270,7 +256,7 @@ void Logical::subscribe_to(std::string const& ref) {
         if (message.kind == MessageKind::event) ask(Subscribe{message.name, is_component(ref), true}, [](Outcome const&) {});
 }
 
-// The status is the best of the members'. An application that has bound a member does not change it.
+// The status is the best of the members'. BUSY, which means bound by an application, counts as READY.
 void Logical::show() {
     ComponentState state;
     auto const has = [this](ComponentStatus status) {

@@ -12,11 +12,12 @@
 
 #include "choosing/roster.hpp"
 #include "engine/component.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::choosing {
 
 Identifier identifier(std::string const& ref);
-// The answer's common part. Null: the operation was not performed.
+// Returns the return code and the reason of an answer; ERROR for null: the operation was not performed.
 Outcome outcome_of(Reply const*);
 Execute execution(std::string const& ref, std::string const& type, ParameterList const& arguments, bool check_only = false);
 
@@ -48,25 +49,26 @@ protected:
     virtual std::optional<ParameterList> arguments_for(ParameterList const& parameters, Member const&) const {
         return parameters;
     }
-    // Returns whether the member stays bound after a question.
+    // Returns whether a command uses the member, which then stays bound.
     virtual bool is_used(std::string const& ref) const = 0;
     virtual void begin(std::string const& command_type, ParameterList const& parameters, CommandHandle) = 0;
     // Ends all commands without a report: the engine has ended them.
     virtual void forget_commands() = 0;
-    // The same with ABORT.
+    // Completes all commands with ABORT.
     virtual void abort_commands() = 0;
-    // The application has released the component, and its members are free.
-    virtual void is_free() {}
+    // Called when the application has released the component, and with it all members.
+    virtual void members_released() {}
     // An event of a member.
     virtual void happened(ReceiveEvent const&, Member const&, Instant now) = 0;
     // The state of a member has changed.
     virtual void changed(Member const&) = 0;
     // The member whose position, parameters and errors are shown, and that answers queries; null: none.
     virtual Member const* shown() = 0;
-    // What changes the status from READY to WARNING.
+    // Returns whether the status is WARNING instead of READY.
     virtual bool has_warning() const { return false; }
 
     std::string const& name() const { return description_.ref.code; }
+    std::string none_is_free() const { return "no member of " + quoted(name()) + " is free and READY"; }
     std::vector<Member*> const& members() const { return members_; }  // the preferred ones first
     Roster& roster() const { return *roster_; }
     ComponentPort& port() const { return *port_; }
@@ -75,15 +77,14 @@ protected:
     void end_suspension() { is_suspended_ = false; }
     void show();
 
-    // `then` is called later, as the engine calls the component.
+    // Performs an operation in the component's own session. `then` is called later, never within this call.
     using Answered = std::function<void(Outcome const&)>;
     void ask(Operation, Answered then);
-    // Binds the member.
-    void use(std::string const& ref, Answered then);
-    void give_back(std::string const& ref);
-    void give_back_unused(std::string const& ref);
+    void bind_member(std::string const& ref, Answered then);
+    void release_member(std::string const& ref);
+    void release_unused(std::string const& ref);
 
-    // The member that is bound and accepts a command. An empty ref: there is none; `why` says why.
+    // A member that is bound and accepts the command; or an empty ref, and the reason.
     struct Choice {
         std::string ref;
         Outcome why;
@@ -93,14 +94,14 @@ protected:
     void choose(std::vector<std::string> refs, std::string const& type, ParameterList const& parameters, Chosen const&,
                 std::optional<Outcome> const& why_not = {});
 
-    // `suspend` and `resume` wait until the members have begun all commands: from the first of these calls to the second.
-    void begins() { ++beginning_; }
-    void has_begun();
+    // These two enclose the start of each command. `suspend` and `resume` wait while a command is between them.
+    void start_began() { ++beginning_; }
+    void start_ended();
 
     // Performs a command. `ended` follows `begun` with OK, once.
     using Ended = std::function<void(Completed const&)>;
     void command(std::string const& ref, std::string const& type, ParameterList const& arguments, Answered begun, Ended ended);
-    // `then` is called with whether the member has confirmed that it stands still.
+    // Calls `then(true)` if the member confirms that it stands still, otherwise `then(false)`.
     void stop(std::string const& ref, std::function<void(bool stands)> const& then);
 
 private:

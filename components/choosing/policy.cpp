@@ -26,9 +26,10 @@ std::vector<Member*> in_order(std::vector<Member*> members, Occasion const& occa
     auto loads = roster.loads();
     auto const rank = [&](Member* member) {
         auto const sorted = std::ranges::find(occasion.order, member->ref) - occasion.order.begin();
-        // The one that acts at a target is chosen by its distance; the other components of the application follow it.
-        auto const crew = occasion.target ? 0 : roster.beside(occasion.session, member->logical, member->engine);
-        return std::tuple{member->status != ComponentStatus::ready,
+        // Distance decides on a command with a target. Other commands follow to the engine that the application uses already.
+        auto const crew = occasion.target ? 0 : roster.count_others_using(occasion.session, member->logical, member->engine);
+        return std::tuple{member->has_low_battery,
+                          member->status != ComponentStatus::ready,
                           sorted,
                           -static_cast<std::ptrdiff_t>(crew),
                           distance(*member, occasion),

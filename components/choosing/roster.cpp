@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/frames/space.hpp"
+#include "types/text/to_number.hpp"
 
 namespace rois::choosing {
 
@@ -23,7 +24,7 @@ bool is_inside(Area const& area, double x, double y) {
 
 }  // namespace
 
-Roster::Roster(Settings const& settings) : areas_{settings.areas} {
+Roster::Roster(Settings const& settings) : areas_{settings.areas}, low_battery_{settings.low_battery} {
     for (auto const* names : {&settings.logical, &settings.sensing})
         for (auto const& logical : *names)
             for (std::size_t i = 0; i < settings.engines.size(); ++i) {
@@ -50,6 +51,9 @@ void Roster::note(Member& member, ComponentStatus status, Results const& state) 
     member.parameters = state.parameters;
     member.location.reset();
     if (!state.located.empty()) member.location = state.located.front();
+    auto const* battery = rois::find(state.parameters, "battery");
+    auto const charge = battery == nullptr || battery->values.empty() ? std::nullopt : to_number<double>(battery->values.front());
+    member.has_low_battery = charge && *charge < low_battery_;
     auto const area = areas_.find(member.engine);
     member.is_outside = area != areas_.end() && member.location &&
                         !is_inside(area->second, member.location->position[0], member.location->position[1]);
@@ -62,7 +66,7 @@ std::map<std::string_view, std::size_t> Roster::loads() const {
     return loads;
 }
 
-void Roster::use(std::uint64_t session, std::string const& logical, std::string const& engine) {
+void Roster::note_engine_in_use(std::uint64_t session, std::string const& logical, std::string const& engine) {
     auto& engines = engines_in_use_[session];
     if (engine.empty())
         engines.erase(logical);
@@ -71,7 +75,7 @@ void Roster::use(std::uint64_t session, std::string const& logical, std::string 
     if (engines.empty()) engines_in_use_.erase(session);
 }
 
-std::size_t Roster::beside(std::uint64_t session, std::string_view logical, std::string_view engine) const {
+std::size_t Roster::count_others_using(std::uint64_t session, std::string_view logical, std::string_view engine) const {
     auto const found = engines_in_use_.find(session);
     if (found == engines_in_use_.end()) return 0;
     return static_cast<std::size_t>(
@@ -93,7 +97,7 @@ bool Roster::is_heard_by_others(std::string_view listener, Steady now) const {
     });
 }
 
-void Roster::know(Space const& space, std::string const& own_frame) {
+void Roster::set_space(Space const& space, std::string const& own_frame) {
     frames_ = Frames{own_frame, space.frames};
     places_ = space.places;
 }

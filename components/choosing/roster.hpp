@@ -26,9 +26,10 @@ struct Member {
     // As the session of the logical component sees it. BUSY: an application has bound it. UNINITIALIZED: it is not there.
     ComponentStatus status = ComponentStatus::uninitialized;
     std::optional<Located> location{};  // in the main engine's frame
-    ParameterList parameters{};         // those that only the component sets
+    ParameterList parameters{};         // the read-only ones
     bool is_bound = false;              // by the logical component
     bool is_outside = false;            // of its area
+    bool has_low_battery = false;       // according to its parameter `battery`
 
     bool is_there() const { return status != ComponentStatus::uninitialized; }
     bool can_act() const { return (status == ComponentStatus::ready || status == ComponentStatus::warning) && !is_outside; }
@@ -50,22 +51,23 @@ public:
     std::map<std::string_view, std::size_t> loads() const;
 
     // Notes the engine whose member a logical component uses for the session of an application. An empty engine: it uses none.
-    void use(std::uint64_t session, std::string const& logical, std::string const& engine);
-    // How many other logical components use this engine for the session.
-    std::size_t beside(std::uint64_t session, std::string_view logical, std::string_view engine) const;
+    void note_engine_in_use(std::uint64_t session, std::string const& logical, std::string const& engine);
+    // Returns how many other logical components use this engine for the session.
+    std::size_t count_others_using(std::uint64_t session, std::string_view logical, std::string_view engine) const;
 
-    // A member of this engine speaks, from now on or no longer. Other units hear it until shortly after the end.
+    // A member of this engine begins or ends a speech. Members of other engines hear it until 1.5 s after the end.
     void note_speech(std::string const& engine, bool speaks, Steady now);
     bool is_heard_by_others(std::string_view listener, Steady now) const;
 
-    // The frames and named places of the main engine.
-    void know(Space const&, std::string const& own_frame);
+    // Sets the frames and named places of the main engine.
+    void set_space(Space const&, std::string const& own_frame);
     std::string const& frame() const { return frames_.own(); }
     // Returns where a target is, in the main engine's frame: a position or a named place. Nothing if that is unknown.
     std::optional<std::array<double, 2>> position_of(std::string const& target) const;
 
 private:
     std::map<std::string, Area> areas_;
+    int const low_battery_;  // in percent
     std::map<std::string, Member, std::less<>> members_;                          // by ref
     std::map<std::uint64_t, std::map<std::string, std::string>> engines_in_use_;  // by session and logical component
     std::map<std::string, std::optional<Steady>> speakers_;                       // by engine: the end of their last speech

@@ -16,8 +16,8 @@ using namespace std::chrono_literals;
 
 constexpr double metre = 1'000;                             // mm
 constexpr std::chrono::milliseconds default_interval{250};  // of minimum_interval
-constexpr std::chrono::milliseconds one_event{1'500};       // within which equal events of several units are one
-constexpr std::chrono::milliseconds longest_pause{1'250};   // between the lists of a unit whose persons move
+constexpr std::chrono::milliseconds one_event{1'500};       // equal events of several members within this time are reported once
+constexpr std::chrono::milliseconds longest_pause{1'250};   // longest time between two lists of a member while persons move
 
 std::chrono::milliseconds interval_of(ParameterList const& parameters) {
     auto const* given = find(parameters, "minimum_interval");
@@ -94,28 +94,28 @@ void Sensing::begin(std::string const& command_type, ParameterList const& parame
         if (event.reports == Reports::positions) sightings_->begin(event.kind);
     auto const first = std::make_shared<CommandHandle>(command);
     auto const refs = candidates(parameters);
-    if (refs.empty()) return complete(first, {ReturnCode::error, "none of its members is free and READY"});
+    if (refs.empty()) return complete(first, {ReturnCode::error, none_is_free()});
     for (auto const& ref : refs) start(ref, first);
 }
 
 // `for_command`: the application's `start`, which completes with the first member that begins. Null: it has completed.
 void Sensing::start(std::string const& ref, std::shared_ptr<CommandHandle> const& for_command) {
     started_.insert(ref);
-    begins();
+    start_began();
     auto const failed = [this, ref, for_command](Outcome const& why) {
         started_.erase(ref);
         if (!is_active_) return;
-        give_back_unused(ref);
+        release_unused(ref);
         if (started_.empty()) complete(for_command, {why.return_code, ref + ": " + why.reason});
     };
-    use(ref, [this, ref, for_command, failed](Outcome const& bound) {
+    bind_member(ref, [this, ref, for_command, failed](Outcome const& bound) {
         if (!is_active_ || bound.return_code != ReturnCode::ok) {
             failed(bound);
-            return has_begun();
+            return start_ended();
         }
         auto const begun = [this, failed](Outcome const& outcome) {
             if (outcome.return_code != ReturnCode::ok) failed(outcome);
-            has_begun();
+            start_ended();
         };
         command(ref, "start", parameters_, begun, [this, for_command, failed](Completed const& completed) {
             if (completed.status != CompletedStatus::ok) return failed({ReturnCode::error, completed.reason});
@@ -160,13 +160,14 @@ void Sensing::end_sensing() {
     reported_.clear();
     has_reported_persons_ = false;
     misplaced_.clear();
+    faulty_.clear();
 }
 
 // The member does not sense any longer.
 void Sensing::lose(Member const& member) {
     counts_.erase(member.ref);
     for (auto const& event : events_)
-        if (auto* fusion = event.reports == Reports::positions ? sightings_->of(event.kind) : nullptr)
+        if (auto* fusion = event.reports == Reports::positions ? sightings_->fusion_of(event.kind) : nullptr)
             fusion->lost(member.engine, sightings_->now());
 }
 
@@ -212,7 +213,7 @@ void Sensing::take_positions(Event const& event, ReceiveEvent const& received, M
     auto const& results = *received.results;
     auto const* names = rois::find(results.parameters, event.kind + "_ref");
     auto const* positions = rois::find(results.parameters, "position_data");
-    auto* fusion = sightings_->of(event.kind);
+    auto* fusion = sightings_->fusion_of(event.kind);
     if (names == nullptr || positions == nullptr || fusion == nullptr) return;
     sightings_->note_codebook(member.engine, names->data_type_ref.codebook_ref);
     std::vector<Sighting> sightings;
@@ -227,15 +228,27 @@ void Sensing::take_positions(Event const& event, ReceiveEvent const& received, M
         sighting.covariance = covariance_of(*located);
     }
     fusion->configure(member.engine, {.period = interval_of(parameters_) + longest_pause});
-    fusion->sensed(member.engine, now.steady, sightings);
+    report_problems(member, fusion->sensed(member.engine, now.steady, sightings));
     is_changed_ = true;
     time_passed(now);
+}
+
+// Once, until a list of the member has no problem.
+void Sensing::report_problems(Member const& member, Received const& received) {
+    if (received.problems.empty()) {
+        faulty_.erase(member.ref);
+        return;
+    }
+    if (!faulty_.insert(member.ref).second) return;
+    auto const& first = received.problems.front();
+    auto const what = first.name.empty() ? std::string{} : quoted(first.name) + ": ";
+    port().error(ErrorType::user_defined_error, member.ref + ": " + what + first.reason);
 }
 
 void Sensing::time_passed(Instant now) {
     if (!is_active_ || is_suspended()) return;
     for (auto const& event : events_) {
-        auto* fusion = event.reports == Reports::positions ? sightings_->of(event.kind) : nullptr;
+        auto* fusion = event.reports == Reports::positions ? sightings_->fusion_of(event.kind) : nullptr;
         if (fusion == nullptr) continue;
         report_misplaced(event);
         if (!fusion->take_changes().empty()) is_changed_ = true;
@@ -245,7 +258,7 @@ void Sensing::time_passed(Instant now) {
         report_positions(event, now);
     }
     for (auto const& event : events_)
-        if (event.reports == Reports::number && reported_number_ && sightings_->of(event.kind) != nullptr)
+        if (event.reports == Reports::number && reported_number_ && sightings_->fusion_of(event.kind) != nullptr)
             report_number(event, now);
 }
 
@@ -253,7 +266,7 @@ void Sensing::report_positions(Event const& event, Instant now) {
     Results results;
     std::vector<std::string> names, points;
     auto const& frame = roster().frame();
-    for (auto const& person : sightings_->of(event.kind)->persons(now.steady)) {
+    for (auto const& person : sightings_->fusion_of(event.kind)->persons(now.steady)) {
         if (person.sensed_by.empty()) continue;
         auto const position = person.position * metre;
         names.push_back(person.name);
@@ -274,11 +287,10 @@ void Sensing::report_positions(Event const& event, Instant now) {
     port().event(event.type, std::move(results));
 }
 
-// Names of persons in the list of their positions are replaced by those of the list. Others stay: an identification knows persons
-// by permanent names.
+// Replaces a member's own names by the fused ones. Other names stay, such as the permanent ones of an identification.
 void Sensing::report_names(Event const& event, ReceiveEvent const& received, Member const& member, Instant now) {
     auto results = *received.results;
-    auto const* fusion = sightings_->of(event.kind);
+    auto const* fusion = sightings_->fusion_of(event.kind);
     for (auto& parameter : results.parameters) {
         if (fusion == nullptr || parameter.name != event.kind + "_ref") continue;
         for (auto& name : parameter.values) {
@@ -291,7 +303,7 @@ void Sensing::report_names(Event const& event, ReceiveEvent const& received, Mem
     report_once(event, std::move(results), member, now);
 }
 
-// Equal events of several units within a short time are one. The own robots' speech, heard by another unit, is none.
+// Reports equal events of several members within a short time once, and does not report what one member says and another hears.
 void Sensing::report_once(Event const& event, Results results, Member const& member, Instant now) {
     if (event.kind == "speech" && roster().is_heard_by_others(member.engine, now.steady)) return;
     std::erase_if(reported_, [&](Reported const& each) { return now.steady - each.at > one_event; });
@@ -305,10 +317,10 @@ void Sensing::report_once(Event const& event, Results results, Member const& mem
     port().event(event.type, std::move(results));
 }
 
-// The number of persons in the list of their positions, if there is one; otherwise the greatest number that one unit reports.
+// Reports the size of the fused list; without such a list, the largest number of one member.
 void Sensing::report_number(Event const& event, Instant now) {
     std::size_t number = 0;
-    if (auto const* fusion = sightings_->of(event.kind)) {
+    if (auto const* fusion = sightings_->fusion_of(event.kind)) {
         for (auto const& person : fusion->persons(now.steady))
             if (!person.sensed_by.empty()) ++number;
     } else {
@@ -319,10 +331,10 @@ void Sensing::report_number(Event const& event, Instant now) {
     port().event(event.type, {{date_time("timestamp", now.utc), integer("number", static_cast<std::int64_t>(number))}, {}});
 }
 
-// A unit that is placed wrongly is reported once, and is a reason for the status WARNING while it seems so.
+// Reports a misplaced member once. The status is WARNING until it is placed correctly.
 void Sensing::report_misplaced(Event const& event) {
     std::set<std::string> engines;
-    for (auto const& each : sightings_->of(event.kind)->misplaced()) {
+    for (auto const& each : sightings_->fusion_of(event.kind)->misplaced()) {
         engines.insert(each.unit);
         if (!misplaced_.contains(each.unit)) port().error(ErrorType::user_defined_error, each.text);
     }

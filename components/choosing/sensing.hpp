@@ -1,4 +1,4 @@
-// A logical component that senses by all its members, and reports what they sense as one (docs/choosing.md).
+// A logical component that senses with all its members, and reports what they sense as one (docs/choosing.md).
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace rois::choosing {
 
-// While it is active, each member that is free is bound and started, also one that comes or recovers later.
+// While active, binds and starts every free member, also those that come or recover later.
 class Sensing final : public Logical, private Observer {
 public:
     Sensing(ComponentDescription, std::shared_ptr<Roster>, std::shared_ptr<Sightings>);
@@ -62,12 +62,13 @@ private:
     Member const* shown() override;
     bool has_warning() const override { return !misplaced_.empty(); }
     void time_passed(Instant now) override;
+    void report_problems(Member const&, Received const&);
 
     std::shared_ptr<Sightings> const sightings_;
     std::vector<Event> const events_;
     bool is_active_ = false;
     ParameterList parameters_;           // of `start`
-    std::set<std::string> started_;      // refs of the members that sense, or have been told to
+    std::set<std::string> started_;      // refs of the members that sense, or are starting
     std::map<std::string, int> counts_;  // the last number of each member, by ref
     std::optional<std::size_t> reported_number_;
     bool has_reported_persons_ = false;  // the last list was not empty
@@ -81,6 +82,7 @@ private:
     bool is_changed_ = false;         // there are positions that were not reported
     Steady reported_at_{};
     std::set<std::string> misplaced_;  // engines
+    std::set<std::string> faulty_;     // refs of the members whose last list had a problem
 };
 
 }  // namespace rois::choosing

@@ -17,6 +17,7 @@ struct Settings {
     std::vector<std::string> sensing;   // the plain names of those that sense
     std::vector<std::string> engines;   // the preferred ones first
     std::map<std::string, Area> areas;  // by engine: where its components may act; without an area, everywhere
+    int low_battery = 20;               // in percent: below it, a battery is low
 
     bool operator==(Settings const&) const = default;
 };

@@ -24,7 +24,7 @@ void Sightings::end(std::string const& kind) {
     if (found != kinds_.end()) --found->second.used;
 }
 
-Fusion* Sightings::of(std::string_view kind) {
+Fusion* Sightings::fusion_of(std::string_view kind) {
     auto const found = kinds_.find(kind);
     return found == kinds_.end() || found->second.used == 0 ? nullptr : &found->second.fusion;
 }

@@ -33,11 +33,11 @@ public:
     void add(Observer& observer) { observers_.push_back(&observer); }
     void remove(Observer const& observer) { std::erase(observers_, &observer); }
 
-    // A logical component localizes this kind ("person") from now on, or does so no longer.
+    // A logical component begins or ends to localize this kind ("person"). The fused list exists while one does.
     void begin(std::string const& kind);
     void end(std::string const& kind);
     // Null: no logical component localizes this kind.
-    Fusion* of(std::string_view kind);
+    Fusion* fusion_of(std::string_view kind);
 
     // The codebook of a unit's own names.
     void note_codebook(std::string const& unit, std::string const& codebook) { codebooks_[unit] = codebook; }

@@ -89,7 +89,7 @@ void Joiner::give_up(std::string const& reason) {
     auto const self = shared_from_this();
     ++era_;
     auto const now = std::chrono::steady_clock::now();
-    // A link that breaks at once may have been refused for the profile that it brought.
+    // A link that breaks at once may have been refused for its profile: the pause then stays long.
     if (std::exchange(has_joined_, false) && now > joined_at_ + time_for_attempt) {
         may_resume_until_ = now + window_;
         failures_ = 0;

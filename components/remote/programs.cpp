@@ -66,7 +66,8 @@ Words environment(Programs::Wanted const& wanted) {
 // The functions that run in child processes call only functions that take no lock: other threads may have held locks at the fork.
 
 // Starts a process that ends this group when the gateway has ended, also by SIGKILL: its input has a line if the group has ended
-// before. It is no child of the program, and a shell, because a copy of the gateway would take memory.
+// before. The process is a child of init, so that the program does not see it. It runs a shell, because a copy of the gateway
+// would take memory.
 void start_watcher(int input) {
     std::array<char, 16> group{};
     std::to_chars(group.begin(), group.end() - 1, ::getpid());
@@ -236,7 +237,7 @@ private:
             start_again("its program ended " + how_it_ended(status));
     }
 
-    // Its last output, at most as much as a pipe holds: programs that it has started may still write.
+    // Reads the program's last output. At most as much as a pipe holds, because programs that it has started may still write.
     void read_rest() {
         error_code error;
         for (std::size_t all = 0, size = 0; all < 64 * 1024 && !error; all += size) {

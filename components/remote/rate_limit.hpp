@@ -8,7 +8,7 @@
 
 namespace rois::remote {
 
-// Allows `at_once`, and then `a_second`.
+// A token bucket: allows `at_once` together, and then `a_second` in a second.
 class RateLimit {
 public:
     constexpr RateLimit(double at_once, double a_second) : at_once_{at_once}, a_second_{a_second} {}

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "remote/remote_engine.hpp"
+#include "types/asking.hpp"
 #include "types/text/texts.hpp"
 
 namespace rois::remote {
@@ -24,19 +25,11 @@ CompletedStatus status_of_refusal(ReturnCode code) {
     return code == ReturnCode::timeout ? CompletedStatus::timeout : CompletedStatus::error;
 }
 
-Condition only(std::string const& ref) {
-    return {PropertyComparison{.left = {ValueReference{"component_ref"}}, .right = {Literal{ref}}}};
-}
-
 CommandUnit unit_of(std::string const& ref, std::string type, std::string id, ParameterList arguments) {
     CommandMessage message{.component_ref = {}, .command_type = std::move(type), .command_id = {std::move(id)}, .arguments = {}};
     message.component_ref.code = ref;
     message.arguments = std::move(arguments);
     return {.delay_time = {}, .unit = std::move(message)};
-}
-
-Outcome outcome_of(Reply const& reply) {
-    return std::visit([](Outcome const& outcome) { return outcome; }, reply);
 }
 
 }  // namespace
@@ -77,8 +70,8 @@ void RemoteEngine::released(std::shared_ptr<ComponentRecord> const& record) {
     release_unwanted(record);
 }
 
-// An answer may be late, and the binding then not wanted any more. The binding is kept until the component stands still: without
-// it, a `stop` that failed could not be repeated.
+// Releases a binding that no application wants any more, such as one whose answer was late. Keeps it until the component stands
+// still: without it, a `stop` that failed could not be repeated.
 void RemoteEngine::release_unwanted(std::shared_ptr<ComponentRecord> const& record) {
     if (record->is_wanted || record->binds_asked > 0 || record->halt || !std::exchange(record->is_held, false)) return;
     ask(Release{{.code = record->entry.ref}}, [record](Reply const* reply) {
@@ -147,8 +140,8 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
         {id});
 }
 
-// Confirmed by the end of `stop`, by the answer to a `release` that was sent before, or by the end of the session there: only the
-// sub engine knows whether its component stands still.
+// Stops the component. The halt is confirmed by the end of `stop`, by the answer to a `release` that was sent before, or by the
+// end of the session there: only the sub engine knows whether its component stands still.
 void RemoteEngine::halt(std::shared_ptr<ComponentRecord> const& record, Ticket ticket) {
     record->halt = ticket;
     if (!record->may_act) return everything_is_stopped_ ? ask_to_stop() : record->stands_still();
@@ -175,7 +168,7 @@ void RemoteEngine::clear_stop() {
         if (!record->may_act) record->stands_still();
 }
 
-// Asked again in the next session if this one ends before the answer.
+// Repeated in the next session if this one ends before the answer.
 void RemoteEngine::clear_stop_there() {
     if (everything_is_stopped_ || !stop_there_) return;
     ask(ClearStop{*stop_there_}, [self = shared_from_this()](Reply const* reply) {
@@ -235,12 +228,9 @@ void RemoteEngine::command(std::shared_ptr<ComponentRecord> const& record, std::
 void RemoteEngine::query(std::shared_ptr<ComponentRecord> const& record, Ticket ticket, std::string const& query_type) {
     if (!is_open_) return record->answer(ticket, std::vector<Results>{});
     Query asked{.query_type = query_type, .condition = {}};
-    asked.condition.filter = only(record->entry.ref);
+    asked.condition.filter = is_component(record->entry.ref);
     ask(std::move(asked), [self = shared_from_this(), record, ticket](Reply const* reply) {
-        auto const* answer = reply == nullptr ? nullptr : std::get_if<Query::Reply>(reply);
-        if (answer == nullptr || answer->return_code != ReturnCode::ok) return record->answer(ticket, std::vector<Results>{});
-        std::vector<Results> rows{answer->results};
-        rows.insert(rows.end(), answer->other_rows.begin(), answer->other_rows.end());
+        auto rows = rows_of(reply);
         for (auto& row : rows) self->translation_.to_here(row);
         record->answer(ticket, std::move(rows));
     });

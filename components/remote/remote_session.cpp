@@ -4,6 +4,7 @@
 
 #include "remote/remote_engine.hpp"
 #include "remote/times.hpp"
+#include "types/asking.hpp"
 #include "types/text/texts.hpp"
 #include "types/text/to_number.hpp"
 
@@ -22,12 +23,8 @@ constexpr auto until_next_look = 5ms;
 // The request_id of requests that have no number.
 constexpr std::string_view opening = "connect";
 constexpr std::string_view sign_of_life = "alive";
-// Asks, in front of a request's number, whether an execute was performed whose answer was lost.
+// In front of a request's number: asks whether an execute was performed whose answer was lost.
 constexpr std::string_view was_performed = "performed ";
-
-bool is_ok(Reply const& reply) {
-    return std::visit([](Outcome const& outcome) { return outcome.return_code == ReturnCode::ok; }, reply);
-}
 
 }  // namespace
 
@@ -111,7 +108,7 @@ void RemoteEngine::document(std::string_view text) {
     go_on_when_handled(era_);
 }
 
-// All components have one provider.
+// All components have one provider: a full queue of one stands for all.
 bool RemoteEngine::is_flooded() {
     if (notifications_.is_exceeded(host_->now())) return true;
     return std::ranges::any_of(records_, [](auto const& each) { return each.second->is_full(); });
@@ -162,7 +159,7 @@ void RemoteEngine::take(xml::Answered const& answered) {
     auto const number = to_number<std::uint64_t>(asks ? std::string_view{id}.substr(was_performed.size()) : id);
     auto const found = number ? unanswered_.find(*number) : unanswered_.end();
     if (found == unanswered_.end()) return;  // late, twice, or never asked
-    if (asks && !is_ok(reply)) return link_->send(found->second.document);
+    if (asks && outcome_of(reply).return_code != ReturnCode::ok) return link_->send(found->second.document);
     auto const request = std::move(found->second);
     unanswered_.erase(found);
     if (!asks) return request.then(&reply);
@@ -293,7 +290,8 @@ void RemoteEngine::give_up_link(std::string const& reason) {
     await_next_attempt();
 }
 
-// Its commands end, and its components are in ERROR until there is a new session. The sub engine ends the session now, too.
+// Ends the sub engine's commands. Its components are in ERROR until there is a new session. The sub engine ends the session now,
+// too.
 void RemoteEngine::give_up(std::string const& reason) {
     if (session_.text.empty() || std::exchange(is_given_up_, true)) return;
     note(reason);
@@ -330,7 +328,7 @@ void RemoteEngine::recover() {
     for (auto const& [ref, record] : records_) record->forget_questions();
 }
 
-// Its components leave until it returns.
+// Removes the components until the sub engine returns.
 void RemoteEngine::leave(std::string const& reason) {
     give_up(reason);
     lost_at_.reset();

@@ -131,7 +131,7 @@ std::shared_ptr<EngineProfile const> Engine::Core::profile() const {
     return shared_profile_;
 }
 
-// As applications see it that do not ask for units.
+// For sessions whose condition names no member.
 std::shared_ptr<EngineProfile const> Engine::Core::profile_without_members() const {
     if (registry_.logical().empty()) return profile();
     if (!shared_profile_without_members_) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/core.hpp"
+#include "types/asking.hpp"
 #include "types/identifier_length.hpp"
 #include "types/text/texts.hpp"
 
@@ -63,7 +64,7 @@ void Engine::Core::take(std::shared_ptr<Asked> const& asked, Instant now) {
 }
 
 void Engine::Core::answer(Asked& asked, Session const& session, Reply&& reply) {
-    auto const& outcome = *std::visit([](Outcome const& each) { return &each; }, reply);
+    auto const& outcome = outcome_of(reply);
     Attempts attempts;
     if (outcome.return_code != ReturnCode::ok) attempts([&] { journal_->refused(session.number, asked.operation(), outcome); });
     asked.answer(std::move(reply));

@@ -5,13 +5,15 @@ namespace rois {
 
 namespace {
 
-constexpr std::chrono::milliseconds between_states{200};  // of one component; a logical component learns a status at once
+// The least time between two `component_changed` of one component. Logical components learn a new status at once.
+constexpr std::chrono::milliseconds between_states{200};
 constexpr std::chrono::milliseconds signs_of_life_wanted{1'000};
 constexpr std::chrono::seconds silence{2};  // after which a link counts as lost
 
 }  // namespace
 
-// A silent link counts as lost, even if it is open: the other engine counts the same times, and has given up the session then.
+// Ends the session of an engine that was silent for too long, even if its link is open: the other engine measures the same times,
+// and has given up the session, too.
 void Engine::Core::serve_engines(Instant now) {
     Attempts attempts;
     for (auto* component : std::vector{registry_.logical()}) {
@@ -24,7 +26,7 @@ void Engine::Core::serve_engines(Instant now) {
         bool const silent = session->owner == nullptr && session->lease.last_received() + silence + session->window <= now.steady;
         attempts([&] {
             if (silent)
-                end(*session, "its engine was silent for too long", now);
+                end(*session, "its engine gave no sign of life for " + in_seconds(silence + session->window), now);
             else
                 notify_of_states(*session, now);
         });

@@ -38,8 +38,8 @@ private:
 
 }  // namespace
 
-// Returns the session of a logical component; opens it if necessary. The component proves its own application's signs of life by
-// `halt` and `suspend`, so its link never ends.
+// Returns the session of a logical component; opens it if necessary. It is never held for missing signs of life: those that count
+// are the ones of the application, for which the engine suspends and halts the logical component.
 Session& Engine::Core::own_session(RegisteredComponent& component, Instant now) {
     if (component.own_session != nullptr) return *component.own_session;
     auto session = std::make_unique<Session>(MotionLease::Terms{settings_.motion_lease, settings_.motion_lease_http}, now.steady);
@@ -52,7 +52,7 @@ Session& Engine::Core::own_session(RegisteredComponent& component, Instant now) 
     return *component.own_session;
 }
 
-// A logical component without a binding has given its members back, unless memory was missing for that.
+// Releases the members of a logical component that nobody has bound. Normally it has done so; memory may have been missing.
 void Engine::Core::free_members(RegisteredComponent const& component, Instant now) {
     auto* session = component.own_session;
     if (session == nullptr || component.bound_to != nullptr || component.halting || component.binds_asked > 0) return;
@@ -90,7 +90,7 @@ void Engine::Core::call_owners(Instant now) {
     pushed_at_last_call_ = pushed;
 }
 
-// To the session that has agreed on switching, and to those that receive all switches.
+// Notifies the session that has agreed on switching, and those that receive all switches.
 void Engine::Core::publish(RegisteredComponent const& component, MemberSwitched&& switched) {
     auto const notification = std::make_shared<OutgoingNotification const>(
         Switched{component.ref(), std::move(switched.from), std::move(switched.to), std::move(switched.reason)});

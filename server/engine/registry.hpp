@@ -152,7 +152,7 @@ public:
 
     // The component has thrown an exception, or reported something that does not fit its profile.
     void report_failure(std::string_view problem, Report);
-    // It has not answered in time. Its status is ERROR until its next report.
+    // The component has not answered in time. Its status is ERROR until its next report.
     void report_silence(std::string_view what);
     void end_silence() { is_silent_ = false; }
     void report(ErrorType, std::string text, Report);

@@ -6,6 +6,7 @@
 
 #include "engine/attempts.hpp"
 #include "gateway/process/memory.hpp"
+#include "types/asking.hpp"
 
 namespace rois {
 
@@ -151,7 +152,7 @@ public:
             return taken;
         }
         taken.document = xml::encode(*reply_, request_.request_id);
-        auto const code = std::visit([](Outcome const& outcome) { return outcome.return_code; }, *reply_);
+        auto const code = outcome_of(*reply_).return_code;
         gateway_.telemetry_.answered(operation(), code, std::chrono::steady_clock::now() - begun_.steady);
         if (code == ReturnCode::ok) take_turn(taken);
         return taken;

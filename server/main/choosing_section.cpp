@@ -17,7 +17,7 @@ using nlohmann::json;
 
 constexpr std::string_view expected_key =
     "expected \"engines\" (names of sub engines), \"logical\" and \"sensing\" (names of components, at least one of the two) "
-    "and, if wanted, \"areas\"";
+    "and, if wanted, \"areas\" and \"low_battery\"";
 
 bool is_list_of_names(json const& value) {
     auto const is_name = [](json const& each) { return each.is_string() && !each.get_ref<std::string const&>().empty(); };
@@ -41,7 +41,7 @@ choosing::Settings read(json const& section, std::vector<remote::SubEngine> cons
         bad(key, key + " must be " + expected + ", not " + rois::quoted(section[key].dump(), 100));
     };
     for (auto const& [key, value] : section.items())
-        if (key != "logical" && key != "sensing" && key != "engines" && key != "areas")
+        if (key != "logical" && key != "sensing" && key != "engines" && key != "areas" && key != "low_battery")
             bad(key, rois::quoted(key) + " is not a key of \"choosing\": " + std::string{expected_key});
     if (!section.contains("engines") || (!section.contains("logical") && !section.contains("sensing")))
         bad("", "\"choosing\" is not complete: " + std::string{expected_key});
@@ -63,7 +63,14 @@ choosing::Settings read(json const& section, std::vector<remote::SubEngine> cons
     settings.engines = names_of("engines");
     for (auto const& name : settings.engines)
         if (std::ranges::find(engines, name.substr(0, name.find('.')), &remote::SubEngine::name) == engines.end())
-            bad("engines", rois::quoted(name) + " is not a sub engine of this file, or one of its engines");
+            bad("engines", rois::quoted(name) +
+                               " is not known: it must be the name of a sub engine of this file, or of an engine of one, such as "
+                               "\"hall.robot1\"");
+    if (section.contains("low_battery")) {
+        auto const& percent = section["low_battery"];
+        if (!percent.is_number_integer() || percent < 0 || percent > 100) must_be("low_battery", "a number of percent, 0 to 100");
+        settings.low_battery = percent.template get<int>();
+    }
     if (!section.contains("areas")) return settings;
     if (!section["areas"].is_object()) must_be("areas", "an object with the name and the area of an engine");
     for (auto const& [name, corners] : section["areas"].items()) {

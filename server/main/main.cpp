@@ -219,7 +219,7 @@ void read_again(UserComponents& components, Gateway& gateway) {
         gateway.change(components.read());
         components.keep();
     } catch (std::exception const& error) {
-        spdlog::warn("profiles: no component was changed: {}", error.what());
+        spdlog::warn("profiles: not changed: {}", error.what());
     }
 }
 

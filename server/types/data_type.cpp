@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 
+#include "types/codes.hpp"
 #include "types/identifier_length.hpp"
 #include "types/instant.hpp"
 #include "types/text/texts.hpp"
@@ -162,21 +163,9 @@ bool is_time(std::string_view text) {
     return take_time(text) && (text.empty() || is_zone(text));
 }
 
-bool is_component_status(std::string_view text) {
-    text = trimmed(text);
-    for (auto status : {ComponentStatus::uninitialized, ComponentStatus::ready, ComponentStatus::busy, ComponentStatus::warning,
-                        ComponentStatus::error})
-        if (text == to_text(status)) return true;
-    return false;
-}
+bool is_component_status(std::string_view text) { return to_code<ComponentStatus>(trimmed(text)).has_value(); }
 
-bool is_stream_status(std::string_view text) {
-    text = trimmed(text);
-    for (auto status : {StreamStatus::not_running, StreamStatus::not_connected, StreamStatus::running, StreamStatus::suspended,
-                        StreamStatus::resumed})
-        if (text == to_text(status)) return true;
-    return false;
-}
+bool is_stream_status(std::string_view text) { return to_code<StreamStatus>(trimmed(text)).has_value(); }
 
 bool is_whole_number(DataType const& type, std::string_view text) {
     text = trimmed(text);

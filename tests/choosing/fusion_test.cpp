@@ -406,7 +406,9 @@ TEST_F(Fusing, AUnitHasAtMostAHundredPersons) {
     std::vector<Seen> many;
     many.reserve(130);
     for (int i = 0; i < 130; ++i) many.push_back({"p" + std::to_string(i), {i, 0}});
-    EXPECT_EQ(list("robot1", many).cut, 30u);
+    auto const received = list("robot1", many);
+    ASSERT_THAT(received.problems, SizeIs(1));
+    EXPECT_EQ(received.problems[0].reason, "the list has 130 entries; only the first 100 count");
     EXPECT_THAT(persons(), SizeIs(100));
 }
 

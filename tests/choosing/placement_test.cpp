@@ -116,7 +116,7 @@ TEST(Placement, TheReportSaysHowFarThePersonsLieBeside) {
     auto const reports = world.fusion.misplaced();
     ASSERT_THAT(reports, SizeIs(2)) << "of two units, either may be wrong";
     EXPECT_EQ(reports[1].unit, "robot2");
-    EXPECT_EQ(reports[1].text, "its persons lie 0.8 m beside those of robot1: check its position");
+    EXPECT_EQ(reports[1].text, "robot2 senses persons 0.8 m away from where robot1 senses them: check where it is placed");
     EXPECT_NEAR(reports[1].displacement.distance, 0.8, 0.05);
 }
 
@@ -132,7 +132,7 @@ TEST(Placement, TheReportSaysHowMuchThePersonsAreTurned) {
     world.run(60);
     auto const reports = world.fusion.misplaced();
     ASSERT_THAT(reports, SizeIs(1));
-    EXPECT_THAT(reports[0].text, AllOf(HasSubstr("beside those of the other units"), HasSubstr("turned by 10 degrees")));
+    EXPECT_THAT(reports[0].text, AllOf(HasSubstr("robot3 senses persons"), HasSubstr("turned by 10 degrees")));
 }
 
 // Two units, of which the second is turned by 10 degrees, after a minute.

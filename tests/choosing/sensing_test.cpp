@@ -189,6 +189,21 @@ TEST_F(TwoEyes, FailIfNoMemberStarts) {
     EXPECT_EQ(other.bind("robot1.localization"), ReturnCode::ok) << "nothing was kept";
 }
 
+TEST_F(TwoEyes, ReportAWrongListOnce) {
+    watch();
+    for (int i = 0; i < 3; ++i) see({{"a", 1'000, 0}, {"a", 5'000, 0}}, {}, 250ms);
+    auto const errors = [&] {
+        auto const received = desk.received();
+        return std::ranges::count_if(received,
+                                     [](auto const& each) { return each.find("USER_DEFINED_ERROR localization") != each.npos; });
+    };
+    EXPECT_EQ(errors(), 1);
+    see({{"a", 1'000, 0}}, {}, 250ms);
+    EXPECT_EQ(errors(), 0);
+    see({{"a", 1'000, 0}, {"a", 5'000, 0}}, {}, 250ms);
+    EXPECT_EQ(errors(), 1);
+}
+
 TEST_F(TwoEyes, WarnOfAUnitThatIsTurned) {
     watch();
     constexpr double turn = 10 * std::numbers::pi / 180;

@@ -146,6 +146,22 @@ TEST_F(Rois, PrintsSwitches) {
                                                       {"reason", "the link was lost"}}));
 }
 
+TEST_F(Rois, RecordsSwitchesForThoseWhoAskForThem) {
+    RoisProcess engine{{"replay", recording_with_a_switch(), "--listen", "127.0.0.1:0", "--json"}};
+    auto const file = file_named("switches.jsonl");
+    RoisProcess between{{"record", file, "--listen", "127.0.0.1:0", "--json"},
+                        {{"ROIS_URL", json::parse(engine.line())["listening"]}}};
+    Variables const there{{"ROIS_URL", json::parse(between.line())["listening"]}};
+    auto const asks = [&] {
+        auto const lines = lines_of(text_of(file));
+        return std::ranges::count_if(lines, [](auto const& line) { return line.find("switches=") != line.npos; });
+    };
+    run_rois({"bind", "navigation", "--for", "0", "--switching", "restart"}, {}, there);
+    EXPECT_EQ(asks(), 0);
+    EXPECT_EQ(run_rois({"watch", "switched", "--count", "1"}, {}, there).exit_code, 0);
+    EXPECT_EQ(asks(), 1);
+}
+
 TEST_F(Rois, BindsWithTheGivenSwitching) {
     RoisProcess engine{{"replay", recording_with_a_switch(), "--listen", "127.0.0.1:0", "--json"}};
     Variables const there{{"ROIS_URL", json::parse(engine.line())["listening"]}};

@@ -278,7 +278,7 @@ TEST(ScenarioCases, EachRunHasItsHistory) {
         script.steps = one["script"];
         asio::io_context io{1};
         bool played = false;  // by the first session
-        command::Host host{io, [&](command::HostedSession& session) {
+        command::Host host{io, [&](command::HostedSession& session, Connect const&) {
                                if (std::exchange(played, true)) script.steps = json::array();
                                script.subscribed.clear();  // the client subscribes again in a new session
                                return std::make_unique<Engine>(host, session, script);

@@ -35,7 +35,7 @@ private:
         }
     }
 
-    // Repeats the long poll until it returns a notification, or the patience is over.
+    // Repeats the long poll until it returns a notification, or the timeout has passed.
     HttpReply poll() {
         using Clock = std::chrono::steady_clock;
         constexpr std::chrono::seconds longest{30};  // long poll (docs/clients.md)

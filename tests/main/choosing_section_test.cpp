@@ -61,7 +61,7 @@ TEST(ChoosingSection, IsRefusedWithThePlaceTheValueAndTheExpectation) {
     EXPECT_EQ(complaint("3"), "2:1: choosing must be an object, { ... }");
     std::string const expected =
         "expected \"engines\" (names of sub engines), \"logical\" and \"sensing\" (names of components, at least one of the two) "
-        "and, if wanted, \"areas\"";
+        "and, if wanted, \"areas\" and \"low_battery\"";
     EXPECT_EQ(complaint(R"({"logical": ["a"]})"), "2:13: \"choosing\" is not complete: " + expected);
     EXPECT_EQ(complaint(R"({"engines": ["robot1"]})"), "2:13: \"choosing\" is not complete: " + expected);
     EXPECT_EQ(complaint(R"({"logical": ["a"], "engines": ["robot1"], "battery": 3})"),
@@ -75,13 +75,17 @@ TEST(ChoosingSection, IsRefusedWithThePlaceTheValueAndTheExpectation) {
     EXPECT_EQ(complaint(R"({"logical": ["robot1.a"], "engines": ["robot1"]})"),
               "2:14: 'robot1.a' must be the name of a component without its engine, such as \"navigation\"");
     EXPECT_EQ(complaint(R"({"logical": ["a"], "engines": ["robot3"]})"),
-              "2:32: 'robot3' is not a sub engine of this file, or one of its engines");
+              "2:32: 'robot3' is not known: it must be the name of a sub engine of this file, or of an engine of one, such as "
+              "\"hall.robot1\"");
     EXPECT_EQ(complaint(R"({"logical": ["a"], "engines": ["robot1"], "areas": []})"),
               "2:55: areas must be an object with the name and the area of an engine, not '[]'");
     EXPECT_EQ(complaint(R"({"logical": ["a"], "engines": ["robot1"], "areas": {"hall": []}})"),
               "2:55: areas: 'hall' is not in \"engines\"");
     EXPECT_EQ(complaint(R"({"logical": ["a"], "engines": ["robot1"], "areas": {"robot1": [[0, 0], [1, 1]]}})"),
               "2:55: the area of 'robot1' must have at least three corners, [x, y] in mm, not '[[0,0],[1,1]]'");
+    for (std::string const wrong : {"-1", "101", "2.5", "\"20\""})
+        EXPECT_EQ(complaint(R"({"logical": ["a"], "engines": ["robot1"], "low_battery": )" + wrong + "}"),
+                  "2:55: low_battery must be a number of percent, 0 to 100, not '" + wrong + "'");
     EXPECT_EQ(complaint(R"({"logical": ["a"], "logical": ["b"], "engines": ["robot1"]})"),
               "2:32: 'logical' is given twice in \"choosing\"");
 }

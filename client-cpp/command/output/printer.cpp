@@ -13,6 +13,7 @@
 #include "command/output/describe.hpp"
 #include "command/output/pretty.hpp"
 #include "command/output/terminal.hpp"
+#include "types/asking.hpp"
 #include "types/text/texts.hpp"
 #include "xml/codec/codec.hpp"
 
@@ -24,10 +25,6 @@ namespace {
 std::string time_of_day() {
     auto const text = to_text(std::chrono::system_clock::now());
     return text.substr(11, 12);
-}
-
-Outcome const& outcome_of(Reply const& reply) {
-    return std::visit([](auto const& one) -> Outcome const& { return one; }, reply);
 }
 
 std::string document_of(Notification const& notification, std::uint64_t sequence) {

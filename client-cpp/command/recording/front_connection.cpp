@@ -112,8 +112,8 @@ asio::awaitable<std::string> Front::Connection::answer_of(std::string document, 
                                                           bool on_websocket, std::uint64_t& last_sequence) {
     auto const read = reader_.read(document);
     auto const* const request = std::get_if<Request>(&read);
-    if (request != nullptr && std::holds_alternative<Connect>(request->operation)) {
-        if (!session || session->ended()) session = host_.open();
+    if (auto const* const connect = request != nullptr ? std::get_if<Connect>(&request->operation) : nullptr) {
+        if (!session || session->ended()) session = host_.open(*connect);
         Connect::Reply reply;
         reply.session = session->id();
         co_return xml::encode(Reply{reply}, request->request_id);

@@ -58,9 +58,9 @@ void HostedSession::wake() {
     for (auto* const timer : waiting_) timer->cancel();
 }
 
-std::shared_ptr<HostedSession> Host::open() {
+std::shared_ptr<HostedSession> Host::open(Connect const& connect) {
     auto const session = std::make_shared<HostedSession>(SessionId{fresh_id()});
-    session->guest = make_(*session);
+    session->guest = make_(*session, connect);
     sessions_.emplace(session->id().text, session);
     return session;
 }

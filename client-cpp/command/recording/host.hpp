@@ -64,7 +64,7 @@ private:
     std::list<asio::steady_timer*> waiting_;
 };
 
-using MakeGuest = std::function<std::unique_ptr<Guest>(HostedSession&)>;
+using MakeGuest = std::function<std::unique_ptr<Guest>(HostedSession&, Connect const&)>;
 
 // All sessions. Ends those that were not used for some time.
 class Host {
@@ -72,7 +72,7 @@ public:
     Host(asio::io_context& io, MakeGuest make) : io_{io}, make_{std::move(make)} {}
 
     asio::io_context& io() { return io_; }
-    std::shared_ptr<HostedSession> open();
+    std::shared_ptr<HostedSession> open(Connect const&);
     std::shared_ptr<HostedSession> find(std::string const& id) const;  // null if there is none
     void end(HostedSession&);
     void end_unused();

@@ -33,7 +33,7 @@ void replay(Context& context) {
     auto const scripts = scripts_of(read_recording(options.file), reader);
     asio::io_context io{1};
     std::size_t sessions = 0;
-    Host host{io, [&](HostedSession& session) {
+    Host host{io, [&](HostedSession& session, Connect const&) {
                   auto const script = scripts[std::min(sessions++, scripts.size() - 1)];
                   return std::make_unique<Player>(io, session, script, options.speed);
               }};
@@ -45,8 +45,10 @@ void record_others(Context& context) {
     check({options.url, options.token, options.ca_file});
     asio::io_context io{1};
     std::size_t sessions = 0;
-    Host host{io, [&](HostedSession& session) {
-                  return std::make_unique<Relay>(io, session, settings_of(context.options()), context.recorded(),
+    Host host{io, [&](HostedSession& session, Connect const& connect) {
+                  auto settings = settings_of(options);
+                  settings.switches = connect.switches;
+                  return std::make_unique<Relay>(io, session, std::move(settings), context.recorded(),
                                                  std::to_string(++sessions));
               }};
     serve(context, host, "recording documents between applications and " + options.url);

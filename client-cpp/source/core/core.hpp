@@ -178,8 +178,9 @@ private:
 
     std::vector<std::weak_ptr<client::Flag>> sleeping_;
 
-    // Calls and commands that are under way.
     xml::AnswerReader reader_;
+
+    // Calls and commands that are under way.
     std::deque<std::shared_ptr<client::Call>> calls_;       // in the order of sending
     client::Steady next_deadline_ = client::Steady::max();  // at or before the earliest deadline of calls_
     client::Loop::Ticket deadlines_ = 0;

@@ -21,7 +21,7 @@ enum class Failure : std::uint8_t {
     passing,    // retry
     lasting,    // no retry: it would fail, too
     too_large,  // retry without the document that the gateway rejects
-    invalid,    // retry; the other side sent something that is no message
+    invalid,    // retry; the other side sent something that is not a message
 };
 
 // Used on the client's thread only.

@@ -8,7 +8,7 @@
 namespace rois::choosing {
 namespace {
 
-// Fewer measurements of a contact do not decide: a glimpse is not half a second.
+// Persons with fewer common measurements are not merged.
 constexpr int least_samples = 3;
 
 bool is_ripe(Contact const& contact, Matching const& matching, Steady when) {

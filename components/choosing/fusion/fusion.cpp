@@ -59,7 +59,9 @@ Received Fusion::sensed(std::string_view name, Steady when, std::span<Sighting c
     }
     unit.last_list = when;
     if (list.size() > settings_.most_persons) {
-        received.cut = list.size() - settings_.most_persons;
+        auto const most = std::to_string(settings_.most_persons);
+        received.problems.push_back(
+            {{}, "the list has " + std::to_string(list.size()) + " entries; only the first " + most + " count"});
         list = list.first(settings_.most_persons);
     }
     std::set<std::string_view> listed;
@@ -235,12 +237,12 @@ std::vector<Misplaced> Fusion::misplaced() const {
 
 std::string Fusion::text_of(int unit, Displacement const& displacement) const {
     auto const others = placement_.compared_with(unit);
-    std::string text = "its persons lie " + with_one_decimal(displacement.distance) + " m beside those of ";
-    text += others.size() == 1 ? units_[static_cast<std::size_t>(others.front())].name : "the other units";
+    auto const name_of = [&](int each) { return units_[static_cast<std::size_t>(each)].name; };
+    std::string text = name_of(unit) + " senses persons " + with_one_decimal(displacement.distance) + " m away from where ";
+    text += others.size() == 1 ? name_of(others.front()) + " senses them" : std::string{"the others sense them"};
     double const degrees = displacement.turn * 180 / std::numbers::pi;
-    if (std::abs(displacement.turn) >= notable_turn)
-        return text + " and are turned by " + std::to_string(std::lround(degrees)) + " degrees: check its position and heading";
-    return text + ": check its position";
+    if (std::abs(displacement.turn) >= notable_turn) text += ", turned by " + std::to_string(std::lround(degrees)) + " degrees";
+    return text + ": check where it is placed";
 }
 
 }  // namespace rois::choosing

@@ -50,14 +50,13 @@ struct FusedPerson {
 
 // What was wrong with a list of sightings.
 struct Problem {
-    std::string name;    // of the sighting
+    std::string name;    // of the sighting; empty: the list has too many
     std::string reason;  // "the position is not finite; the sighting is ignored"
 };
 
 struct Received {
     enum class Outcome : std::uint8_t { accepted, outdated };
     Outcome outcome = Outcome::accepted;  // outdated: older than the unit's last list, and ignored
-    std::size_t cut = 0;                  // number of sightings beyond FusionSettings::most_persons, which are ignored
     std::vector<Problem> problems{};
 };
 

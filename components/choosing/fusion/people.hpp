@@ -35,7 +35,7 @@ public:
     // A unit senses the person of a removed track again, after less than Matching::memory.
     void bring_back(Track&, Steady when);
 
-    // Decides who is the same, who is new and who is gone. `units`: the number of units.
+    // Merges, names and forgets persons. `units`: the number of units.
     void step(int units, Steady when);
 
     Persons const& all() const { return all_; }

@@ -28,7 +28,7 @@ struct Matching {
     std::chrono::nanoseconds memory = std::chrono::seconds{5};
 };
 
-// The last that was known of a person when the last unit lost them.
+// The last estimate of a person whom no unit senses.
 struct LastSeen {
     Estimate estimate;
     Steady when;
@@ -62,7 +62,7 @@ Estimate fused(std::span<Track* const> tracks, Steady when, int except = -1);
 // Returns the distance of two positions in standard deviations, and infinity beyond Matching::never_beyond.
 double gap(Matching const&, Estimate const&, Estimate const&);
 
-// Returns how well a new person fits to one who was lost: below 1 if they may be the same, 0 at a perfect place.
+// Returns the mismatch of a new person and one who was lost: 0 is a perfect place; from 1 on they are not the same.
 double misfit(Estimate const& found, Steady when, LastSeen const& lost);
 
 }  // namespace rois::choosing

@@ -491,8 +491,11 @@ class Service:
         self.reply("get_profile", request, content=f"{engine}<components>{entries}</components>{profiles}")
 
     async def on_bind(self, request):
-        is_known = request.find(M + "component_ref").get(R + "code") in self.components
-        self.reply("bind", request, "OK" if is_known else "BAD_PARAMETER", reason="there is no such component")
+        ref = request.find(M + "component_ref").get(R + "code")
+        self.reply("bind", request, "OK" if ref in self.components else "BAD_PARAMETER", reason=self.unknown(ref))
+
+    def unknown(self, ref):
+        return f"unknown component {ref!r}; there are {', '.join(self.components)}"
 
     async def on_release(self, request):
         component = self.components.get(request.find(M + "component_ref").get(R + "code"))
@@ -519,8 +522,9 @@ class Service:
         self.reply("query", request, content=component._ref + results(component._profile.messages["query"][name][1], values))
 
     async def on_get_command_result(self, request):
-        code = "OK" if request.findtext(M + "command_id") in self.performed else "BAD_PARAMETER"
-        self.reply("get_command_result", request, code, "<results/>", "there is no such command")
+        id = request.findtext(M + "command_id")
+        code = "OK" if id in self.performed else "BAD_PARAMETER"
+        self.reply("get_command_result", request, code, "<results/>", f"unknown command {id!r}")
 
     async def on_execute(self, request):
         sequence = request.find(R + "CommandUnitSequence")
@@ -542,7 +546,7 @@ class Service:
     def arguments(self, component, command, unit):
         """The arguments of a command. Raises Refused for a wrong one."""
         if component is None:
-            raise Refused("there is no such component")
+            raise Refused(self.unknown(unit.find(R + "component_ref").get(R + "code")))
         profile = component._profile
         if command not in profile.messages["command"]:
             raise Refused(f"the component has no command {command!r}")
@@ -644,7 +648,7 @@ class Service:
         return component._running or component._active or component.parameters != component._profile.defaults
 
     async def watch(self):
-        """Ends the session when its link is lost for longer than the window, and holds what moves without signs of life."""
+        """Ends the session when its link is lost for longer than the window, and halts moving components without signs of life."""
         is_held = False
         while True:
             await asyncio.sleep(0.1)

@@ -36,8 +36,8 @@ struct RequestHead {
 
     // Returns the value of the field. Returns nothing if the field is missing or occurs twice.
     std::optional<std::string_view> field(std::string_view name) const;
-    // Returns whether the comma-separated lists in all fields of this name contain the member.
     enum class Case : std::uint8_t { ignored, kept };
+    // Returns whether the comma-separated lists in all fields of this name contain the member.
     bool lists(std::string_view name, std::string_view member, Case = Case::ignored) const;
     // Returns the value of the first parameter of this name in the query, without decoding it.
     std::optional<std::string_view> parameter(std::string_view name) const;

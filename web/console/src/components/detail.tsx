@@ -64,6 +64,7 @@ function Head({ view }: { view: ComponentView }) {
   const console = useConsole();
   const { status, bindings, now, link } = console;
   const entry = status.of(view.ref);
+  const is_mine = bindings.mine.value.has(view.ref);
   return (
     <header class="component-head">
       <div class="component-line">
@@ -72,25 +73,14 @@ function Head({ view }: { view: ComponentView }) {
         <Work component={view.ref} />
         {entry && <span class="soft">{texts.since(Math.max(0, now.value - entry.since))}</span>}
         <span class="component-holder">{holder_text(console, view.ref) || texts.nobody()}</span>
-        {bindings.mine.value.has(view.ref) ? (
-          <Button
-            small
-            disabled={!link.is_open}
-            aria-label={texts.release_it(view.ref)}
-            onClick={() => tried(console, view.ref, bindings.release(view.ref))}
-          >
-            {texts.release()}
-          </Button>
-        ) : (
-          <Button
-            small
-            disabled={!link.is_open}
-            aria-label={texts.bind_it(view.ref)}
-            onClick={() => tried(console, view.ref, bindings.bind(view.ref))}
-          >
-            {texts.bind()}
-          </Button>
-        )}
+        <Button
+          small
+          disabled={!link.is_open}
+          aria-label={is_mine ? texts.release_it(view.ref) : texts.bind_it(view.ref)}
+          onClick={() => tried(console, view.ref, is_mine ? bindings.release(view.ref) : bindings.bind(view.ref))}
+        >
+          {is_mine ? texts.release() : texts.bind()}
+        </Button>
       </div>
       <Members component={view.ref} />
       {view.description !== '' && <p>{shown_description(view.description)}</p>}

@@ -1,0 +1,33 @@
+// For code that asks an engine: a condition on one component, and parts of the answers.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "types/condition.hpp"
+#include "types/messages.hpp"
+
+namespace rois {
+
+inline Condition is_component(std::string ref) {
+    return {PropertyComparison{.left = {ValueReference{"component_ref"}}, .right = {Literal{std::move(ref)}}}};
+}
+
+// The part that all answers have.
+inline Outcome const& outcome_of(Reply const& reply) {
+    return std::visit([](Outcome const& outcome) -> Outcome const& { return outcome; }, reply);
+}
+
+// The rows of an answer to a query; none if it is null or not OK.
+inline std::vector<Results> rows_of(Reply const* reply) {
+    std::vector<Results> rows;
+    auto const* answer = reply == nullptr ? nullptr : std::get_if<Query::Reply>(reply);
+    if (answer == nullptr || answer->return_code != ReturnCode::ok) return rows;
+    rows.push_back(answer->results);
+    rows.insert(rows.end(), answer->other_rows.begin(), answer->other_rows.end());
+    return rows;
+}
+
+}  // namespace rois
