@@ -43,13 +43,18 @@ std::optional<Matrix> covariance_of(Located const& located) {
 Sensing::Sensing(ComponentDescription description, std::shared_ptr<Roster> roster, std::shared_ptr<Sightings> sightings)
     : Logical{std::move(description), std::move(roster)},
       sightings_{std::move(sightings)},
-      events_{events_of(*Logical::description().profile)} {
-    sightings_->add(*this);
-}
+      events_{events_of(*Logical::description().profile)} {}
 
 Sensing::~Sensing() {
+    if (!is_attached_) return;  // the other logical components may be running on another thread
     end_sensing();
     sightings_->remove(*this);
+}
+
+void Sensing::attach(ComponentPort& port) {
+    is_attached_ = true;
+    sightings_->add(*this);
+    Logical::attach(port);
 }
 
 std::vector<Sensing::Event> Sensing::events_of(ComponentProfile const& profile) {

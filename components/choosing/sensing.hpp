@@ -21,6 +21,8 @@ public:
     Sensing(Sensing const&) = delete;
     Sensing& operator=(Sensing const&) = delete;
 
+    void attach(ComponentPort&) override;
+
 private:
     // What an event reports, by the results in its profile.
     enum class Reports : std::uint8_t {
@@ -66,6 +68,7 @@ private:
 
     std::shared_ptr<Sightings> const sightings_;
     std::vector<Event> const events_;
+    bool is_attached_ = false;
     bool is_active_ = false;
     ParameterList parameters_;           // of `start`
     std::set<std::string> started_;      // refs of the members that sense, or are starting

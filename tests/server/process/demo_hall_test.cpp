@@ -125,7 +125,7 @@ TEST(DemoHall, GoesOnWithTheOtherRobotIfTheEngineOfOneIsKilled) {
     EXPECT_THAT(members(desk), IsSupersetOf({"robot1.navigation", "robot2.navigation", "robot2.speech_synthesis",
                                              "room.person_localization", "room.system_information"}));
     EXPECT_EQ(members(desk).size(), 40u) << "2 robots of 15 components, and a room of 10";
-    EXPECT_EQ(place_of("room", in_hall), Place(10'000, 6'000));
+    EXPECT_LT(distance(place_of("room", in_hall), {10'000, 6'000}), 200) << "measured, with noise";
     EXPECT_THAT(desk.search(), IsSupersetOf({"navigation", "person_localization", "room.system_information"}));
     EXPECT_THAT(desk.search(), testing::Not(Contains("robot1.navigation")));
 
