@@ -67,7 +67,7 @@ public:
 
 private:
     std::map<std::string, Area> areas_;
-    int const low_battery_;  // in percent
+    int const low_battery_;                                                       // in percent
     std::map<std::string, Member, std::less<>> members_;                          // by ref
     std::map<std::uint64_t, std::map<std::string, std::string>> engines_in_use_;  // by session and logical component
     std::map<std::string, std::optional<Steady>> speakers_;                       // by engine: the end of their last speech
