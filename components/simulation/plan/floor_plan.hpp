@@ -70,7 +70,7 @@ struct RobotPlan {
     double max_acceleration = 0.8;  // m/s^2, also when braking on the way
     RadiansPerSecond max_turn_rate = 1.6;
     double max_turn_acceleration = 3.0;  // rad/s^2
-    std::optional<double> battery;  // charge at the start, in percent; absent: it never gets empty
+    std::optional<double> battery;       // charge at the start, in percent; absent: it never gets empty
     Sensors sensors;
     std::optional<RobotFrame> frame;  // the frame of its components' positions; absent: the hall's frame
 

@@ -39,10 +39,10 @@ std::string complaint_of_scenario(std::string const& text) {
 }
 
 TEST(FloorPlanFile, IsReadIntoMetresAndRadians) {
-    FloorPlan const plan =
-        read_plan(plan_text(places,
-                            "<robot name=\"robot1\" x=\"2000\" y=\"4000\" heading=\"-90\" radius=\"300\" max_turn_rate=\"45\" battery=\"87.5\">"
-                            "<faces range=\"4000\" turned_within=\"30\" heading_sigma=\"2\"/></robot>"));
+    FloorPlan const plan = read_plan(plan_text(
+        places,
+        "<robot name=\"robot1\" x=\"2000\" y=\"4000\" heading=\"-90\" radius=\"300\" max_turn_rate=\"45\" battery=\"87.5\">"
+        "<faces range=\"4000\" turned_within=\"30\" heading_sigma=\"2\"/></robot>"));
     EXPECT_EQ(plan.bounds.high, Point(10, 8));
     ASSERT_EQ(plan.walls.size(), 1u);
     EXPECT_EQ(plan.walls[0].to, Point(5, 6));
