@@ -154,9 +154,8 @@ void Acting::leave(SharedAction const& action, Completed const& as) {
     });
 }
 
-// Returns why the member should not go on with the action. With a low battery it goes on if no other member is there to take
-// over.
-std::optional<std::string> Acting::why_leave(Action const& action, Member const& member) {
+// Returns why the member should not go on with the action. With a low battery it goes on if no other member can take over.
+std::optional<std::string> Acting::why_leave(Action const& action, Member const& member) const {
     if (member.is_outside) return member.ref + " has left its area";
     if (!member.has_low_battery || action.began_low) return {};
     bool const has_other = std::ranges::any_of(members(), [&](Member const* each) {

@@ -50,7 +50,7 @@ private:
     void carry_out(SharedAction const&, std::string const& ref);
     void note_speech(Action const&, std::string const& engine, bool speaks) const;
     void ended(SharedAction const&, Completed const&);
-    std::optional<std::string> why_leave(Action const&, Member const&);
+    std::optional<std::string> why_leave(Action const&, Member const&) const;
     void leave_unsuitable();
     void leave(SharedAction const&, Completed const& as);
     bool was_switched_just_now(Action const&) const;

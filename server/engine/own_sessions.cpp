@@ -38,8 +38,8 @@ private:
 
 }  // namespace
 
-// Returns the session of a logical component; opens it if necessary. It is never held for missing signs of life: those that count
-// are the ones of the application, for which the engine suspends and halts the logical component.
+// Returns the session of a logical component; opens it if necessary. The engine expects no signs of life in it: if the
+// application gives none, the engine suspends or halts the logical component, which does the same with its members.
 Session& Engine::Core::own_session(RegisteredComponent& component, Instant now) {
     if (component.own_session != nullptr) return *component.own_session;
     auto session = std::make_unique<Session>(MotionLease::Terms{settings_.motion_lease, settings_.motion_lease_http}, now.steady);
@@ -52,7 +52,7 @@ Session& Engine::Core::own_session(RegisteredComponent& component, Instant now) 
     return *component.own_session;
 }
 
-// Releases the members of a logical component that nobody has bound. Normally it has done so; memory may have been missing.
+// Releases the members of a logical component that no session has bound. Normally the component does so; memory may be missing.
 void Engine::Core::free_members(RegisteredComponent const& component, Instant now) {
     auto* session = component.own_session;
     if (session == nullptr || component.bound_to != nullptr || component.halting || component.binds_asked > 0) return;
