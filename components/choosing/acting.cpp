@@ -44,7 +44,7 @@ bool Acting::is_used(std::string const& ref) const {
 void Acting::note_current(std::string const& ref) {
     auto const before = std::exchange(current_, ref);
     if (!before.empty() && !is_used(before) && roster().find(before)->is_bound) release_member(before);
-    roster().note_engine_in_use(binding().session, name(), roster().find(ref)->engine);
+    roster().note_engine_in_use(name(), binding().session, roster().find(ref)->engine);
     show();
 }
 

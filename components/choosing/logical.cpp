@@ -20,8 +20,10 @@ Execute execution(std::string const& ref, std::string const& type, ParameterList
 Logical::Logical(ComponentDescription description, std::shared_ptr<Roster> roster)
     : description_{std::move(description)}, roster_{std::move(roster)}, members_{roster_->members_of(description_.ref.code)} {}
 
+// The component may replace one of the same name that was in use.
 void Logical::attach(ComponentPort& port) {
     port_ = &port;
+    roster_->forget_engine_in_use(name());
     show();
 }
 
@@ -48,7 +50,7 @@ void Logical::bind(Ticket ticket, Binding const& binding, Instant) {
 void Logical::released(Instant) {
     for (auto const* member : members_)
         if (member->is_bound && !halting_.contains(member->ref)) release_member(member->ref);
-    roster_->note_engine_in_use(binding_.session, name(), {});
+    roster_->forget_engine_in_use(name());
     binding_ = {};
     members_released();
     show();

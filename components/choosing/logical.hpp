@@ -72,6 +72,7 @@ protected:
     std::vector<Member*> const& members() const { return members_; }  // the preferred ones first
     Roster& roster() const { return *roster_; }
     ComponentPort& port() const { return *port_; }
+    bool is_attached() const { return port_ != nullptr; }
     Binding const& binding() const { return binding_; }
     bool is_suspended() const { return is_suspended_; }
     void end_suspension() { is_suspended_ = false; }

@@ -66,20 +66,17 @@ std::map<std::string_view, std::size_t> Roster::loads() const {
     return loads;
 }
 
-void Roster::note_engine_in_use(std::uint64_t session, std::string const& logical, std::string const& engine) {
-    auto& engines = engines_in_use_[session];
-    if (engine.empty())
-        engines.erase(logical);
-    else
-        engines[logical] = engine;
-    if (engines.empty()) engines_in_use_.erase(session);
+void Roster::note_engine_in_use(std::string const& logical, std::uint64_t session, std::string const& engine) {
+    in_use_[logical] = {session, engine};
 }
 
+void Roster::forget_engine_in_use(std::string const& logical) { in_use_.erase(logical); }
+
 std::size_t Roster::count_others_using(std::uint64_t session, std::string_view logical, std::string_view engine) const {
-    auto const found = engines_in_use_.find(session);
-    if (found == engines_in_use_.end()) return 0;
-    return static_cast<std::size_t>(
-        std::ranges::count_if(found->second, [&](auto const& each) { return each.first != logical && each.second == engine; }));
+    auto const is_other = [&](auto const& each) {
+        return each.first != logical && each.second.session == session && each.second.engine == engine;
+    };
+    return static_cast<std::size_t>(std::ranges::count_if(in_use_, is_other));
 }
 
 void Roster::note_speech(std::string const& engine, bool speaks, Steady now) {

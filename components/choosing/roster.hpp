@@ -50,8 +50,9 @@ public:
     // The number of members in use, by engine. Engines without one are missing.
     std::map<std::string_view, std::size_t> loads() const;
 
-    // Notes the engine whose member a logical component uses for the session of an application. An empty engine: it uses none.
-    void note_engine_in_use(std::uint64_t session, std::string const& logical, std::string const& engine);
+    // Notes the engine whose member a logical component uses for the session of an application, until it is forgotten.
+    void note_engine_in_use(std::string const& logical, std::uint64_t session, std::string const& engine);
+    void forget_engine_in_use(std::string const& logical);
     // Returns how many other logical components use this engine for the session.
     std::size_t count_others_using(std::uint64_t session, std::string_view logical, std::string_view engine) const;
 
@@ -66,11 +67,16 @@ public:
     std::optional<std::array<double, 2>> position_of(std::string const& target) const;
 
 private:
+    struct InUse {
+        std::uint64_t session;
+        std::string engine;
+    };
+
     std::map<std::string, Area> areas_;
-    int const low_battery_;                                                       // in percent
-    std::map<std::string, Member, std::less<>> members_;                          // by ref
-    std::map<std::uint64_t, std::map<std::string, std::string>> engines_in_use_;  // by session and logical component
-    std::map<std::string, std::optional<Steady>> speakers_;                       // by engine: the end of their last speech
+    int const low_battery_;                                  // in percent
+    std::map<std::string, Member, std::less<>> members_;     // by ref
+    std::map<std::string, InUse> in_use_;                    // by logical component
+    std::map<std::string, std::optional<Steady>> speakers_;  // by engine: the end of their last speech
     Frames frames_;
     std::vector<NamedPlace> places_;
 };

@@ -15,9 +15,10 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr double metre = 1'000;                             // mm
+constexpr double elsewhere = 0.05;                          // metres; a smaller change of an estimate is not reported
 constexpr std::chrono::milliseconds default_interval{250};  // of minimum_interval
 constexpr std::chrono::milliseconds one_event{1'500};       // equal events of several members within this time are reported once
-constexpr std::chrono::milliseconds longest_pause{1'250};   // longest time between two lists of a member while persons move
+constexpr std::chrono::milliseconds longest_pause{150};     // longest time between two lists of a member while persons move
 
 std::chrono::milliseconds interval_of(ParameterList const& parameters) {
     auto const* given = find(parameters, "minimum_interval");
@@ -46,13 +47,12 @@ Sensing::Sensing(ComponentDescription description, std::shared_ptr<Roster> roste
       events_{events_of(*Logical::description().profile)} {}
 
 Sensing::~Sensing() {
-    if (!is_attached_) return;  // the other logical components may be running on another thread
+    if (!is_attached()) return;  // the other logical components may be running on another thread
     end_sensing();
     sightings_->remove(*this);
 }
 
 void Sensing::attach(ComponentPort& port) {
-    is_attached_ = true;
     sightings_->add(*this);
     Logical::attach(port);
 }
@@ -163,7 +163,7 @@ void Sensing::end_sensing() {
     counts_.clear();
     reported_number_.reset();
     reported_.clear();
-    has_reported_persons_ = false;
+    told_.clear();
     misplaced_.clear();
     faulty_.clear();
 }
@@ -234,8 +234,7 @@ void Sensing::take_positions(Event const& event, ReceiveEvent const& received, M
     }
     fusion->configure(member.engine, {.period = interval_of(parameters_) + longest_pause});
     report_problems(member, fusion->sensed(member.engine, now.steady, sightings));
-    is_changed_ = true;
-    time_passed(now);
+    has_new_list_ = true;
 }
 
 // Once, until a list of the member has no problem.
@@ -256,23 +255,39 @@ void Sensing::time_passed(Instant now) {
         auto* fusion = event.reports == Reports::positions ? sightings_->fusion_of(event.kind) : nullptr;
         if (fusion == nullptr) continue;
         report_misplaced(event);
-        if (!fusion->take_changes().empty()) is_changed_ = true;
-        if (!is_changed_ || now.steady < reported_at_ + interval_of(parameters_)) continue;
-        is_changed_ = false;
-        reported_at_ = now.steady;
-        report_positions(event, now);
+        auto const since = now.steady - reported_at_;
+        auto const interval = interval_of(parameters_);
+        bool const is_due = since >= interval && (has_new_list_ || (since >= 2 * interval && differs(*fusion, now)));
+        if (is_due) report_positions(event, now);
     }
     for (auto const& event : events_)
         if (event.reports == Reports::number && reported_number_ && sightings_->fusion_of(event.kind) != nullptr)
             report_number(event, now);
 }
 
+// Returns whether the present persons are others than in the last report, or somebody is elsewhere: the estimate changes also
+// without a new list, such as when a person stops.
+bool Sensing::differs(Fusion const& fusion, Instant now) const {
+    std::size_t present = 0;
+    for (auto const& person : fusion.persons(now.steady)) {
+        if (person.sensed_by.empty()) continue;
+        ++present;
+        auto const told = told_.find(person.name);
+        if (told == told_.end() || (told->second - person.position).norm() > elsewhere) return true;
+    }
+    return present != told_.size();
+}
+
 void Sensing::report_positions(Event const& event, Instant now) {
+    has_new_list_ = false;
+    bool const were_there = !std::exchange(told_, {}).empty();
+    reported_at_ = now.steady;
     Results results;
     std::vector<std::string> names, points;
     auto const& frame = roster().frame();
     for (auto const& person : sightings_->fusion_of(event.kind)->persons(now.steady)) {
         if (person.sensed_by.empty()) continue;
+        told_[person.name] = person.position;
         auto const position = person.position * metre;
         names.push_back(person.name);
         points.push_back(rounded(position.x()) + ", " + rounded(position.y()));
@@ -285,7 +300,7 @@ void Sensing::report_positions(Event const& event, Instant now) {
              .orientation = {},
              .certainty = Located::Covariance{{covariance(0, 0), covariance(0, 1), covariance(1, 0), covariance(1, 1)}}});
     }
-    if (!std::exchange(has_reported_persons_, !names.empty()) && names.empty()) return;
+    if (!were_there && names.empty()) return;
     results.parameters = {date_time("timestamp", now.utc),
                           references(event.kind + "_ref", std::move(names), std::string{fused_codebook}),
                           positions("position_data", std::move(points), frame)};

@@ -51,6 +51,7 @@ private:
 
     void take(Event const&, ReceiveEvent const&, Member const&, Instant now);
     void take_positions(Event const&, ReceiveEvent const&, Member const&, Instant now);
+    bool differs(Fusion const&, Instant now) const;
     void report_positions(Event const&, Instant now);
     void report_names(Event const&, ReceiveEvent const&, Member const&, Instant now);
     void report_once(Event const&, Results, Member const&, Instant now);
@@ -68,21 +69,20 @@ private:
 
     std::shared_ptr<Sightings> const sightings_;
     std::vector<Event> const events_;
-    bool is_attached_ = false;
     bool is_active_ = false;
     ParameterList parameters_;           // of `start`
     std::set<std::string> started_;      // refs of the members that sense, or are starting
     std::map<std::string, int> counts_;  // the last number of each member, by ref
     std::optional<std::size_t> reported_number_;
-    bool has_reported_persons_ = false;  // the last list was not empty
     struct Reported {
         Steady at;
         std::string engine;
         std::string type;
         ParameterList content;  // without the timestamp
     };
-    std::vector<Reported> reported_;  // the last events without positions
-    bool is_changed_ = false;         // there are positions that were not reported
+    std::vector<Reported> reported_;      // the last events without positions
+    bool has_new_list_ = false;           // of a member, since the last report of positions
+    std::map<std::string, Vector> told_;  // the positions of the last report, by name, in metres
     Steady reported_at_{};
     std::set<std::string> misplaced_;  // engines
     std::set<std::string> faulty_;     // refs of the members whose last list had a problem

@@ -1,10 +1,14 @@
 #include "choosing/sightings.hpp"
 
+#include <chrono>
+
 namespace rois::choosing {
 
 namespace {
 
-constexpr double metre = 1'000;  // mm
+constexpr double metre = 1'000;                   // mm
+constexpr std::chrono::minutes longest_age{5};    // of a list: members report changes only
+constexpr std::chrono::seconds end_of_sound{10};  // the same of sounds, whose end is not reported
 
 }  // namespace
 
@@ -15,7 +19,12 @@ void Sightings::advance(Instant now) {
 }
 
 void Sightings::begin(std::string const& kind) {
-    auto const place = kinds_.try_emplace(kind, Kind{Fusion{{.prefix = kind + "-"}}}).first;
+    auto const place =
+        kinds_
+            .try_emplace(
+                kind,
+                Kind{Fusion{{.prefix = kind + "-", .matching = {}, .longest_age = kind == "sound" ? end_of_sound : longest_age}}})
+            .first;
     ++place->second.used;
 }
 

@@ -7,6 +7,7 @@ namespace rois::choosing::test {
 namespace {
 
 using testing::Contains;
+using testing::HasSubstr;
 using testing::Not;
 
 class TwoRobots : public testing::Test {
@@ -132,6 +133,26 @@ TEST_F(TwoRobots, SpeakIfTheyDrive) {
     desk.execute(say("hello"));
     EXPECT_THAT(world["robot2.speech"].calls, Contains("start"));
     EXPECT_THAT(world["robot1.speech"].calls, Not(Contains("start")));
+}
+
+TEST(ATeam, ForgetsWhoDroveWhenTheDrivingComponentIsReplaced) {
+    Team team{{"robot1", "robot2", "robot3"}};
+    team.go("robot3");
+    team.place("robot1", 0, 0);
+    team.place("robot2", 10'000, 0);
+    auto desk = team.world.connect();
+    desk.bind("navigation");
+    desk.bind("speech");
+    desk.execute(drive_to("go", {"9000, 0, 0"}));
+    team.drive("robot2").finishes();
+    auto simple = Team::driving("robot3");
+    std::erase_if(simple.profile.messages, [](auto const& message) { return message.name == "dock"; });
+    team.world.change({}, {simple});
+    ASSERT_THAT(team.log, Contains(HasSubstr("without the command 'dock'")));
+    team.look();
+    desk.execute(say("hello"));
+    EXPECT_THAT(team.world["robot1.speech"].calls, Contains("start"));
+    EXPECT_THAT(team.world["robot2.speech"].calls, Not(Contains("start")));
 }
 
 TEST_F(TwoRobots, AreChosenInTheOrderOfTheCondition) {

@@ -79,6 +79,10 @@ public:
     Kind last_received() const {
         return std::get<Kind>(last_);
     }
+    template <class Kind>
+    Kind const* last_if() const {  // null: the last one is of another kind
+        return std::get_if<Kind>(&last_);
+    }
 
     bool notifications_closed() const { return notifications_->closed(); }
     NotificationQueue& notifications() { return *notifications_; }

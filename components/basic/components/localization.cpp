@@ -1,4 +1,5 @@
-// Person, face and sound localization (7.6.3, 7.6.6, 7.6.8): reports positions when somebody is new or has moved.
+// Person, face and sound localization (7.6.3, 7.6.6, 7.6.8): reports positions when somebody is new or has moved,
+// and who is left when a person or face is gone.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -80,6 +81,7 @@ private:
 
     void begin() override {
         movement_.clear();
+        reported_.clear();
         reported_at_.reset();
     }
 
@@ -90,9 +92,17 @@ private:
         movement_.forget_old(now);
         if (reported_at_ && now < *reported_at_ + interval_) return;
         auto const is_news = [&](Sighting const& s) { return movement_.worth_reporting(s.ref, threshold_); };
-        if (std::ranges::none_of(sightings, is_news)) return;
+        auto const is_gone = [&](std::string const& ref) {
+            return std::ranges::find(sightings, ref, &Sighting::ref) == sightings.end();
+        };
+        bool const somebody_is_gone = kind_.sense != Sense::sounds && std::ranges::any_of(reported_, is_gone);
+        if (!somebody_is_gone && std::ranges::none_of(sightings, is_news)) return;
         reported_at_ = now;
-        for (auto const& s : sightings) movement_.reported(s.ref);
+        reported_.clear();
+        for (auto const& s : sightings) {
+            movement_.reported(s.ref);
+            reported_.push_back(s.ref);
+        }
         port().event(kind_.event_type, results(sightings, when));
     }
 
@@ -119,6 +129,7 @@ private:
     WorldTime interval_{};
     Movement movement_;
     std::optional<WorldTime> reported_at_;
+    std::vector<std::string> reported_;  // refs of the last report
 };
 
 }  // namespace

@@ -30,8 +30,9 @@ double deviations(Vector const& difference, Matrix const& covariance);
 double deviations_apart(Gaussian const& a, Gaussian const& b);
 
 // Combines two values of the same thing whose errors may be correlated in an unknown way (covariance intersection). If both
-// covariances are honest, so is the result. The result has nearly the smallest determinant: where both are about equally certain,
-// the weight of `a` is near `share` (0 to 1), so that the result does not jump from one value to the other.
+// covariances are honest, so is the result. The weights are in proportion to the inverse of the squared variance: the weight with
+// the smallest covariance would take nearly all from a value that is a little more certain, and lose what the other one adds.
+// `share`: the weight of `a`, 0 to 1, if both are equally certain.
 Gaussian covariance_intersection(Gaussian const& a, Gaussian const& b, double share = 0.5);
 
 }  // namespace rois::choosing

@@ -7,7 +7,7 @@
 namespace rois::choosing {
 namespace {
 
-constexpr double acceleration = 1.0;    // spectral density of the random acceleration, in m^2/s^3
+constexpr double acceleration = 0.15;   // spectral density of the random acceleration, in m^2/s^3
 constexpr double first_speed = 1.0;     // standard deviation of a new person's velocity, in m/s for each axis
 constexpr double standing_speed = 0.5;  // the same after a silence
 constexpr double top_speed = 2.5;       // in m/s; faster is a jump

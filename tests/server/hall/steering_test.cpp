@@ -147,7 +147,8 @@ std::vector<std::string> story(std::vector<int> const& passes) {
     }
     std::vector<std::string> positions{desk.query("robot_position").values()["position_data"].front()};
     for (auto const& news : desk.history())
-        if (news.text("event_type") == "person_localized") positions.push_back(news.values()["position_data"].front());
+        if (news.text("event_type") == "person_localized")
+            positions.push_back(testing::PrintToString(news.values()["position_data"]));
     auto const truth = desk.query("visitors").values()["position_data"];
     positions.insert(positions.end(), truth.begin(), truth.end());
     return positions;

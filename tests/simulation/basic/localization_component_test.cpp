@@ -46,6 +46,23 @@ TEST(Localization, ReportsThePositionOfAPersonInMillimetres) {
     EXPECT_NEAR(point->position.y(), 4, 0.3);
 }
 
+TEST(Localization, ReportsWhoIsLeftWhenSomebodyIsGone) {
+    Stage stage{
+        {visitor("guest", {does(Walk{at(6, 4)}), does(Leave{})}), visitor("other", {does(Walk{at(5, 3)}), does(Wait{1000})}, 3)}};
+    stage["person_localization"].start();
+    auto const last = [&] {
+        auto const events = stage["person_localization"].events("person_localized");
+        return events.empty() ? std::vector<std::string>{"nothing"} : values(events.back().results, "person_ref");
+    };
+    EXPECT_TRUE(stage.run_until([&] { return last().size() == 2; }));
+    EXPECT_TRUE(stage.run_until([&] { return last() == std::vector<std::string>{"person-2"}; }));
+
+    Stage alone{{visitor("guest", {does(Walk{at(6, 4)}), does(Leave{})})}};
+    alone["person_localization"].start();
+    alone.run(60);
+    EXPECT_THAT(values(alone["person_localization"].events("person_localized").back().results, "person_ref"), IsEmpty());
+}
+
 TEST(Localization, ReportsTheCovarianceOfEachPosition) {
     Stage stage{{standing()}};
     settled(stage)["person_localization"].start();
