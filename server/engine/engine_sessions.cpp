@@ -53,7 +53,7 @@ void Engine::Core::notify_of_state(Session& session, RegisteredComponent const& 
         bool const waits = session.owner == nullptr || before.status == status;
         if (!changed || (waits && now.steady - before.at < between_states)) return;
     }
-    notifier_.notify(session, ComponentChanged{component.ref(), status, component.reported()});
+    notifier_.notify(session, ComponentChanged{component.ref(), status, component.reported()}, component.answer_to(session));
     session.notified[&component] = {now.steady, status, state};
 }
 

@@ -144,7 +144,8 @@ bool Engine::Core::deliver(RegisteredComponent& component, std::string const& ev
             deliveries([&] {
                 if (each && !matches(subscription, *subscriber.session)) return;
                 events_.add_receiver(subscriber.slot);
-                notifier_.notify(*subscriber.queue, notifications.of(subscriber.inline_results));
+                notifier_.notify(*subscriber.queue, notifications.of(subscriber.inline_results),
+                                 component.answer_to(*subscriber.session));
             });
         }
     };

@@ -464,6 +464,7 @@ Registry::Bound Registry::bind(RegisteredComponent& component, Session& session,
     if (component.bound_to == nullptr) {
         component.forget_reported_errors();
         component.restore_defaults(now);  // commands of an ended session may still run (on_session_end), and have set parameters
+        component.answer = 0;
     }
     session.bound.insert(&component);
     component.bound_to = &session;

@@ -16,6 +16,7 @@
 #include "engine/component_index.hpp"
 #include "engine/conditions/vocabulary.hpp"
 #include "engine/frames/frames.hpp"
+#include "engine/notifications/notification_queue.hpp"
 #include "engine/providers/hosted_component.hpp"
 #include "types/messages.hpp"
 
@@ -127,7 +128,10 @@ public:
 
     Session* bound_to = nullptr;
     Switching switching = Switching::none;  // as agreed in the binding
-    std::size_t binds_asked = 0;            // questions whether it can be bound, without an answer
+    // The answer to the last command of this session, which comes before what the component reports to it (decision 22).
+    NotificationQueue::Hold answer = 0;
+    NotificationQueue::Hold answer_to(Session const& session) const { return bound_to == &session ? answer : 0; }
+    std::size_t binds_asked = 0;  // questions whether it can be bound, without an answer
     bool is_free() const { return bound_to == nullptr && !has_failed_to_halt(); }
     ParameterList parameters;  // stored for the session that has bound it; the defaults without a binding
     Activity activity = Activity::idle;

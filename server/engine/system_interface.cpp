@@ -214,7 +214,8 @@ void Engine::Core::publish(FoundError const& report, Instant now, Attempts& deli
     auto const notify = [&](Session& session) {
         deliveries([&] {
             errors_.add_receiver(session.errors.slot);
-            notifier_.notify(session, session.is_engine ? for_engines : notification);
+            notifier_.notify(session, session.is_engine ? for_engines : notification,
+                             component == nullptr ? 0 : component->answer_to(session));
         });
     };
     if (component == nullptr)

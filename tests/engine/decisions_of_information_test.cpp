@@ -108,6 +108,26 @@ TEST(Decision22, NotificationsAreNumberedAsThingsHappen) {
                                              "4 USER_DEFINED_ERROR navigation"));
 }
 
+TEST(Decision22, WhatAComponentReportsComesAfterTheAnswerToItsCommand) {
+    World world{detection, navigation};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.subscribe("reached_target");
+    desk.subscribe("person_detected");
+    auto const answer = desk.notifications().hold();
+    desk.execute(named("a", stop("navigation")));
+    desk.notifications().leave(answer);
+    world["navigation"].fires("reached_target");
+    world["navigation"].reports(ErrorType::user_defined_error, "tired");
+    world["detection"].fires("person_detected");
+    EXPECT_THAT(desk.received(), ElementsAre("1 person_detected detection")) << "other components do not wait for it";
+    desk.notifications().release(answer);
+    EXPECT_THAT(desk.received(),
+                ElementsAre("2 completed a OK", "3 reached_target navigation", "4 USER_DEFINED_ERROR navigation"));
+    world["navigation"].fires("reached_target");
+    EXPECT_THAT(desk.received(), ElementsAre("5 reached_target navigation"));
+}
+
 TEST(Decision23, EventsAreDroppedAndOtherNotificationsAreNot) {
     EngineSettings settings;
     settings.max_waiting_notifications = 4;

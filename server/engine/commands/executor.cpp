@@ -62,7 +62,7 @@ Executor::SharedCommand Executor::make(Session& session, CommandMessage const& m
     command->id = message.command_id;
     command->type = message.command_type;
     command->session = &session;
-    command->hold = session.notifications->current();
+    command->hold = component->answer = session.notifications->current();
     command->component = component;
     command->arguments = normalized(profiles, message.arguments);
     if (!stores_arguments(message.command_type)) command->arguments = with_defaults(profiles, command->arguments);

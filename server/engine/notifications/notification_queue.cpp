@@ -27,7 +27,7 @@ NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotifi
     if (overflowed_ && std::holds_alternative<ReceiveEvent>(notification->body)) return Pushed::dropped;
     auto const hold = is_held(cause) ? cause : current_;
     reserve_for_held(1);
-    if (is_held(hold) || !held_.empty()) {
+    if (is_held(hold)) {
         held_.push_back({hold, std::move(notification)});
         ++waiting_;
         return overflowed_ ? Pushed::overflow : Pushed::held;
@@ -47,13 +47,13 @@ void NotificationQueue::reserve_for_held(std::size_t more) {
     if (entries_.capacity() < room) entries_.reserve(2 * room);
 }
 
-// Replaces the oldest held event by a `Lost`, merged with a `Lost` right before it.
+// Replaces the oldest held event of the oldest hold by a `Lost`, merged with a `Lost` right before it.
 bool NotificationQueue::make_room_among_held() {
     auto const event = std::ranges::find_if(
         held_, [](Held const& held) { return std::holds_alternative<ReceiveEvent>(held.notification->body); });
     if (event == held_.end()) return false;
     auto const before = event == held_.begin() ? held_.end() : std::prev(event);
-    auto const* gap = before == held_.end() ? nullptr : std::get_if<Lost>(&before->notification->body);
+    auto const* gap = before == held_.end() || before->by != event->by ? nullptr : std::get_if<Lost>(&before->notification->body);
     auto lost = std::make_shared<OutgoingNotification const>(Lost{gap == nullptr ? 1 : gap->count + 1});
     --waiting_;
     ++lost_;
@@ -169,13 +169,13 @@ bool NotificationQueue::release(Hold hold) noexcept {
     std::lock_guard const lock{mutex_};
     holds_.erase(std::ranges::lower_bound(holds_, hold));
     auto const before = last_sequence_;
-    auto const still_held = std::ranges::find_if(held_, [&](Held const& held) { return is_held(held.by); });
-    for (auto held = held_.begin(); held != still_held; ++held) {
-        auto const* lost = std::get_if<Lost>(&held->notification->body);
+    for (auto& held : held_) {
+        if (held.by != hold) continue;
+        auto const* lost = std::get_if<Lost>(&held.notification->body);
         last_sequence_ += lost == nullptr ? 1 : lost->count;
-        entries_.push_back({last_sequence_, std::move(held->notification)});
+        entries_.push_back({last_sequence_, std::move(held.notification)});
     }
-    held_.erase(held_.begin(), still_held);
+    std::erase_if(held_, [&](Held const& held) { return held.by == hold; });
     return last_sequence_ > before || shows_closed();
 }
 

@@ -59,8 +59,8 @@ public:
     // numbered and visible when its hold is released. `overflow`, `dropped`: too many wait, so the session must end.
     enum class Pushed : std::uint8_t { first, behind, held, overflow, dropped };
 
-    // Numbers and stores the notification. Holds it if `cause`, or else the current hold, is not released yet, or if another
-    // notification is held: none overtakes an earlier one. If too many wait, replaces the oldest waiting event by a `Lost`. If there is no event to replace, the queue overflows, and events are
+    // Numbers and stores the notification, or holds it if `cause`, or else the current hold, is not released yet. If too many
+    // wait, replaces the oldest waiting event by a `Lost`. If there is no event to replace, the queue overflows, and events are
     // dropped from then on.
     Pushed push(std::shared_ptr<OutgoingNotification const>, Hold cause = 0);
 
@@ -95,15 +95,13 @@ public:
 
     // Begins a hold, and makes it the current one. Holds may overlap. Release each one once.
     Hold hold();
-    // From now on, only notifications that name the hold as their cause are held, and those behind them. `enter` makes the hold
-    // current again.
+    // From now on, only notifications that name the hold as their cause are held. `enter` makes the hold current again.
     void leave(Hold hold) {
         if (current_ == hold) current_ = 0;
     }
     void enter(Hold hold) { current_ = hold; }
     Hold current() const { return current_; }
-    // Makes the notifications visible that no hold holds back any more. Cannot fail. Returns whether there are some, or the hold
-    // has hidden the end.
+    // Makes the held notifications visible. Cannot fail. Returns whether there are some, or the hold has hidden the end.
     bool release(Hold) noexcept;
 
     bool closed() const;
@@ -135,10 +133,10 @@ private:
     std::uint64_t last_sequence_ = 0;  // of the newest entry
     std::uint64_t lost_ = 0;
     struct Held {
-        Hold by;  // it may be released, or 0: then the notification only waits for those before it
+        Hold by;
         std::shared_ptr<OutgoingNotification const> notification;
     };
-    std::vector<Held> held_;   // oldest first; entries_ has room for them
+    std::vector<Held> held_;   // entries_ has room for them
     std::vector<Hold> holds_;  // ascending
     Hold last_hold_ = 0;
     bool closed_ = false;

@@ -21,7 +21,9 @@ public:
         notify(*session.notifications, std::make_shared<OutgoingNotification const>(std::move(notification)), cause);
     }
 
-    void notify(Session& session, SharedNotification notification) { notify(*session.notifications, std::move(notification)); }
+    void notify(Session& session, SharedNotification notification, NotificationQueue::Hold cause = 0) {
+        notify(*session.notifications, std::move(notification), cause);
+    }
 
     void notify(NotificationQueue& queue, SharedNotification notification, NotificationQueue::Hold cause = 0) {
         auto const lost = queue.lost();
