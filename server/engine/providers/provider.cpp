@@ -49,14 +49,16 @@ void Provider::add(Call call) {
     call_runner();
 }
 
-// If a halt of the component waits already, takes its place: there is room for one halt of each component.
+// Without room for another call, drops a waiting halt of the component: there is room for one halt of each. The new one comes
+// after all waiting calls, because a command among them must not begin after it.
 void Provider::add_halt(std::shared_ptr<HostedComponent> component, Ticket ticket, Instant now) noexcept {
     std::lock_guard const lock{mutex_};
-    Call halt{.to = std::move(component), .what = {}, .awaited = ticket, .now = now};
-    if (calls_.size() == calls_.capacity())
-        for (auto i = begun_; i < calls_.size(); ++i)
-            if (calls_[i].is_halt() && calls_[i].to == halt.to) return std::swap(calls_[i], halt);
-    calls_.push_back(std::move(halt));
+    if (calls_.size() == calls_.capacity()) {
+        auto const waiting = calls_.begin() + static_cast<std::ptrdiff_t>(begun_);
+        auto const halt = std::find_if(waiting, calls_.end(), [&](Call const& c) { return c.is_halt() && c.to == component; });
+        if (halt != calls_.end()) calls_.erase(halt);
+    }
+    calls_.push_back({.to = std::move(component), .what = {}, .awaited = ticket, .now = now});
     call_runner();
 }
 
