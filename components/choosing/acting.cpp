@@ -43,7 +43,7 @@ bool Acting::is_used(std::string const& ref) const {
 // Releases the previous member, unless another command still runs on it.
 void Acting::note_current(std::string const& ref) {
     auto const before = std::exchange(current_, ref);
-    if (!before.empty() && !is_used(before) && roster().find(before)->is_bound) release_member(before);
+    if (!before.empty()) release_unused(before);
     roster().note_engine_in_use(name(), binding().session, roster().find(ref)->engine);
     show();
 }

@@ -46,13 +46,11 @@ void Logical::bind(Ticket ticket, Binding const& binding, Instant) {
     port_->answered(ticket, Done{});
 }
 
-// A member that has not confirmed a halt yet is released when it does.
 void Logical::released(Instant) {
-    for (auto const* member : members_)
-        if (member->is_bound && !halting_.contains(member->ref)) release_member(member->ref);
     roster_->forget_engine_in_use(name());
     binding_ = {};
     members_released();
+    for (auto const* member : members_) release_unused(member->ref);
     show();
 }
 
@@ -72,8 +70,9 @@ void Logical::release_member(std::string const& ref) {
     ask(Release{identifier(ref)}, [](Outcome const&) {});
 }
 
+// A member that has not confirmed a halt yet is released when it does: until then it may move.
 void Logical::release_unused(std::string const& ref) {
-    if (roster_->find(ref)->is_bound && !is_used(ref)) release_member(ref);
+    if (roster_->find(ref)->is_bound && !is_used(ref) && !halting_.contains(ref)) release_member(ref);
 }
 
 // The member has left, which ended its binding.
@@ -150,8 +149,7 @@ void Logical::halt(Ticket ticket, Instant) {
         halting_.insert(member->ref);
         stop(member->ref, [this, one_less, ref = member->ref](bool stands) {
             if (!stands) return;  // the engine calls `halt` again
-            bool const is_first = halting_.erase(ref) > 0;
-            if (is_first && binding_.session == 0 && roster_->find(ref)->is_bound) release_member(ref);
+            if (halting_.erase(ref) > 0) release_unused(ref);
             one_less();
         });
     }

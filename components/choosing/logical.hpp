@@ -56,7 +56,7 @@ protected:
     virtual void forget_commands() = 0;
     // Completes all commands with ABORT.
     virtual void abort_commands() = 0;
-    // Called when the application has released the component, and with it all members.
+    // Called when the application has released the component: no member is used any more.
     virtual void members_released() {}
     // An event of a member.
     virtual void happened(ReceiveEvent const&, Member const&, Instant now) = 0;
@@ -82,7 +82,6 @@ protected:
     using Answered = std::function<void(Outcome const&)>;
     void ask(Operation, Answered then);
     void bind_member(std::string const& ref, Answered then);
-    void release_member(std::string const& ref);
     void release_unused(std::string const& ref);
 
     // A member that is bound and accepts the command; or an empty ref, and the reason.
@@ -106,6 +105,7 @@ protected:
     void stop(std::string const& ref, std::function<void(bool stands)> const& then);
 
 private:
+    void release_member(std::string const& ref);
     void forget(Member&);
     void pause(Ticket, std::string const& command_type);
     void notified_of(Completed const&);

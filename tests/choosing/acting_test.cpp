@@ -386,6 +386,21 @@ TEST_F(TwoRobots, StopAndAreFreeWhenTheirApplicationHasLeft) {
     EXPECT_EQ(other.bind("robot1.navigation"), ReturnCode::ok);
 }
 
+TEST_F(TwoRobots, WaitForTheOneThatMovesForAnApplicationThatHasLeft) {
+    desk.bind("navigation");
+    desk.execute(drive_to("go", {"9000, 0, 0"}));
+    team.drive("robot2").halts_later = true;
+    desk.leave();
+    auto other = world.connect();
+    EXPECT_EQ(other.bind("navigation"), ReturnCode::ok);
+    other.execute(drive_to("near2", {"9000, 0, 0"}));
+    other.execute(stop("navigation"));
+    other.execute(drive_to("near1", {"1000, 0, 0"}));
+    EXPECT_EQ(team.starts_of("robot1"), 0);
+    team.drive("robot2").stands_still();
+    EXPECT_EQ(team.starts_of("robot1"), 1);
+}
+
 TEST_F(TwoRobots, ArePausedWithoutSignsOfLife) {
     desk.bind("navigation");
     desk.execute(drive_to("go", {"1000, 0, 0"}));
