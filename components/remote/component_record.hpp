@@ -27,7 +27,7 @@ public:
     int binds_asked = 0;   // `bind` requests that are not answered yet
     Switching switching = Switching::none;
 
-    ParameterList stored;  // by `set_parameter` in the sub engine, for the application that has bound the component
+    ParameterList stored;  // in the sub engine, for the application that has bound the component
 
     // Whether the component may act for this engine: from the beginning of a command until the sub engine says that nothing is
     // active, or that it has stopped or released the component, or has ended the session.
@@ -38,6 +38,18 @@ public:
 
     int begins_asked = 0;                             // `execute` requests that are not answered yet
     std::vector<std::function<void()>> after_begins;  // `suspend` or `resume`: sent once these are answered, to keep the order
+
+    // Stores those of the parameters that `set_parameter` takes.
+    void store(ParameterList const& parameters) {
+        auto const* command = find_message(*entry.profile, MessageKind::command, "set_parameter");
+        auto const is_settable = [&](std::string const& name) {
+            return (command != nullptr && find_parameter(command->arguments, name) != nullptr) ||
+                   find_parameter(entry.profile->parameters, name) != nullptr;
+        };
+        stored.clear();
+        for (auto const& each : parameters)
+            if (is_settable(each.name)) stored.push_back(each);
+    }
 
     void forget_questions() {
         binds_asked = begins_asked = 0;

@@ -16,14 +16,16 @@ namespace rois::remote {
 namespace {
 
 constexpr int deepest = 8;  // levels of engines
+constexpr std::chrono::seconds between_restores{1};
 // Names that a component's profile declares. The engine compares them with one another, while all applications wait.
 constexpr std::size_t most_names = 500;
 
-// The robots of an engine have its instance and no sub engines. They do not count as a level.
+// The instance of a robot begins with that of its engine ("e1.robot2"). Robots do not count as a level.
 void collect(EngineProfile const& profile, int level, std::string const& instance_above, std::vector<std::string>& instances) {
     auto const* parameter = find_parameter(profile.parameters, "instance");
     auto const instance = parameter == nullptr ? std::string{} : parameter->default_value.value_or("");
-    bool const is_robot = instance == instance_above && profile.sub_profiles.empty();
+    bool const is_robot =
+        (instance == instance_above || instance.starts_with(instance_above + ".")) && profile.sub_profiles.empty();
     if (!is_robot) ++level;
     if (level > deepest) throw std::runtime_error("its engines have more than " + std::to_string(deepest) + " levels");
     if (!instance.empty()) instances.push_back(instance);
@@ -238,14 +240,34 @@ void RemoteEngine::subscribe() {
 // The components that applications here have bound are bound again, with their parameters: in a new session, and after each
 // change of the profile, because a component may have left and returned.
 void RemoteEngine::restore() {
-    for (auto const& [ref, record] : records_) {
-        if (!record->is_wanted) continue;
-        bind_there(record, [self = shared_from_this(), record](Reply const*) {
-            if (record->is_held && !record->stored.empty())
-                self->command(record, "set_parameter", self->translation_.to_there(record->stored, record->entry),
-                              [](CompletedStatus, std::string const&) {});
+    for (auto const& [ref, record] : records_)
+        if (record->is_wanted) restore(record);
+}
+
+// Repeated until it succeeds: the component's own engine may return later.
+void RemoteEngine::restore(std::shared_ptr<ComponentRecord> const& record) {
+    bind_there(record, [self = shared_from_this(), record, era = era_](Reply const* reply) {
+        if (record->is_held && !record->stored.empty()) self->restore_parameters(record);
+        if (record->is_held || reply == nullptr) return;
+        self->host_->at(self->host_->now() + between_restores, [self, record, era] {
+            bool const is_missing = record->is_wanted && !record->is_held && record->binds_asked == 0;
+            if (is_missing && self->era_ == era && self->record_of(record->entry.ref) == record) self->restore(record);
         });
-    }
+    });
+}
+
+// Sets them only if they differ: the component may be acting.
+void RemoteEngine::restore_parameters(std::shared_ptr<ComponentRecord> const& record) {
+    ask(GetParameter{{.code = record->entry.ref}}, [self = shared_from_this(), record](Reply const* reply) {
+        auto const* there = reply == nullptr ? nullptr : std::get_if<GetParameter::Reply>(reply);
+        auto stored = self->translation_.to_there(record->stored, record->entry);
+        auto const is_set = [&](Parameter const& each) {
+            auto const* known = there == nullptr ? nullptr : find(there->parameters, each.name);
+            return known != nullptr && known->values == each.values;
+        };
+        if (reply != nullptr && !std::ranges::all_of(stored, is_set))
+            self->command(record, "set_parameter", std::move(stored), [](CompletedStatus, std::string const&) {});
+    });
 }
 
 std::shared_ptr<ComponentRecord> RemoteEngine::record_of(std::string_view ref) const {

@@ -124,7 +124,9 @@ private:
     void end_commands(std::string const& why);
     void leave(std::string const& reason);
     void await_next_attempt();
+    Connect request_for_session() const;
     void give_signs_of_life(std::uint64_t era);
+    void take_sign(Reply const&);
     void show();
     // Whether there is a session. Requests wait while it has no link.
     bool can_ask() const { return !session_.text.empty() && !is_given_up_ && !is_over_; }
@@ -140,6 +142,8 @@ private:
     void report_left_out(std::vector<std::string> const& why) const;
     void subscribe();
     void restore();
+    void restore(std::shared_ptr<ComponentRecord> const&);
+    void restore_parameters(std::shared_ptr<ComponentRecord> const&);
     ComponentDescription description_of(ComponentEntry const&, ComponentRecord const&, Translation const&) const;
     std::shared_ptr<ComponentRecord> record_of(std::string_view ref) const;
     void operator()(ReceiveEvent const&);

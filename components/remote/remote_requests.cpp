@@ -113,8 +113,10 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
         if (completed.results) ended.results = *completed.results;
         self->translation_.to_here(ended.results);
         --record->running;
-        if (record->running == 0 && completed.active == false) record->acts_no_more();
-        if (command_type == "set_parameter" && completed.status == CompletedStatus::ok) record->stored = parameters;
+        // Only a success: a command that was aborted, or has failed, completes before the component stands still.
+        bool const has_ended = completed.active == false && completed.status == CompletedStatus::ok;
+        if (record->running == 0 && has_ended) record->acts_no_more();
+        if (command_type == "set_parameter" && completed.status == CompletedStatus::ok) record->store(parameters);
         if (completed.active) ended.afterwards = *completed.active ? Afterwards::active : Afterwards::idle;
         record->report(std::move(ended));
     };
@@ -124,10 +126,11 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
     auto unit = unit_of(record->entry.ref, command_type, id, translation_.to_there(parameters, record->entry));
     ++record->begins_asked;
     ask(Execute{{{std::move(unit)}}},
-        [self = shared_from_this(), record, command, id](Reply const* reply) {
+        [self = shared_from_this(), record, command, id, command_type, parameters](Reply const* reply) {
             if (--record->begins_asked == 0)
                 for (auto const& next : std::exchange(record->after_begins, {})) next();
             bool const is_accepted = reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok;
+            if (is_accepted && command_type == "start") record->store(parameters);
             auto const known = self->commands_.find(id);
             if (known == self->commands_.end()) return;  // it has completed
             if (is_accepted) return record->report(CommandStarted{command});

@@ -87,12 +87,15 @@ void RemoteEngine::limit_attempt() {
 
 void RemoteEngine::connected() {
     if (!session_.text.empty()) return link_->attach(session_, last_sequence_);
-    Connect const connect{.motion_lease = settings_.motion_lease,
-                          .motion_lease_http = {},
-                          .motion_proof = MotionProof::request,
-                          .is_engine = true,
-                          .window = settings_.window};
-    link_->send(client::document_of({connect, std::string{opening}}));
+    link_->send(client::document_of({request_for_session(), std::string{opening}}));
+}
+
+Connect RemoteEngine::request_for_session() const {
+    return {.motion_lease = settings_.motion_lease,
+            .motion_lease_http = {},
+            .motion_proof = MotionProof::request,
+            .is_engine = true,
+            .window = settings_.window};
 }
 
 void RemoteEngine::document(std::string_view text) {
@@ -138,10 +141,7 @@ void RemoteEngine::take(Fault const& fault) {
 // Ignores answers that were not asked for.
 void RemoteEngine::take(xml::Answered const& answered) {
     auto const& [reply, id] = answered;
-    if (id == sign_of_life && asked_for_sign_) {
-        state_.round_trip = host_->now() - *std::exchange(asked_for_sign_, std::nullopt);
-        return show();
-    }
+    if (id == sign_of_life) return take_sign(reply);
     if (!is_open_) {
         auto const* connect = std::get_if<Connect::Reply>(&reply);
         auto const* resume = std::get_if<Resume::Reply>(&reply);
@@ -165,6 +165,20 @@ void RemoteEngine::take(xml::Answered const& answered) {
     if (!asks) return request.then(&reply);
     Reply const performed{Execute::Reply{}};
     request.then(&performed);
+}
+
+// A sub engine that has ended the session, because this engine hung, has opened another one for the sign of life. It is ended: it
+// lacks bindings and subscriptions.
+void RemoteEngine::take_sign(Reply const& reply) {
+    if (!is_open_ || is_given_up_) return;
+    auto const* connect = std::get_if<Connect::Reply>(&reply);
+    if (connect != nullptr && connect->session != session_) {
+        give_up("its session has ended");
+        return link_->send(client::document_of({Disconnect{}, std::string{opening}}));
+    }
+    if (!asked_for_sign_) return;
+    state_.round_trip = host_->now() - *std::exchange(asked_for_sign_, std::nullopt);
+    show();
 }
 
 void RemoteEngine::take(xml::NumberedNotification const& notification) {
@@ -250,7 +264,7 @@ void RemoteEngine::give_signs_of_life(std::uint64_t era) {
     bool const is_bound = std::ranges::any_of(records_, [](auto const& each) { return each.second->is_held; });
     auto const now = host_->now();
     if (host_->is_alive() && (is_bound || now >= last_sign_ + between_signs_at_rest)) {
-        link_->send(client::document_of({Connect{}, std::string{sign_of_life}}));
+        link_->send(client::document_of({request_for_session(), std::string{sign_of_life}}));
         last_sign_ = now;
         if (!asked_for_sign_) asked_for_sign_ = now;
     }

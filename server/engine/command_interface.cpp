@@ -27,10 +27,10 @@ std::string why_not_free(RegisteredComponent const& component) {
     return component.bound_to == nullptr ? why_not_halted(component) : held(component);
 }
 
-// A component must also know of a binding with another `switching`.
-bool must_confirm(RegisteredComponent const& component, Session const& session, Switching wanted) {
+// Also a binding that the session has already: `switching` may be another one, or a sub engine has lost the binding.
+bool must_confirm(RegisteredComponent const& component, Session const& session) {
     if (!component.confirms_binding() || component.has_failed_to_halt()) return false;
-    return component.is_free() || (component.bound_to == &session && component.switching != wanted);
+    return component.is_free() || component.bound_to == &session;
 }
 
 std::string did_not_answer(RegisteredComponent const& component, std::chrono::milliseconds deadline) {
@@ -118,7 +118,7 @@ Engine::Core::Later Engine::Core::perform(Session& session, Bind const& bind_, S
     auto [component, problem] = registry_.meant(bind_.component_ref);
     if (component == nullptr) return refused<Bind::Reply>(ReturnCode::bad_parameter, std::move(problem));
     ToBindNow wanted{component->shared_from_this(), {.session = session.number, .switching = bind_.switching}};
-    if (!must_confirm(*component, session, bind_.switching)) return bind(session, wanted, now);
+    if (!must_confirm(*component, session)) return bind(session, wanted, now);
     auto then = [this, asked, wanted](std::optional<ComponentAnswer>& answer, Instant when) {
         auto& bound = *wanted.component;
         auto const make = [&](Session& asker) -> Later {
@@ -185,7 +185,7 @@ Engine::Core::Later Engine::Core::bind_first(Session& session, SharedAsked const
     auto const wanted = candidates.front();
     auto& candidate = *wanted.component;
     candidates.erase(candidates.begin());
-    if (!must_confirm(candidate, session, wanted.as.switching)) {
+    if (!must_confirm(candidate, session)) {
         auto const bound = bind(session, wanted, now);
         auto const& outcome = std::get<Bind::Reply>(bound);
         if (outcome.return_code != ReturnCode::ok) return refused<BindAny::Reply>(outcome.return_code, outcome.reason);

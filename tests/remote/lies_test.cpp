@@ -162,6 +162,25 @@ TEST_F(ALyingSubEngine, IsRefusedWithMoreThanEightLevels) {
     EXPECT_EQ(reported(), "its engines have more than 8 levels");
 }
 
+// The engine that is asked is the first level.
+TEST_F(ALyingSubEngine, MayHaveEightLevelsAndRobots) {
+    auto const deep = [](auto& profile) {
+        auto whole = *profile.profile;
+        auto& robot = whole.sub_profiles.emplace_back(whole);
+        robot.object.name += ".robot1";
+        robot.components.clear();
+        for (auto& parameter : robot.parameters)
+            if (parameter.name == "instance") *parameter.default_value += ".robot1";
+        for (int i = 0; i < 6; ++i) {
+            EngineProfile outer = whole;
+            outer.sub_profiles = {whole};
+            whole = outer;
+        }
+        profile.profile = std::make_shared<EngineProfile const>(whole);
+    };
+    EXPECT_THAT(after(deep), testing::Not(IsEmpty()));
+}
+
 TEST_F(ALyingSubEngine, WaitsIfItReportsMoreThanThisEngineHandles) {
     desk.subscribe("reached_target");
     for (int i = 0; i < 900; ++i)

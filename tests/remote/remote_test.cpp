@@ -227,6 +227,19 @@ TEST_F(SubEngines, AloneConfirmThatTheirComponentsStandStill) {
     EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::ok);
 }
 
+TEST_F(SubEngines, EndAStopWhenTheirComponentsStandStill) {
+    engines.bind(desk, "hall.navigation");
+    engines.execute(desk, go("go", "hall.navigation"));
+    robot().halts_later = true;
+    engines.execute(desk, named("stop", stop("hall.navigation")));
+    engines.advance(200ms);
+    EXPECT_EQ(desk.result_of("go"), "ABORT");
+    EXPECT_EQ(desk.result_of("stop"), "RUNNING");
+    robot().stands_still();
+    engines.advance(50ms);
+    EXPECT_EQ(desk.result_of("stop"), "OK");
+}
+
 TEST_F(SubEngines, ThatAreLostConfirmNoHalt) {
     engines.bind(desk, "hall.navigation");
     engines.execute(desk, go("go", "hall.navigation"));

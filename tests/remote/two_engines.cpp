@@ -90,6 +90,8 @@ private:
         ASSERT_TRUE(std::holds_alternative<Request>(read)) << document << std::get<Fault>(read).reason;
         auto const& [operation, id] = std::get<Request>(read);
         engines_.asked_.push_back(document.substr(1, document.find(' ') - 1));
+        // A link whose session has ended opens another one.
+        if (std::holds_alternative<Connect>(operation) && reads_ && reads_->closed()) session_ = {};
         auto const& session = std::holds_alternative<Resume>(operation) ? std::get<Resume>(operation).session : session_;
         waiting_.emplace_back(id, engines_.hall.begin_to_say(session, operation));
     }
@@ -251,7 +253,7 @@ void TwoEngines::advance(std::chrono::milliseconds time) {
         else
             main.now = {main.now.steady + 50ms, main.now.utc + 50ms};
         hall.advance(50ms);
-        if (wire_ && !wire_->is_dead()) wire_->answer_pings();
+        if (wire_ && !wire_->is_dead() && main_answers_pings) wire_->answer_pings();
         settle();
     }
 }

@@ -74,6 +74,7 @@ public:
     std::function<void(std::function<void()> const&)> on_links = [](auto const& what) { what(); };
     // The clock of the main engine stands still.
     bool main_is_alive = true;
+    bool main_answers_pings = true;
     // Changes the instances that a profile may not have.
     std::string instance_of_main = "main's own";
 

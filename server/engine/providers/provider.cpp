@@ -58,7 +58,8 @@ void Provider::add_halt(std::shared_ptr<HostedComponent> component, Ticket ticke
         auto const halt = std::find_if(waiting, calls_.end(), [&](Call const& c) { return c.is_halt() && c.to == component; });
         if (halt != calls_.end()) calls_.erase(halt);
     }
-    calls_.push_back({.to = std::move(component), .what = {}, .awaited = ticket, .now = now});
+    // The engine repeats a halt that fails: the failure is reported once.
+    calls_.push_back({.to = std::move(component), .what = {}, .awaited = ticket, .now = now, .report = Report::once});
     call_runner();
 }
 

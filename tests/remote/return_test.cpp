@@ -1,0 +1,96 @@
+// What a sub engine restores when its session, or one of its components, returns.
+#include "remote/two_engines.hpp"
+
+namespace rois {
+
+namespace {
+
+Part driving() {
+    auto part = navigation;
+    part.moves = true;
+    return part;
+}
+
+struct ReturningSubEngines : testing::Test {
+    TwoEngines engines{{driving(), speech}};
+    Application desk = engines.main.connect();
+
+    void SetUp() override { engines.bind(desk, "hall.navigation"); }
+    ScriptedComponent& robot() { return engines.hall["navigation"]; }
+    ReturnCode drive(std::string const& id) { return engines.execute(desk, go(id, "hall.navigation")).return_code; }
+    void limit(std::string const& time) {
+        engines.execute(desk, command("set_parameter", "hall.navigation", {value("time_limit", "int", {time})}));
+    }
+};
+
+}  // namespace
+
+// The sub engine ends the session, because there are no signs of life, and keeps the link.
+TEST_F(ReturningSubEngines, HaveANewSessionIfThisEngineHung) {
+    drive("go");
+    desk.subscribe("reached_target");
+    engines.main_is_alive = engines.main_answers_pings = false;
+    engines.advance(6s);
+    EXPECT_THAT(robot().calls, testing::Contains("halt"));
+    engines.main_is_alive = engines.main_answers_pings = true;
+    engines.advance(2s);
+    EXPECT_THAT(desk.received(), testing::Contains(HasSubstr("completed go ABORT")));
+    EXPECT_THAT(engines.reported, testing::Contains("its session has ended"));
+    EXPECT_EQ(drive("again"), ReturnCode::ok) << "the binding is restored";
+    robot().fires("reached_target", {value("is_final_target", "bool", {"true"})});
+    engines.settle();
+    EXPECT_THAT(desk.received(), testing::Contains(HasSubstr("reached_target hall.navigation")));
+    auto const sessions = engines.hall.engine->statistics().each_session;
+    EXPECT_THAT(sessions, testing::SizeIs(1)) << "the one that was opened by a sign of life has ended";
+}
+
+TEST_F(ReturningSubEngines, AreAskedForABindingUntilTheyGiveIt) {
+    auto guard = engines.hall.connect();
+    engines.cut();
+    engines.advance(4s);
+    guard.bind("navigation");
+    engines.repair();
+    engines.advance(3s);
+    EXPECT_EQ(drive("early"), ReturnCode::error);
+    guard.release("navigation");
+    engines.advance(2s);
+    EXPECT_EQ(drive("later"), ReturnCode::ok);
+}
+
+TEST_F(ReturningSubEngines, AreAskedAgainIfAnApplicationBindsAgain) {
+    auto guard = engines.hall.connect();
+    engines.cut();
+    engines.advance(4s);
+    guard.bind("navigation");
+    engines.repair();
+    engines.advance(3s);
+    EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::out_of_resources);
+    guard.release("navigation");
+    EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::ok);
+    EXPECT_EQ(drive("later"), ReturnCode::ok);
+}
+
+TEST_F(ReturningSubEngines, KeepTheParametersOfWhatRunsIfTheirProfileChanges) {
+    limit("7000");
+    drive("go");
+    robot().changed_to.clear();
+    engines.hall.change({"speech"}, {});
+    engines.advance(2s);
+    EXPECT_THAT(desk.search(), ElementsAre("hall.navigation"));
+    EXPECT_THAT(robot().changed_to, IsEmpty());
+}
+
+TEST_F(ReturningSubEngines, HaveTheLastParametersOfStart) {
+    limit("7000");
+    engines.execute(desk, named("go", start("hall.navigation", {value("target_position", "string[]", {"b"}),
+                                                                value("time_limit", "int", {"8000"})})));
+    EXPECT_EQ(desk.result_of("go"), "RUNNING");
+    engines.cut();
+    engines.advance(4s);
+    engines.repair();
+    engines.advance(5s);
+    ASSERT_NE(find(robot().changed_to, "time_limit"), nullptr);
+    EXPECT_THAT(find(robot().changed_to, "time_limit")->values, ElementsAre("8000"));
+}
+
+}  // namespace rois
