@@ -51,7 +51,8 @@ void Acting::note_current(std::string const& ref) {
 // --- Choosing ---
 
 std::vector<std::string> Acting::candidates(ParameterList const& parameters) {
-    Occasion occasion{.session = binding().session, .order = binding().order, .target = {}, .current = current_};
+    Occasion occasion{
+        .session = binding().session, .order = binding().order, .target = {}, .current = current_, .now = sightings_->now()};
     if (auto const* targets = find(parameters, "target_position"); targets != nullptr && !targets->values.empty())
         occasion.target = roster().position_of(targets->values.front());
     if (auto const* person = find(parameters, "target_object_ref"); person != nullptr && !person->values.empty())
@@ -73,6 +74,11 @@ std::optional<ParameterList> Acting::arguments_for(ParameterList const& paramete
         parameter.data_type_ref.codebook_ref = own->codebook_ref;
     }
     return arguments;
+}
+
+// In a parallel unit the commands of other components begin before this one has chosen again.
+void Acting::planned(std::string const& ref) {
+    if (description().moves) roster().note_plan(name(), binding().session, roster().find(ref)->engine, sightings_->now());
 }
 
 void Acting::choose_for(SharedAction const& action, Chosen const& chosen) {
@@ -134,7 +140,12 @@ void Acting::note_speech(Action const& action, std::string const& engine, bool s
 void Acting::ended(SharedAction const& action, Completed const& completed) {
     if (action->is_over || action->is_leaving) return;
     bool const is_good = completed.status == CompletedStatus::ok;
-    if (is_good || action->type != "start" || binding().switching == Switching::none) return finish(action, completed);
+    auto const* member = roster().find(action->member);
+    // The application's own limit is no failure. A member that is silent is in ERROR.
+    bool const is_over = completed.status == CompletedStatus::timeout && find(action->parameters, "time_limit") != nullptr &&
+                         member != nullptr && member->can_act();
+    bool const may_switch = action->type == "start" && binding().switching != Switching::none;
+    if (is_good || is_over || !may_switch) return finish(action, completed);
     action->failed.insert(action->member);
     // ABORT: the member stands still. Either its engine has stopped it, or its engine was lost and has ended our session.
     if (completed.status == CompletedStatus::abort) return go_on_with_another(action, completed);

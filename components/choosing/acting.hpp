@@ -60,6 +60,7 @@ private:
     void forget_commands() override;
     void abort_commands() override;
     void members_released() override { current_.clear(); }
+    void planned(std::string const& ref) override;
     void happened(ReceiveEvent const&, Member const&, Instant now) override;
     void changed(Member const&) override { leave_unsuitable(); }
     Member const* shown() override;

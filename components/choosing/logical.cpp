@@ -75,6 +75,11 @@ void Logical::release_unused(std::string const& ref) {
     if (roster_->find(ref)->is_bound && !is_used(ref) && !halting_.contains(ref)) release_member(ref);
 }
 
+void Logical::give_back(std::string const& ref) {
+    halting_.erase(ref);
+    release_unused(ref);
+}
+
 // The member has left, which ended its binding.
 void Logical::forget(Member& member) {
     member.is_bound = false;
@@ -91,6 +96,7 @@ void Logical::prepare(Ticket ticket, std::string_view command_type, ParameterLis
         if (choice.ref.empty() && choice.why.return_code == ReturnCode::bad_parameter)
             return port_->answered(ticket, Refused{choice.why.reason});
         if (choice.ref.empty()) return port_->answered(ticket, Failed{choice.why.reason});
+        if (type == "start") planned(choice.ref);
         release_unused(choice.ref);
         port_->answered(ticket, [this, type, parameters](CommandHandle command, Instant) { begin(type, parameters, command); });
     });

@@ -56,6 +56,8 @@ protected:
     virtual void forget_commands() = 0;
     // Completes all commands with ABORT.
     virtual void abort_commands() = 0;
+    // Called when this member will probably carry out a command, which has not begun yet.
+    virtual void planned(std::string const& /*ref*/) {}
     // Called when the application has released the component: no member is used any more.
     virtual void members_released() {}
     // An event of a member.
@@ -83,6 +85,8 @@ protected:
     void ask(Operation, Answered then);
     void bind_member(std::string const& ref, Answered then);
     void release_unused(std::string const& ref);
+    // Also if it has not confirmed a halt.
+    void give_back(std::string const& ref);
 
     // A member that is bound and accepts the command; or an empty ref, and the reason.
     struct Choice {

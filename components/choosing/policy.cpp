@@ -27,7 +27,8 @@ std::vector<Member*> in_order(std::vector<Member*> members, Occasion const& occa
     auto const rank = [&](Member* member) {
         auto const sorted = std::ranges::find(occasion.order, member->ref) - occasion.order.begin();
         // Distance decides on a command with a target. Other commands follow to the engine that the application uses already.
-        auto const crew = occasion.target ? 0 : roster.count_others_using(occasion.session, member->logical, member->engine);
+        auto const crew =
+            occasion.target ? 0 : roster.count_others_using(occasion.session, member->logical, member->engine, occasion.now);
         return std::tuple{member->has_low_battery,
                           member->status != ComponentStatus::ready,
                           sorted,

@@ -17,6 +17,7 @@ struct Occasion {
     std::vector<std::string> order;               // refs, in the sort order of the application's condition; empty: it has none
     std::optional<std::array<double, 2>> target;  // where it will act, in the main engine's frame, in mm
     std::string current;                          // ref of the member that was chosen last; empty: none
+    Steady now{};
 };
 
 // Another member is chosen only if it is nearer to the target than the current one by more than this.

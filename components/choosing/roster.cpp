@@ -70,13 +70,24 @@ void Roster::note_engine_in_use(std::string const& logical, std::uint64_t sessio
     in_use_[logical] = {session, engine};
 }
 
-void Roster::forget_engine_in_use(std::string const& logical) { in_use_.erase(logical); }
+void Roster::note_plan(std::string const& logical, std::uint64_t session, std::string const& engine, Steady now) {
+    plans_[logical] = {{session, engine}, now};
+}
 
-std::size_t Roster::count_others_using(std::uint64_t session, std::string_view logical, std::string_view engine) const {
+void Roster::forget_engine_in_use(std::string const& logical) {
+    in_use_.erase(logical);
+    plans_.erase(logical);
+}
+
+std::size_t Roster::count_others_using(std::uint64_t session, std::string_view logical, std::string_view engine,
+                                       Steady now) const {
+    auto used = in_use_;
+    for (auto const& [name, plan] : plans_)
+        if (now - plan.made < longest_plan) used[name] = plan.use;
     auto const is_other = [&](auto const& each) {
         return each.first != logical && each.second.session == session && each.second.engine == engine;
     };
-    return static_cast<std::size_t>(std::ranges::count_if(in_use_, is_other));
+    return static_cast<std::size_t>(std::ranges::count_if(used, is_other));
 }
 
 void Roster::note_speech(std::string const& engine, bool speaks, Steady now) {

@@ -53,8 +53,10 @@ public:
     // Notes the engine whose member a logical component uses for the session of an application, until it is forgotten.
     void note_engine_in_use(std::string const& logical, std::uint64_t session, std::string const& engine);
     void forget_engine_in_use(std::string const& logical);
-    // Returns how many other logical components use this engine for the session.
-    std::size_t count_others_using(std::uint64_t session, std::string_view logical, std::string_view engine) const;
+    // Notes that the component will probably use this engine. A plan counts for a second.
+    void note_plan(std::string const& logical, std::uint64_t session, std::string const& engine, Steady now);
+    // Returns how many other logical components use this engine for the session, or will.
+    std::size_t count_others_using(std::uint64_t session, std::string_view logical, std::string_view engine, Steady now) const;
 
     // A member of this engine begins or ends a speech. Members of other engines hear it until 1.5 s after the end.
     void note_speech(std::string const& engine, bool speaks, Steady now);
@@ -71,11 +73,17 @@ private:
         std::uint64_t session;
         std::string engine;
     };
+    struct Plan {
+        InUse use;
+        Steady made;
+    };
+    static constexpr std::chrono::seconds longest_plan{1};
 
     std::map<std::string, Area> areas_;
     int const low_battery_;                                  // in percent
     std::map<std::string, Member, std::less<>> members_;     // by ref
     std::map<std::string, InUse> in_use_;                    // by logical component
+    std::map<std::string, Plan> plans_;                      // likewise
     std::map<std::string, std::optional<Steady>> speakers_;  // by engine: the end of their last speech
     Frames frames_;
     std::vector<NamedPlace> places_;

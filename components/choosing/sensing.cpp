@@ -15,6 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr double metre = 1'000;                             // mm
+constexpr double default_heading_variance = 100;            // square degrees
 constexpr double elsewhere = 0.05;                          // metres; a smaller change of an estimate is not reported
 constexpr std::chrono::milliseconds default_interval{250};  // of minimum_interval
 constexpr std::chrono::milliseconds one_event{1'500};       // equal events of several members within this time are reported once
@@ -37,6 +38,14 @@ std::optional<Matrix> covariance_of(Located const& located) {
     Matrix matrix;
     matrix << given->rows[0], given->rows[1], given->rows[size], given->rows[size + 1];
     return matrix / (metre * metre);
+}
+
+// The third row of the covariance is that of the heading.
+std::optional<Details::Heading> heading_of(Located const& located) {
+    if (located.orientation.size() != 3) return {};
+    auto const* given = std::get_if<Located::Covariance>(&located.certainty);
+    bool const is_known = given != nullptr && given->rows.size() == 9;
+    return Details::Heading{located.orientation[2], is_known ? given->rows[8] : default_heading_variance};
 }
 
 }  // namespace
@@ -178,11 +187,12 @@ void Sensing::lose(Member const& member) {
 
 // --- What the members sense ---
 
+// A member that cannot sense is given back, also if it has not confirmed a halt: nothing moves, and the others go on.
 void Sensing::changed(Member const& member) {
-    if (!is_active_) return;
     if (!member.can_act()) {
         if (started_.erase(member.ref) > 0) lose(member);
-    } else if (!started_.contains(member.ref)) {
+        give_back(member.ref);
+    } else if (is_active_ && !started_.contains(member.ref)) {
         start(member.ref, nullptr);
     }
 }
@@ -229,7 +239,8 @@ void Sensing::take_positions(Event const& event, ReceiveEvent const& received, M
         auto const located = std::ranges::find_if(
             results.located, [&](Located const& each) { return each.of == "position_data" && each.ref == sighting.name; });
         if (located == results.located.end()) continue;
-        sighting.z = located->position[2] / metre;
+        sighting.details.z = located->position[2] / metre;
+        sighting.details.heading = heading_of(*located);
         sighting.covariance = covariance_of(*located);
     }
     fusion->configure(member.engine, {.period = interval_of(parameters_) + longest_pause});
@@ -290,15 +301,21 @@ void Sensing::report_positions(Event const& event, Instant now) {
         told_[person.name] = person.position;
         auto const position = person.position * metre;
         names.push_back(person.name);
-        points.push_back(rounded(position.x()) + ", " + rounded(position.y()));
+        auto const& heading = person.details.heading;
+        points.push_back(rounded(position.x()) + ", " + rounded(position.y()) +
+                         (heading ? ", " + rounded(heading->degrees) : ""));
         Matrix const covariance = person.covariance * (metre * metre);
-        results.located.push_back(
-            {.of = "position_data",
-             .ref = person.name,
-             .crs = frame,
-             .position = {position.x(), position.y(), person.z * metre},
-             .orientation = {},
-             .certainty = Located::Covariance{{covariance(0, 0), covariance(0, 1), covariance(1, 0), covariance(1, 1)}}});
+        auto& located = results.located.emplace_back(
+            Located{.of = "position_data",
+                    .ref = person.name,
+                    .crs = frame,
+                    .position = {position.x(), position.y(), person.details.z * metre},
+                    .orientation = {},
+                    .certainty = Located::Covariance{{covariance(0, 0), covariance(0, 1), covariance(1, 0), covariance(1, 1)}}});
+        if (!heading) continue;
+        located.orientation = {0, 0, heading->degrees};
+        located.certainty = Located::Covariance{
+            {covariance(0, 0), covariance(0, 1), 0, covariance(1, 0), covariance(1, 1), 0, 0, 0, heading->variance}};
     }
     if (!were_there && names.empty()) return;
     results.parameters = {date_time("timestamp", now.utc),

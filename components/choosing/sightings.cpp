@@ -25,12 +25,13 @@ void Sightings::begin(std::string const& kind) {
                 kind,
                 Kind{Fusion{{.prefix = kind + "-", .matching = {}, .longest_age = kind == "sound" ? end_of_sound : longest_age}}})
             .first;
-    ++place->second.used;
+    auto& [fusion, used] = place->second;
+    if (used++ == 0) fusion.wake(now_);
 }
 
 void Sightings::end(std::string const& kind) {
     auto const found = kinds_.find(kind);
-    if (found != kinds_.end()) --found->second.used;
+    if (found != kinds_.end() && --found->second.used == 0) found->second.fusion.rest(now_);
 }
 
 Fusion* Sightings::fusion_of(std::string_view kind) {

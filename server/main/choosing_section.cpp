@@ -1,6 +1,8 @@
 #include "main/choosing_section.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -24,6 +26,33 @@ bool is_list_of_names(json const& value) {
     if (!value.is_array() || value.empty() || !std::ranges::all_of(value, is_name)) return false;
     auto const names = value.get<std::vector<std::string>>();
     return std::set<std::string>{names.begin(), names.end()}.size() == names.size();
+}
+
+// The components of RoIS of each kind. Others may have any name.
+constexpr std::array<std::string_view, 7> acting{"navigation",      "move",           "follow", "speech_synthesis", "reaction",
+                                                 "audio_streaming", "video_streaming"};
+constexpr std::array<std::string_view, 9> sensing{"person_detection",   "person_localization", "person_identification",
+                                                  "face_detection",     "face_localization",   "sound_detection",
+                                                  "sound_localization", "speech_recognition",  "gesture_recognition"};
+
+// Returns why a component cannot be in this list, or an empty text.
+std::string why_not_in(std::string_view list, std::string const& name) {
+    auto const is_in = [&](auto const& names) { return std::ranges::find(names, name) != names.end(); };
+    if (name == "system_information") return "cannot be logical: a query without a condition joins the answers of all engines";
+    if (list == "logical" && is_in(sensing)) return "senses: it belongs to \"sensing\"";
+    if (list == "sensing" && is_in(acting)) return "acts: it belongs to \"logical\"";
+    return {};
+}
+
+// In mm^2, by the shoelace formula.
+double surface(choosing::Area const& corners) {
+    double twice = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        auto const& a = corners[i];
+        auto const& b = corners[(i + 1) % corners.size()];
+        twice += a[0] * b[1] - b[0] * a[1];
+    }
+    return std::abs(twice) / 2;
 }
 
 bool is_area(json const& value) {
@@ -57,6 +86,7 @@ choosing::Settings read(json const& section, std::vector<remote::SubEngine> cons
         for (auto const& name : *names) {
             if (name.find('.') != name.npos)
                 bad(key, rois::quoted(name) + " must be the name of a component without its engine, such as \"navigation\"");
+            if (auto const why = why_not_in(key, name); !why.empty()) bad(key, rois::quoted(name) + " " + why);
             if (!taken.insert(name).second) bad(key, rois::quoted(name) + " is in \"logical\" already");
         }
     }
@@ -79,7 +109,10 @@ choosing::Settings read(json const& section, std::vector<remote::SubEngine> cons
         if (!is_area(corners))
             bad("areas", "the area of " + rois::quoted(name) + " must have at least three corners, [x, y] in mm, not " +
                              rois::quoted(corners.dump(), 100));
-        settings.areas[name] = corners.template get<choosing::Area>();
+        auto const& area = settings.areas[name] = corners.template get<choosing::Area>();
+        if (!(surface(area) > 0))
+            bad("areas", "the area of " + rois::quoted(name) + " has no surface: its corners must not lie on one line, as " +
+                             rois::quoted(corners.dump(), 100) + " do");
     }
     return settings;
 }

@@ -154,6 +154,15 @@ TEST(ATeam, ForgetsWhoDroveWhenTheDrivingComponentIsReplaced) {
     EXPECT_THAT(team.world["robot2.speech"].calls, Not(Contains("start")));
 }
 
+TEST_F(TwoRobots, SpeakIfTheyDriveInAParallelUnit) {
+    desk.bind("navigation");
+    desk.bind("speech");
+    desk.execute(in_parallel({drive_to("go", {"9000, 0, 0"}), say("hello")}));
+    EXPECT_EQ(team.starts_of("robot2"), 1);
+    EXPECT_THAT(world["robot2.speech"].calls, Contains("start"));
+    EXPECT_THAT(world["robot1.speech"].calls, Not(Contains("start")));
+}
+
 TEST_F(TwoRobots, AreChosenInTheOrderOfTheCondition) {
     QueryExpression farthest{
         equal("component_type", "urn:x-rois:def:component:OMG::Navigation"),
@@ -291,6 +300,14 @@ TEST_F(TwoRobots, DoNotGoOnIfTheOtherNeverStandsStill) {
     EXPECT_EQ(team.starts_of("robot2"), 0);
     EXPECT_EQ(desk.result_of("go"), "ERROR");
     EXPECT_THAT(desk.reason_of("go"), HasSubstr("robot1.navigation has not confirmed that it stands still"));
+}
+
+TEST_F(TwoRobots, DoNotSwitchAtTheEndOfTheApplicationsOwnTimeLimit) {
+    bind(desk, "navigation", Switching::restart);
+    desk.execute(named("go", start("navigation", {texts("target_position", {"1000, 0, 0"}), integer("time_limit", 6'000)})));
+    team.drive("robot1").finishes(CompletedStatus::timeout);
+    EXPECT_EQ(desk.result_of("go"), "TIMEOUT");
+    EXPECT_EQ(team.starts_of("robot2"), 0);
 }
 
 TEST_F(TwoRobots, SwitchAtMostOnceInFiveSeconds) {

@@ -43,10 +43,10 @@ List list_of(ReceiveEvent const& event) {
     for (auto const& located : event.results->located) {
         auto const* covariance = std::get_if<Located::Covariance>(&located.certainty);
         Listed listed{Vector{located.position[0], located.position[1]} / 1'000, {}};
-        if (covariance != nullptr && covariance->rows.size() == 4) {
+        if (covariance != nullptr && covariance->rows.size() == 9) {
             auto const& c = covariance->rows;
             Matrix matrix;
-            matrix << c[0], c[1], c[2], c[3];
+            matrix << c[0], c[1], c[3], c[4];
             listed.covariance = matrix / 1e6;
         }
         list.emplace(located.ref, listed);

@@ -30,7 +30,7 @@ protected:
     Received list(std::string const& unit, std::vector<Seen> const& persons, double deviation = 0.05) {
         std::vector<Sighting> sightings;
         sightings.reserve(persons.size());
-        for (auto const& [name, position] : persons) sightings.push_back({name, position, 0, round_covariance(deviation)});
+        for (auto const& [name, position] : persons) sightings.push_back({name, position, {}, round_covariance(deviation)});
         return fusion.sensed(unit, after(time), sightings);
     }
 
@@ -352,8 +352,8 @@ TEST_F(Fusing, NamesAreTranslatedInBothDirections) {
 }
 
 TEST_F(Fusing, ZIsPassedThrough) {
-    fusion.sensed("robot1", after(1), std::vector<Sighting>{{"p", {1, 2}, 1.7}});
-    EXPECT_EQ(fusion.persons(after(1))[0].z, 1.7);
+    fusion.sensed("robot1", after(1), std::vector<Sighting>{{"p", {1, 2}, {1.7}}});
+    EXPECT_EQ(fusion.persons(after(1))[0].details.z, 1.7);
 }
 
 TEST_F(Fusing, ThePrefixOfTheNamesIsASetting) {
@@ -376,7 +376,7 @@ TEST_F(Fusing, InvalidCovariancesAreReplacedByTheDefault) {
     skew(0, 1) = 0.5;
     for (Matrix const& bad : {not_finite, negative, singular, skew, Matrix{Matrix::Zero()}, round_covariance(1000)}) {
         Fusion fresh;
-        auto const received = fresh.sensed("robot1", after(1), std::vector<Sighting>{{"p", {1, 2}, 0, bad}});
+        auto const received = fresh.sensed("robot1", after(1), std::vector<Sighting>{{"p", {1, 2}, {}, bad}});
         ASSERT_THAT(received.problems, SizeIs(1));
         EXPECT_THAT(received.problems[0].reason, HasSubstr("default is used"));
         EXPECT_NEAR(fresh.persons(after(1))[0].covariance(0, 0), 0.01, 1e-4);

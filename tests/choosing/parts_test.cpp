@@ -151,7 +151,7 @@ TEST(RandomLists, NeverBreakTheRules) {
             std::vector<Sighting> list;
             for (int n = number(8); n > 0; --n) {
                 Matrix covariance = random_covariance(random) * (number(3) * 0.05);
-                list.push_back({"p" + std::to_string(number(6)), Vector{number(8), number(4)} * 0.3, 0, covariance});
+                list.push_back({"p" + std::to_string(number(6)), Vector{number(8), number(4)} * 0.3, {}, covariance});
             }
             if (number(30) == 0) fusion.lost(unit, when);
             fusion.sensed(unit, when, list);

@@ -89,6 +89,66 @@ TEST_F(TwoEyes, StartAMemberThatComesLater) {
     EXPECT_THAT(eye("robot2").calls, Contains("start"));
 }
 
+TEST_F(TwoEyes, GoOnWithoutOneThatIsLost) {
+    watch();
+    eye("robot1").halts_later = true;
+    eye("robot1").status_now = ComponentStatus::error;
+    team.look();
+    desk.execute(named("stop", stop("localization")));
+    team.look();
+    EXPECT_EQ(desk.result_of("stop"), "OK");
+    desk.execute(named("again", start("localization")));
+    EXPECT_EQ(desk.result_of("again"), "OK");
+    EXPECT_EQ(std::ranges::count(eye("robot2").calls, "start"), 2);
+}
+
+TEST_F(TwoEyes, GoOnWithoutOneThatIsFoundLostAfterTheStop) {
+    watch();
+    eye("robot1").halts_later = true;
+    desk.execute(named("stop", stop("localization")));
+    EXPECT_EQ(desk.result_of("stop"), "RUNNING");
+    eye("robot1").status_now = ComponentStatus::error;
+    world.advance(3s);
+    team.look();
+    desk.execute(named("again", start("localization")));
+    world.advance(1s);
+    EXPECT_EQ(desk.result_of("again"), "OK");
+}
+
+TEST_F(TwoEyes, KeepTheNameOfAPersonWhoStandsWhileNobodyAsks) {
+    watch();
+    see({{"p", 1'000, 2'000}}, {{"q", 1'020, 1'990}, {"r", 6'000, 2'000}}, 2s);
+    auto const before = names();
+    ASSERT_THAT(before, testing::SizeIs(2));
+    desk.execute(stop("localization"));
+    world.advance(20s);
+    desk.execute(start("localization"));
+    see({{"p", 1'000, 2'000}}, {{"q", 1'020, 1'990}, {"r", 6'000, 2'000}}, 2s);
+    EXPECT_EQ(names(), before);
+}
+
+TEST_F(TwoEyes, ReportTheHeadingOfTheLastMeasurement) {
+    watch();
+    for (int i = 0; i < 8; ++i) {
+        auto list = list_of("robot1", {{"p", 1'000, 2'000}});
+        list[2].values = {"1000, 2000, 90"};
+        Located const located{.of = "position_data",
+                              .ref = "p",
+                              .crs = "",
+                              .position = {1'000, 2'000, 0},
+                              .orientation = {0, 0, 90},
+                              .certainty = Located::Covariance{{2'500, 0, 0, 0, 2'500, 0, 0, 0, 64}}};
+        eye("robot1").fires("person_localized", list, {located});
+        world.advance(250ms);
+    }
+    names();
+    auto const event = desk.last_received<ReceiveEvent>();
+    EXPECT_THAT(find(event.results->parameters, "position_data")->values, ElementsAre(testing::EndsWith(", 90")));
+    auto const& located = event.results->located.at(0);
+    EXPECT_THAT(located.orientation, ElementsAre(0, 0, 90));
+    EXPECT_THAT(std::get<Located::Covariance>(located.certainty).rows, testing::SizeIs(9));
+}
+
 TEST_F(TwoEyes, SeeOnePersonWithTwoNamesAsOne) {
     watch();
     see({{"tall", 1'000, 2'000}}, {{"person-7", 1'020, 1'990}}, 2s);

@@ -96,7 +96,7 @@ void Simulator::sense(SimulatedUnit& unit) {
     std::vector<Sighting> list;
     list.reserve(seen.size());
     for (auto const& [i, measured] : seen)
-        list.push_back({unit.names[i], measured, 0, Matrix{Matrix::Identity() * unit.claimed * unit.claimed}});
+        list.push_back({unit.names[i], measured, {}, Matrix{Matrix::Identity() * unit.claimed * unit.claimed}});
     fusion.sensed(unit.name, when(), list);
 }
 

@@ -83,6 +83,14 @@ TEST(ChoosingSection, IsRefusedWithThePlaceTheValueAndTheExpectation) {
               "2:55: areas: 'hall' is not in \"engines\"");
     EXPECT_EQ(complaint(R"({"logical": ["a"], "engines": ["robot1"], "areas": {"robot1": [[0, 0], [1, 1]]}})"),
               "2:55: the area of 'robot1' must have at least three corners, [x, y] in mm, not '[[0,0],[1,1]]'");
+    EXPECT_EQ(complaint(R"({"logical": ["a"], "engines": ["robot1"], "areas": {"robot1": [[0, 0], [1, 1], [2, 2]]}})"),
+              "2:55: the area of 'robot1' has no surface: its corners must not lie on one line, as '[[0,0],[1,1],[2,2]]' do");
+    EXPECT_EQ(complaint(R"({"logical": ["system_information"], "engines": ["robot1"]})"),
+              "2:14: 'system_information' cannot be logical: a query without a condition joins the answers of all engines");
+    EXPECT_EQ(complaint(R"({"logical": ["person_detection"], "engines": ["robot1"]})"),
+              "2:14: 'person_detection' senses: it belongs to \"sensing\"");
+    EXPECT_EQ(complaint(R"({"sensing": ["navigation"], "engines": ["robot1"]})"),
+              "2:14: 'navigation' acts: it belongs to \"logical\"");
     for (std::string const wrong : {"-1", "101", "2.5", "\"20\""})
         EXPECT_EQ(complaint(R"({"logical": ["a"], "engines": ["robot1"], "low_battery": )" + wrong + "}"),
                   "2:55: low_battery must be a number of percent, 0 to 100, not '" + wrong + "'");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 namespace rois::choosing {
 
@@ -12,6 +13,16 @@ using Matrix = Eigen::Matrix2d;
 struct Gaussian {
     Vector mean = Vector::Zero();
     Matrix covariance = Matrix::Identity();
+};
+
+// What is not fused, only passed through: of the latest measurement.
+struct Details {
+    double z = 0;  // metres
+    struct Heading {
+        double degrees = 0;
+        double variance = 0;
+    };
+    std::optional<Heading> heading{};
 };
 
 // The position of a person in metres, and the velocity in metres per second.

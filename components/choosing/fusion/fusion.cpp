@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <utility>
 
 namespace rois::choosing {
 namespace {
@@ -14,10 +15,11 @@ constexpr auto between_steps = milliseconds{100};
 constexpr auto between_comparisons = milliseconds{250};
 constexpr auto between_judgements = milliseconds{1000};
 constexpr auto short_absence = milliseconds{1500};  // of a person from one unit's lists; the track then continues
-constexpr double farthest_position = 1e6;           // metres; limits rounding errors
-constexpr double least_deviation = 0.001;           // metres; a unit cannot be more certain
-constexpr double largest_deviation = 100.0;         // metres
-constexpr double notable_turn = 0.07;               // radians, 4 degrees
+constexpr auto longest_rest = std::chrono::minutes{1};
+constexpr double farthest_position = 1e6;    // metres; limits rounding errors
+constexpr double least_deviation = 0.001;    // metres; a unit cannot be more certain
+constexpr double largest_deviation = 100.0;  // metres
+constexpr double notable_turn = 0.07;        // radians, 4 degrees
 
 bool is_usable(Matrix const& covariance) {
     return is_covariance(covariance) && covariance.trace() < 2 * largest_deviation * largest_deviation;
@@ -49,7 +51,8 @@ void Fusion::configure(std::string_view unit, UnitSettings const& settings) {
     units_[static_cast<std::size_t>(index_of(unit))].settings = settings;
 }
 
-Received Fusion::sensed(std::string_view name, Steady when, std::span<Sighting const> list) {
+Received Fusion::sensed(std::string_view name, Steady at, std::span<Sighting const> list) {
+    Steady const when = counted(at);
     int const index = index_of(name);
     Unit& unit = units_[static_cast<std::size_t>(index)];
     Received received;
@@ -79,7 +82,7 @@ Received Fusion::sensed(std::string_view name, Steady when, std::span<Sighting c
     is_news |= unit.tracks.size() > listed.size();
     drop_unlisted(unit, listed, when);
     if (is_news) last_step_.reset();
-    advance(when);
+    advance_to(when);
     return received;
 }
 
@@ -89,7 +92,7 @@ std::optional<Measurement> Fusion::checked(Sighting const& sighting, Unit const&
         return {};
     }
     if (!sighting.position.allFinite() || sighting.position.cwiseAbs().maxCoeff() > farthest_position ||
-        !std::isfinite(sighting.z)) {
+        !std::isfinite(sighting.details.z)) {
         received.problems.push_back({sighting.name, "the position is not finite, or is too large; the sighting is ignored"});
         return {};
     }
@@ -102,7 +105,7 @@ std::optional<Measurement> Fusion::checked(Sighting const& sighting, Unit const&
         covariance = (*sighting.covariance + sighting.covariance->transpose()) / 2;
     }
     covariance += Matrix::Identity() * least_deviation * least_deviation;
-    return Measurement{{sighting.position, covariance}, sighting.z};
+    return Measurement{{sighting.position, covariance}, sighting.details};
 }
 
 // Continues the unit's track of this name, or begins a new one.
@@ -139,16 +142,29 @@ void Fusion::drop_all(Unit& unit, Steady when) {
     unit.missing.clear();
 }
 
-void Fusion::lost(std::string_view name, Steady when) {
+void Fusion::lost(std::string_view name, Steady at) {
     if (!find(name)) return;
+    Steady const when = counted(at);
     int const index = index_of(name);
     drop_all(units_[static_cast<std::size_t>(index)], when);
     placement_.forget(index);
     last_step_.reset();
-    advance(when);
+    advance_to(when);
 }
 
-void Fusion::advance(Steady when) {
+void Fusion::rest(Steady when) { rests_since_ = when; }
+
+void Fusion::wake(Steady when) {
+    if (!rests_since_) return;
+    auto const pause = when - *std::exchange(rests_since_, {});
+    if (pause <= longest_rest) rested_ += pause;
+}
+
+Steady Fusion::counted(Steady when) const { return (rests_since_ ? std::min(when, *rests_since_) : when) - rested_; }
+
+void Fusion::advance(Steady at) { advance_to(counted(at)); }
+
+void Fusion::advance_to(Steady when) {
     now_ = std::max(now_.value_or(when), when);
     if (last_step_ && *now_ - *last_step_ < between_steps) return;
     last_step_ = *now_;
@@ -190,7 +206,8 @@ void Fusion::compare(Track const& one, Track const& other, Steady when) {
     placement_.compare(one, other, unmerged, when);
 }
 
-std::vector<FusedPerson> Fusion::persons(Steady when) const {
+std::vector<FusedPerson> Fusion::persons(Steady at) const {
+    Steady const when = counted(at);
     std::vector<Person const*> named;
     for (auto const& [id, person] : people_.all())
         if (person.is_announced()) named.push_back(&person);
@@ -198,7 +215,8 @@ std::vector<FusedPerson> Fusion::persons(Steady when) const {
     std::vector<FusedPerson> result;
     for (Person const* person : named) {
         Gaussian const position = person->at(when).position;
-        FusedPerson& fused = result.emplace_back(FusedPerson{person->name, position.mean, position.covariance, person->z(), {}});
+        FusedPerson& fused =
+            result.emplace_back(FusedPerson{person->name, position.mean, position.covariance, person->details(), {}});
         auto tracks = person->tracks;
         std::ranges::sort(tracks, {}, &Track::unit);
         for (Track const* track : tracks)

@@ -27,7 +27,7 @@ namespace rois::choosing {
 struct Sighting {
     std::string name;  // the unit's own; no other unit needs to use the same name for the same person
     Vector position = Vector::Zero();
-    double z = 0;                                     // not fused, only passed through
+    Details details{};
     std::optional<Matrix> covariance = std::nullopt;  // in m^2; absent: UnitSettings::deviation
 };
 
@@ -43,7 +43,7 @@ struct FusedPerson {
     std::string name;  // "person-1"; never given to another person
     Vector position;
     Matrix covariance;
-    double z = 0;  // of the unit with the latest measurement
+    Details details{};
     // In the order in which the units were first seen. Empty: no unit senses the person now. The position is then a guess.
     std::vector<SensedBy> sensed_by;
 };
@@ -89,6 +89,11 @@ public:
     // A unit has left: it senses no person until its next list.
     void lost(std::string_view unit, Steady when);
 
+    // No unit is asked from `when` on. After `wake`, time goes on as if the pause had not been, so that persons who have stayed
+    // where they were keep their names. A pause of more than a minute counts.
+    void rest(Steady when);
+    void wake(Steady when);
+
     // Lets time pass. Call it at least every 0.1 s; otherwise decisions wait for the next list. Earlier times are ignored.
     void advance(Steady when);
 
@@ -120,6 +125,8 @@ private:
         Tracks tracks;   // of the last list
         Tracks missing;  // of the list before, or shortly before: a unit may miss a person once
     };
+    Steady counted(Steady when) const;  // without the pauses
+    void advance_to(Steady when);
     int index_of(std::string_view unit);
     Unit const* find(std::string_view unit) const;
     std::optional<Measurement> checked(Sighting const&, Unit const&, Received&) const;
@@ -136,8 +143,10 @@ private:
     People people_;
     PlacementCheck placement_;
     std::uint64_t last_track_ = 0;
-    std::optional<Steady> now_;        // the latest time that was passed in
-    std::optional<Steady> last_step_;  // empty: the next call of advance() makes a step
+    std::optional<Steady> rests_since_;
+    std::chrono::nanoseconds rested_{};  // pauses that do not count
+    std::optional<Steady> now_;          // the latest time that was passed in
+    std::optional<Steady> last_step_;    // empty: the next call of advance() makes a step
     Steady last_compared_{};
     Steady last_judged_{};
 };

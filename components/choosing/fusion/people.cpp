@@ -43,7 +43,7 @@ void People::remove(Track& track, Steady when) {
         return;
     }
     Steady const seen = track.stands(when) ? when : track.measured();
-    person.last = {track.at(seen), seen, track.z()};
+    person.last = {track.at(seen), seen, track.details()};
 }
 
 void People::bring_back(Track& track, Steady when) {

@@ -34,7 +34,9 @@ double distance_from_line(Vector const& point, Vector const& from, Vector const&
 
 Estimate Person::at(Steady when) const { return is_sensed() ? fused(tracks, when) : predicted(last, when); }
 
-double Person::z() const { return is_sensed() ? (*std::ranges::max_element(tracks, {}, &Track::measured))->z() : last.z; }
+Details const& Person::details() const {
+    return is_sensed() ? (*std::ranges::max_element(tracks, {}, &Track::measured))->details() : last.details;
+}
 
 bool share_a_unit(Person const& a, Person const& b) {
     return std::ranges::any_of(a.tracks, [&](Track const* t) { return b.is_sensed_by(t->unit()); });

@@ -32,7 +32,7 @@ struct Matching {
 struct LastSeen {
     Estimate estimate;
     Steady when;
-    double z = 0;
+    Details details{};
 };
 
 struct Person {
@@ -50,7 +50,7 @@ struct Person {
         return std::ranges::any_of(tracks, [&](Track const* t) { return t->unit() == unit; });
     }
     Estimate at(Steady) const;
-    double z() const;  // of the latest measurement
+    Details const& details() const;
 };
 
 // Whether one unit lists both persons.

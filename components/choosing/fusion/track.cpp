@@ -23,7 +23,7 @@ Track::Track(std::uint64_t id, int unit, std::string name, UnitSettings const& s
       settings_{settings},
       filter_{State::Zero(), StateCovariance::Identity() * first_speed * first_speed},
       measured_{when},
-      z_{first.z} {
+      details_{first.details} {
     filter_.mean.head<2>() = first.position.mean;
     filter_.covariance.topLeftCorner<2, 2>() = first.position.covariance;
     now = at(when);
@@ -69,7 +69,7 @@ void Track::measure(Measurement const& measurement, Steady when) {
     filter_.covariance = (filter_.covariance + filter_.covariance.transpose()).eval() / 2;
     reserve_ = error - filter_.covariance.topLeftCorner<2, 2>();
     measured_ = when;
-    z_ = measurement.z;
+    details_ = measurement.details;
 }
 
 Estimate Track::at(Steady when) const {

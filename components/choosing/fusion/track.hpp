@@ -23,7 +23,7 @@ struct UnitSettings {
 
 struct Measurement {
     Gaussian position;  // in metres
-    double z = 0;       // passed through
+    Details details{};
 };
 
 // Follows one person with a Kalman filter: constant velocity, changed by random accelerations.
@@ -38,7 +38,7 @@ public:
     std::uint64_t id() const { return id_; }  // never used again
     int unit() const { return unit_; }
     std::string const& name() const { return name_; }  // the unit's own name of the person
-    double z() const { return z_; }
+    Details const& details() const { return details_; }
     Steady measured() const { return measured_; }
 
     // Whether a walking person can have come from the last position to this one. If not, the unit now means another person.
@@ -75,7 +75,7 @@ private:
     Filter filter_;
     Matrix reserve_ = Matrix::Zero();  // covariance of the last measurement minus that of the filter; never negative
     Steady measured_;
-    double z_;
+    Details details_;
 };
 
 }  // namespace rois::choosing
