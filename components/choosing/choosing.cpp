@@ -29,6 +29,8 @@ std::vector<std::string> Choosing::change(ComponentChange change, Perform const&
     return left_out;
 }
 
+// A component whose messages and parameters all members still have stays: its commands would end with it. So it does not offer
+// more when a member that lacked something has left.
 void Choosing::change_logical(std::string const& name, bool senses, Members const& members, Profiles& shown,
                               ComponentChange& change) {
     std::vector<std::string> refs;
@@ -46,7 +48,7 @@ void Choosing::change_logical(std::string const& name, bool senses, Members cons
     }
     auto [description, left_out] = common(name, present);
     if (before != shown.end()) {
-        if (*before->second == *description.profile) return;
+        if (is_within(*before->second, *description.profile)) return;
         change.going.push_back(name);
     }
     shown[name] = description.profile;

@@ -66,6 +66,12 @@ void keep_common(ComponentProfile& profile, ComponentProfile const& other, Note 
 
 }  // namespace
 
+bool is_within(ComponentProfile const& small, ComponentProfile const& large) {
+    auto kept = small;
+    keep_common(kept, large, [](auto const&) {});
+    return kept == small;
+}
+
 Common common(std::string const& ref, std::vector<ComponentDescription const*> const& members) {
     auto const& first = *members.front();
     Common common;

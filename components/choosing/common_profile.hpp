@@ -15,6 +15,9 @@ struct Common {
 };
 
 // `members` is not empty. The first one counts most: its profile gives the type and the texts.
+// Returns whether `large` has all messages and parameters of `small`.
+bool is_within(ComponentProfile const& small, ComponentProfile const& large);
+
 Common common(std::string const& ref, std::vector<ComponentDescription const*> const& members);
 
 }  // namespace rois::choosing

@@ -39,10 +39,20 @@ Hold& Hold::operator=(Hold&& other) noexcept {
 
 void Hold::release() {
     auto* const gateway = std::exchange(gateway_, nullptr);
-    if (!gateway) return;
-    if (!queue_->release(place_)) return;
-    Gateway::Lock const lock{*gateway};
-    gateway->readers_.notify(*queue_);
+    if (gateway && queue_->release(place_)) notify(*gateway);
+}
+
+void Hold::delay() {
+    if (gateway_ && queue_->delay(place_)) notify(*gateway_);
+}
+
+void Hold::resume() {
+    if (gateway_) queue_->resume(place_);
+}
+
+void Hold::notify(Gateway& gateway) {
+    Gateway::Lock const lock{gateway};
+    gateway.readers_.notify(*queue_);
 }
 
 // Must not fail: neither call allocates.
@@ -198,6 +208,7 @@ bool PendingAnswer::is_disconnect() const { return std::holds_alternative<Discon
 
 Answer PendingAnswer::take() {
     auto answer = exchange_->take();
+    hold_.resume();
     answer.hold = std::move(hold_);
     return answer;
 }

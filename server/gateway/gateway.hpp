@@ -35,10 +35,15 @@ public:
     Hold& operator=(Hold&& other) noexcept;
     ~Hold() { release(); }
 
+    // The answer cannot be sent yet: from now until `resume`, only the notifications that its operation causes wait for it.
+    void delay();
+    void resume();
+
 private:
     friend class Gateway;
     Hold(Gateway&, std::shared_ptr<NotificationQueue>);
     void release();
+    void notify(Gateway&);
     void leave() {
         if (gateway_ != nullptr) queue_->leave(place_);
     }
@@ -140,6 +145,8 @@ public:
     // Returns whether the operation may change the session of the connection: connect, resume, disconnect.
     bool is_about_session() const;
     bool is_disconnect() const;
+    // The answer is not sent at once.
+    void delay() { hold_.delay(); }
     // Call it once, when the answer has come.
     Answer take();
 

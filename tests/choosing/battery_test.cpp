@@ -58,6 +58,22 @@ TEST_F(TwoBatteries, AreNotShownIfAMemberHasNone) {
     EXPECT_THAT(parameters(desk), AllOf(HasSubstr("mode=7"), Not(HasSubstr("battery"))));
 }
 
+TEST(AThirdRobotWithoutABattery, EndsNoCommandWhenItGoesOrReturns) {
+    Team team{{"robot1", "robot2", "robot3"}};
+    for (auto const* robot : {"robot1", "robot2"})
+        team.world.change({robot + std::string{".navigation"}}, {with_reading(robot, "battery")});
+    for (auto const* robot : {"robot1", "robot2", "robot3"}) team.place(robot, 0, 0);
+    auto desk = team.world.connect();
+    EXPECT_THAT(parameters(desk), Not(HasSubstr("battery")));
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    team.go("robot3");
+    EXPECT_EQ(desk.result_of("go"), "RUNNING");
+    team.come("robot3");
+    EXPECT_EQ(desk.result_of("go"), "RUNNING");
+    team.drive("robot1").finishes();
+    EXPECT_EQ(desk.result_of("go"), "OK");
+}
+
 TEST_F(TwoBatteries, AreLeftForAnotherIfTheyGetLow) {
     bind(desk, "navigation", Switching::restart);
     desk.execute(drive_to("go", {"1000, 0, 0"}));

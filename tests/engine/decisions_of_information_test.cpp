@@ -117,6 +117,7 @@ TEST(Decision22, WhatAComponentReportsComesAfterTheAnswerToItsCommand) {
     auto const answer = desk.notifications().hold();
     desk.execute(named("a", stop("navigation")));
     desk.notifications().leave(answer);
+    desk.notifications().delay(answer);
     world["navigation"].fires("reached_target");
     world["navigation"].reports(ErrorType::user_defined_error, "tired");
     world["detection"].fires("person_detected");

@@ -27,7 +27,8 @@ NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotifi
     if (overflowed_ && std::holds_alternative<ReceiveEvent>(notification->body)) return Pushed::dropped;
     auto const hold = is_held(cause) ? cause : current_;
     reserve_for_held(1);
-    if (is_held(hold)) {
+    bool const would_overtake = std::ranges::any_of(held_, [&](Held const& held) { return is_being_sent(held.by); });
+    if (is_held(hold) || would_overtake) {
         held_.push_back({hold, std::move(notification)});
         ++waiting_;
         return overflowed_ ? Pushed::overflow : Pushed::held;
@@ -39,7 +40,14 @@ NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotifi
     return first ? Pushed::first : Pushed::behind;
 }
 
-bool NotificationQueue::is_held(Hold hold) const { return hold != 0 && std::ranges::binary_search(holds_, hold); }
+bool NotificationQueue::is_held(Hold hold) const {
+    return hold != 0 && std::ranges::binary_search(holds_, hold, {}, &OpenHold::number);
+}
+
+bool NotificationQueue::is_being_sent(Hold hold) const {
+    auto const open = std::ranges::lower_bound(holds_, hold, {}, &OpenHold::number);
+    return open != holds_.end() && open->number == hold && !open->is_delayed;
+}
 
 // Makes room in entries_ for this many more entries and for all held ones.
 void NotificationQueue::reserve_for_held(std::size_t more) {
@@ -161,22 +169,45 @@ NotificationQueue::Next NotificationQueue::after_locked(std::uint64_t sequence) 
 
 NotificationQueue::Hold NotificationQueue::hold() {
     std::lock_guard const lock{mutex_};
-    holds_.push_back(last_hold_ + 1);
+    holds_.push_back({last_hold_ + 1});
     return current_ = ++last_hold_;
 }
 
 bool NotificationQueue::release(Hold hold) noexcept {
     std::lock_guard const lock{mutex_};
-    holds_.erase(std::ranges::lower_bound(holds_, hold));
+    holds_.erase(std::ranges::lower_bound(holds_, hold, {}, &OpenHold::number));
+    return publish() || shows_closed();
+}
+
+bool NotificationQueue::delay(Hold hold) noexcept {
+    std::lock_guard const lock{mutex_};
+    std::ranges::lower_bound(holds_, hold, {}, &OpenHold::number)->is_delayed = true;
+    return publish();
+}
+
+void NotificationQueue::resume(Hold hold) noexcept {
+    std::lock_guard const lock{mutex_};
+    std::ranges::lower_bound(holds_, hold, {}, &OpenHold::number)->is_delayed = false;
+}
+
+// Numbers the held notifications that wait for nothing any more. Returns whether there are some.
+bool NotificationQueue::publish() noexcept {
     auto const before = last_sequence_;
-    for (auto& held : held_) {
-        if (held.by != hold) continue;
-        auto const* lost = std::get_if<Lost>(&held.notification->body);
+    bool would_overtake = false;
+    auto kept = held_.begin();
+    for (auto held = held_.begin(); held != held_.end(); ++held) {
+        would_overtake = would_overtake || is_being_sent(held->by);
+        if (would_overtake || is_held(held->by)) {
+            if (kept != held) *kept = std::move(*held);
+            ++kept;
+            continue;
+        }
+        auto const* lost = std::get_if<Lost>(&held->notification->body);
         last_sequence_ += lost == nullptr ? 1 : lost->count;
-        entries_.push_back({last_sequence_, std::move(held.notification)});
+        entries_.push_back({last_sequence_, std::move(held->notification)});
     }
-    std::erase_if(held_, [&](Held const& held) { return held.by == hold; });
-    return last_sequence_ > before || shows_closed();
+    held_.erase(kept, held_.end());
+    return last_sequence_ > before;
 }
 
 std::uint64_t NotificationQueue::last_sequence() const {

@@ -42,7 +42,7 @@ struct Numbered {
 // Holds a session's notifications: those that are waiting (never read), and those that were sent (read once), for reading again.
 // Any number of readers, each with its own position. Reading marks notifications as sent.
 //
-// `session`, `last_sequence`, `read`, `next`, `release`, `closed`, `waiting` and `wants_signs_of_life` are
+// `session`, `last_sequence`, `read`, `next`, `release`, `delay`, `resume`, `closed`, `waiting` and `wants_signs_of_life` are
 // thread-safe: the queue's own mutex guards them, so readers never wait for a call to the engine. All other functions need the
 // lock that serializes the calls to the engine.
 class NotificationQueue {
@@ -59,7 +59,8 @@ public:
     // numbered and visible when its hold is released. `overflow`, `dropped`: too many wait, so the session must end.
     enum class Pushed : std::uint8_t { first, behind, held, overflow, dropped };
 
-    // Numbers and stores the notification, or holds it if `cause`, or else the current hold, is not released yet. If too many
+    // Numbers and stores the notification, or holds it if `cause`, or else the current hold, is not released yet, or if it would
+    // overtake a held one whose answer is being sent (decision 22: notifications are numbered as things happen). If too many
     // wait, replaces the oldest waiting event by a `Lost`. If there is no event to replace, the queue overflows, and events are
     // dropped from then on.
     Pushed push(std::shared_ptr<OutgoingNotification const>, Hold cause = 0);
@@ -101,7 +102,12 @@ public:
     }
     void enter(Hold hold) { current_ = hold; }
     Hold current() const { return current_; }
-    // Makes the held notifications visible. Cannot fail. Returns whether there are some, or the hold has hidden the end.
+    // The answer cannot be sent yet: other notifications do not wait for it. `resume`: it is being sent now. Cannot fail. `delay`
+    // returns whether notifications became visible.
+    bool delay(Hold) noexcept;
+    void resume(Hold) noexcept;
+    // Makes notifications visible that nothing holds back any more. Cannot fail. Returns whether there are some, or the hold has
+    // hidden the end.
     bool release(Hold) noexcept;
 
     bool closed() const;
@@ -114,6 +120,8 @@ private:
     bool make_room();
     bool make_room_among_held();
     bool is_held(Hold) const;
+    bool is_being_sent(Hold) const;
+    bool publish() noexcept;
     void reserve_for_held(std::size_t more);
     bool shows_closed() const { return closed_ && holds_.empty(); }
     std::vector<Numbered>::const_iterator first_after(std::uint64_t sequence) const;
@@ -133,11 +141,15 @@ private:
     std::uint64_t last_sequence_ = 0;  // of the newest entry
     std::uint64_t lost_ = 0;
     struct Held {
-        Hold by;
+        Hold by;  // 0, or released: it only waits for those before it
         std::shared_ptr<OutgoingNotification const> notification;
     };
-    std::vector<Held> held_;   // entries_ has room for them
-    std::vector<Hold> holds_;  // ascending
+    std::vector<Held> held_;  // oldest first; entries_ has room for them
+    struct OpenHold {
+        Hold number;
+        bool is_delayed = false;
+    };
+    std::vector<OpenHold> holds_;  // ascending
     Hold last_hold_ = 0;
     bool closed_ = false;
     bool overflowed_ = false;

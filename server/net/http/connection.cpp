@@ -204,6 +204,7 @@ Task<Connection::Then> Connection::receive() {
 Connection::Then Connection::take(PendingAnswer&& answer) {
     if (waiting_.empty() && answer.has_come()) return reply(http_answer(answer.take()));
     bool const close = !head_.keep_alive() || loop_.draining();
+    answer.delay();
     waiting_.push_back({std::move(answer), {Framing::Body::sent, close}});
     return close ? Then::linger : Then::next;
 }

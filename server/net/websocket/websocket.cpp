@@ -121,6 +121,7 @@ void WebSocket::take(Received const& received) {
 void WebSocket::take(PendingAnswer&& answer) {
     if (pending_.empty() && answer.has_come()) return answered(answer.take());
     session_changes_ = answer.is_about_session();
+    answer.delay();
     pending_.push_back(std::move(answer));
 }
 

@@ -180,24 +180,53 @@ TEST_F(Queue, NumbersHeldNotificationsWhenTheHoldIsReleased) {
     EXPECT_THAT(read(1), ElementsAre("2 c", "3 e"));
 }
 
-TEST_F(Queue, HoldsBackOnlyNotificationsThatTheOperationCauses) {
+TEST_F(Queue, LetsNoNotificationOvertakeOneWhoseAnswerIsBeingSent) {
+    auto const answer = queue.hold();
+    queue.leave(answer);
+    events(1);
+    EXPECT_EQ(push(Completed{}, answer), Pushed::held);
+    EXPECT_EQ(push(ReceiveEvent{}), Pushed::held) << "it happened later";
+    auto const second = queue.hold();
+    EXPECT_EQ(push(Completed{}), Pushed::held);
+    queue.leave(second);
+    EXPECT_FALSE(queue.release(second));
+    EXPECT_THAT(read(0), ElementsAre("1 e"));
+    EXPECT_TRUE(queue.release(answer));
+    EXPECT_THAT(read(1), ElementsAre("2 c", "3 e", "4 c"));
+    events(1);
+}
+
+TEST_F(Queue, HoldsBackOnlyWhatTheOperationCausesWhileItsAnswerIsDelayed) {
     auto const slow = queue.hold();
     queue.leave(slow);
-    events(1);
+    EXPECT_FALSE(queue.delay(slow));
     EXPECT_EQ(push(Completed{}, slow), Pushed::held) << "by its cause";
+    events(1);
     auto const second = queue.hold();
     EXPECT_EQ(push(Completed{}), Pushed::held) << "while the operation is performed";
     queue.leave(second);
-    events(1);
-    EXPECT_THAT(read(0), ElementsAre("1 e", "2 e"));
     queue.release(second);
-    EXPECT_THAT(read(2), ElementsAre("3 c")) << "the slow answer keeps nothing else back";
+    EXPECT_THAT(read(0), ElementsAre("1 e", "2 c")) << "the slow answer keeps nothing else back";
     queue.enter(slow);
     EXPECT_EQ(push(ReceiveEvent{}), Pushed::held);
+    queue.leave(slow);
+    queue.resume(slow);
+    EXPECT_EQ(push(ReceiveEvent{}), Pushed::held) << "the answer is being sent";
     queue.release(slow);
-    EXPECT_THAT(read(3), ElementsAre("4 c", "5 e"));
+    EXPECT_THAT(read(2), ElementsAre("3 c", "4 e", "5 e"));
     EXPECT_THAT(push(Completed{}, slow), AnyOf(Pushed::first, Pushed::behind)) << "its answer was sent";
     events(1);
+}
+
+TEST_F(Queue, ShowsWhatWaitedForAnAnswerThatIsDelayed) {
+    auto const answer = queue.hold();
+    queue.leave(answer);
+    push(Completed{}, answer);
+    push(ReceiveEvent{});
+    EXPECT_TRUE(queue.delay(answer));
+    EXPECT_THAT(read(0), ElementsAre("1 e"));
+    EXPECT_TRUE(queue.release(answer));
+    EXPECT_THAT(read(1), ElementsAre("2 c"));
 }
 
 TEST_F(Queue, MayDropHeldEvents) {
@@ -253,6 +282,7 @@ TEST(QueueOfAnyLength, ReadsTheSameFromBothStores) {
             if (chance(2) && straight.queue.waiting() < (event ? 7U : 4U))
                 both([&](Seldom& queue) { return event ? queue.push(ReceiveEvent{}) : queue.push(Completed{}); });
             if (chance(12)) holds.push_back(both([](Seldom& queue) { return queue.queue.hold(); }));
+            if (!holds.empty() && chance(9)) both([&](Seldom& queue) { return queue.queue.delay(holds.front()); });
             if (!holds.empty() && chance(6)) {
                 both([&](Seldom& queue) { return queue.queue.release(holds.front()); });
                 holds.erase(holds.begin());
