@@ -29,8 +29,8 @@ std::vector<std::string> Choosing::change(ComponentChange change, Perform const&
     return left_out;
 }
 
-// A component whose messages and parameters all members still have stays: its commands would end with it. So it does not offer
-// more when a member that lacked something has left.
+// A component that is bound stays while all members have its messages and parameters: its commands would end with it. If a member
+// that lacked something has left, it offers more after the next change for which nobody has bound it.
 void Choosing::change_logical(std::string const& name, bool senses, Members const& members, Profiles& shown,
                               ComponentChange& change) {
     std::vector<std::string> refs;
@@ -48,7 +48,9 @@ void Choosing::change_logical(std::string const& name, bool senses, Members cons
     }
     auto [description, left_out] = common(name, present);
     if (before != shown.end()) {
-        if (is_within(*before->second, *description.profile)) return;
+        bool const may_stay =
+            roster_->is_bound(name) ? is_within(*before->second, *description.profile) : *before->second == *description.profile;
+        if (may_stay) return;
         change.going.push_back(name);
     }
     shown[name] = description.profile;

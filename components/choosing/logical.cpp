@@ -24,6 +24,7 @@ Logical::Logical(ComponentDescription description, std::shared_ptr<Roster> roste
 void Logical::attach(ComponentPort& port) {
     port_ = &port;
     roster_->forget_engine_in_use(name());
+    roster_->note_bound(name(), false);
     show();
 }
 
@@ -43,11 +44,13 @@ void Logical::bind(Ticket ticket, Binding const& binding, Instant) {
     bool const is_possible = binding.session == binding_.session || std::ranges::any_of(members_, &Member::can_act);
     if (!is_possible) return port_->answered(ticket, Refused{none_is_free()});
     binding_ = binding;
+    roster_->note_bound(name(), true);
     port_->answered(ticket, Done{});
 }
 
 void Logical::released(Instant) {
     roster_->forget_engine_in_use(name());
+    roster_->note_bound(name(), false);
     binding_ = {};
     members_released();
     for (auto const* member : members_) release_unused(member->ref);

@@ -26,11 +26,13 @@ bool is_inside(Area const& area, double x, double y) {
 
 Roster::Roster(Settings const& settings) : areas_{settings.areas}, low_battery_{settings.low_battery} {
     for (auto const* names : {&settings.logical, &settings.sensing})
-        for (auto const& logical : *names)
+        for (auto const& logical : *names) {
+            bound_[logical] = false;
             for (std::size_t i = 0; i < settings.engines.size(); ++i) {
                 auto const ref = settings.engines[i] + "." + logical;
                 members_[ref] = {.ref = ref, .engine = settings.engines[i], .logical = logical, .preference = i};
             }
+        }
 }
 
 Member* Roster::find(std::string_view ref) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -50,6 +51,10 @@ public:
     // The number of members in use, by engine. Engines without one are missing.
     std::map<std::string_view, std::size_t> loads() const;
 
+    // Whether an application has bound the logical component. Thread-safe.
+    bool is_bound(std::string const& logical) const { return bound_.at(logical); }
+    void note_bound(std::string const& logical, bool yes) { bound_.at(logical) = yes; }
+
     // Notes the engine whose member a logical component uses for the session of an application, until it is forgotten.
     void note_engine_in_use(std::string const& logical, std::uint64_t session, std::string const& engine);
     void forget_engine_in_use(std::string const& logical);
@@ -82,6 +87,7 @@ private:
     std::map<std::string, Area> areas_;
     int const low_battery_;                                  // in percent
     std::map<std::string, Member, std::less<>> members_;     // by ref
+    std::map<std::string, std::atomic<bool>> bound_;         // by logical component; all of them, from the beginning
     std::map<std::string, InUse> in_use_;                    // by logical component
     std::map<std::string, Plan> plans_;                      // likewise
     std::map<std::string, std::optional<Steady>> speakers_;  // by engine: the end of their last speech
