@@ -17,7 +17,7 @@ inline Condition is_component(std::string ref) {
 
 // The part that all answers have.
 inline Outcome const& outcome_of(Reply const& reply) {
-    return std::visit([](Outcome const& outcome) -> Outcome const& { return outcome; }, reply);
+    return *std::visit([](Outcome const& outcome) { return &outcome; }, reply);
 }
 
 // The rows of an answer to a query; none if it is null or not OK.

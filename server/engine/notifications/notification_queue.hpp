@@ -146,7 +146,7 @@ private:
     };
     std::vector<Held> held_;  // oldest first; entries_ has room for them
     struct OpenHold {
-        Hold number;
+        Hold number = 0;
         bool is_delayed = false;
     };
     std::vector<OpenHold> holds_;  // ascending
