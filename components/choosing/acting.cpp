@@ -141,7 +141,8 @@ void Acting::ended(SharedAction const& action, Completed const& completed) {
     if (action->is_over || action->is_leaving) return;
     bool const is_good = completed.status == CompletedStatus::ok;
     auto const* member = roster().find(action->member);
-    // The application's own limit is no failure. A member that is silent is in ERROR.
+    // The member has not failed if the application's own time limit has passed. A member that does not answer has the status
+    // ERROR.
     bool const is_over = completed.status == CompletedStatus::timeout && find(action->parameters, "time_limit") != nullptr &&
                          member != nullptr && member->can_act();
     bool const may_switch = action->type == "start" && binding().switching != Switching::none;

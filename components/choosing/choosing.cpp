@@ -29,8 +29,8 @@ std::vector<std::string> Choosing::change(ComponentChange change, Perform const&
     return left_out;
 }
 
-// A component that is bound stays while all members have its messages and parameters: its commands would end with it. If a member
-// that lacked something has left, it offers more after the next change for which nobody has bound it.
+// A component that is bound stays while all members have its messages and parameters: its commands would end with it. When a
+// member that lacked something has left, the component is replaced with the next change while no application has bound it.
 void Choosing::change_logical(std::string const& name, bool senses, Members const& members, Profiles& shown,
                               ComponentChange& change) {
     std::vector<std::string> refs;

@@ -83,13 +83,17 @@ void Roster::forget_engine_in_use(std::string const& logical) {
 
 std::size_t Roster::count_others_using(std::uint64_t session, std::string_view logical, std::string_view engine,
                                        Steady now) const {
-    auto used = in_use_;
-    for (auto const& [name, plan] : plans_)
-        if (now - plan.made < longest_plan) used[name] = plan.use;
-    auto const is_other = [&](auto const& each) {
-        return each.first != logical && each.second.session == session && each.second.engine == engine;
+    auto const is_plan = [&](Plan const& plan) { return now - plan.made < longest_plan; };
+    auto const is_meant = [&](std::string const& name, InUse const& use) {
+        return name != logical && use.session == session && use.engine == engine;
     };
-    return static_cast<std::size_t>(std::ranges::count_if(used, is_other));
+    auto const planned = std::ranges::count_if(
+        plans_, [&](auto const& each) { return is_plan(each.second) && is_meant(each.first, each.second.use); });
+    auto const used = std::ranges::count_if(in_use_, [&](auto const& each) {
+        auto const plan = plans_.find(each.first);
+        return is_meant(each.first, each.second) && (plan == plans_.end() || !is_plan(plan->second));
+    });
+    return static_cast<std::size_t>(planned + used);
 }
 
 void Roster::note_speech(std::string const& engine, bool speaks, Steady now) {

@@ -245,7 +245,7 @@ void Sensing::take_positions(Event const& event, ReceiveEvent const& received, M
     }
     fusion->configure(member.engine, {.period = interval_of(parameters_) + longest_pause});
     report_problems(member, fusion->sensed(member.engine, now.steady, sightings));
-    has_new_list_ = true;
+    has_news_ = true;
 }
 
 // Once, until a list of the member has no problem.
@@ -266,9 +266,10 @@ void Sensing::time_passed(Instant now) {
         auto* fusion = event.reports == Reports::positions ? sightings_->fusion_of(event.kind) : nullptr;
         if (fusion == nullptr) continue;
         report_misplaced(event);
+        if (!fusion->take_changes().empty()) has_news_ = true;
         auto const since = now.steady - reported_at_;
         auto const interval = interval_of(parameters_);
-        bool const is_due = since >= interval && (has_new_list_ || (since >= 2 * interval && differs(*fusion, now)));
+        bool const is_due = since >= interval && (has_news_ || (since >= 2 * interval && differs(*fusion, now)));
         if (is_due) report_positions(event, now);
     }
     for (auto const& event : events_)
@@ -290,7 +291,7 @@ bool Sensing::differs(Fusion const& fusion, Instant now) const {
 }
 
 void Sensing::report_positions(Event const& event, Instant now) {
-    has_new_list_ = false;
+    has_news_ = false;
     bool const were_there = !std::exchange(told_, {}).empty();
     reported_at_ = now.steady;
     Results results;

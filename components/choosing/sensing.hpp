@@ -81,7 +81,7 @@ private:
         ParameterList content;  // without the timestamp
     };
     std::vector<Reported> reported_;      // the last events without positions
-    bool has_new_list_ = false;           // of a member, since the last report of positions
+    bool has_news_ = false;               // since the last report of positions: a list of a member, or another name
     std::map<std::string, Vector> told_;  // the positions of the last report, by name, in metres
     Steady reported_at_{};
     std::set<std::string> misplaced_;  // engines

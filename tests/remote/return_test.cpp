@@ -18,6 +18,16 @@ struct ReturningSubEngines : testing::Test {
     void SetUp() override { engines.bind(desk, "hall.navigation"); }
     ScriptedComponent& robot() { return engines.hall["navigation"]; }
     ReturnCode drive(std::string const& id) { return engines.execute(desk, go(id, "hall.navigation")).return_code; }
+    // The sub engine returns while one of its own applications has bound the component.
+    Application return_bound_by_another() {
+        auto other = engines.hall.connect();
+        engines.cut();
+        engines.advance(4s);
+        other.bind("navigation");
+        engines.repair();
+        engines.advance(3s);
+        return other;
+    }
     void limit(std::string const& time) {
         engines.execute(desk, command("set_parameter", "hall.navigation", {value("time_limit", "int", {time})}));
     }
@@ -45,12 +55,7 @@ TEST_F(ReturningSubEngines, HaveANewSessionIfThisEngineHung) {
 }
 
 TEST_F(ReturningSubEngines, AreAskedForABindingUntilTheyGiveIt) {
-    auto guard = engines.hall.connect();
-    engines.cut();
-    engines.advance(4s);
-    guard.bind("navigation");
-    engines.repair();
-    engines.advance(3s);
+    auto guard = return_bound_by_another();
     EXPECT_EQ(drive("early"), ReturnCode::error);
     guard.release("navigation");
     engines.advance(2s);
@@ -58,12 +63,7 @@ TEST_F(ReturningSubEngines, AreAskedForABindingUntilTheyGiveIt) {
 }
 
 TEST_F(ReturningSubEngines, AreAskedAgainIfAnApplicationBindsAgain) {
-    auto guard = engines.hall.connect();
-    engines.cut();
-    engines.advance(4s);
-    guard.bind("navigation");
-    engines.repair();
-    engines.advance(3s);
+    auto guard = return_bound_by_another();
     EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::out_of_resources);
     guard.release("navigation");
     EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::ok);
