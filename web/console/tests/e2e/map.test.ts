@@ -315,7 +315,7 @@ describe('people', () => {
       await pass_until(page, page.getByText('robot1 has reached start'));
       await hall.walk('tanaka', '8000, 6000, 180');
       await pass_until(page, row(page, /tanaka/), 200);
-      await row(page, /tanaka person-\d/).getByText(/x (7\.9|8\.[01])\d m, y (5\.9|6\.0)/).waitFor();
+      await pass_until(page, row(page, /tanaka person-\d/).getByText(/x (7\.9|8\.[01])\d m, y (5\.9|6\.0)/), 200);
       const trails = await page.evaluate(() => [...(window as unknown as { rois: Console }).rois.entities.all.values()].filter((one) => one.kind === 'person').map((one) => one.trail.size));
       expect(trails.every((points) => points > 1), `trails of ${trails.join(', ')} points`).toBe(true);
       await hall.say('tanaka', 'Good morning, is anybody there? I have come for the meeting at ten.');
@@ -342,7 +342,7 @@ describe('people', () => {
       await page.locator('.exchange-came').getByText('OK', { exact: true }).waitFor();
       for (const x of [9, 8]) {
         await hall.walk('tanaka', `${x}000, 6000, 180`);
-        await row(page, /tanaka|person-/).getByText(new RegExp(`x (${x}\\.[0-3]|${x - 1}\\.[6-9])\\d m`)).waitFor();
+        await pass_until(page, row(page, /tanaka|person-/).getByText(new RegExp(`x (${x}\\.[0-3]|${x - 1}\\.[6-9])\\d m`)), 200);
       }
       await page.locator('.map').getByText(/5 components work, news 1 s ago/).waitFor();
       expect(await page.locator('.map').getByText('results do not arrive').count()).toBe(0);
