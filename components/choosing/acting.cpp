@@ -51,6 +51,7 @@ void Acting::note_current(std::string const& ref) {
 // --- Choosing ---
 
 std::vector<std::string> Acting::candidates(ParameterList const& parameters) {
+    if (auto const* current = roster().find(current_); is_active_ && current != nullptr && current->can_act()) return {current_};
     Occasion occasion{
         .session = binding().session, .order = binding().order, .target = {}, .current = current_, .now = sightings_->now()};
     if (auto const* targets = find(parameters, "target_position"); targets != nullptr && !targets->values.empty())
@@ -217,6 +218,7 @@ void Acting::go_on_with_another(SharedAction const& action, Completed const& com
 void Acting::finish(SharedAction const& action, Completed const& completed) {
     if (std::exchange(action->is_over, true)) return;
     std::erase(actions_, action);
+    if (completed.active && action->member == current_) is_active_ = *completed.active;
     auto const afterwards = !completed.active ? Afterwards::as_before : *completed.active ? Afterwards::active : Afterwards::idle;
     port().completed(action->handle, completed.status, completed.results ? *completed.results : Results{}, afterwards,
                      completed.reason);
@@ -225,13 +227,24 @@ void Acting::finish(SharedAction const& action, Completed const& completed) {
 void Acting::forget_commands() {
     for (auto const& action : actions_) action->is_over = true;
     actions_.clear();
+    is_active_ = false;
 }
 
 void Acting::abort_commands() {
     for (auto const* member : members()) roster().note_speech(member->engine, false, sightings_->now());
     for (auto const& action : std::vector{actions_})
         finish(action, {{}, CompletedStatus::abort, {}, "its session has ended", {}});
+    use_none();
+}
+
+void Acting::use_none() {
     current_.clear();
+    is_active_ = false;
+}
+
+void Acting::changed(Member const& member) {
+    if (member.ref == current_ && !member.can_act()) is_active_ = false;
+    leave_unsuitable();
 }
 
 void Acting::happened(ReceiveEvent const& event, Member const& member, Instant) {

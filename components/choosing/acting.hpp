@@ -59,14 +59,16 @@ private:
 
     void forget_commands() override;
     void abort_commands() override;
-    void members_released() override { current_.clear(); }
+    void members_released() override { use_none(); }
+    void use_none();
     void planned(std::string const& ref) override;
     void happened(ReceiveEvent const&, Member const&, Instant now) override;
-    void changed(Member const&) override { leave_unsuitable(); }
+    void changed(Member const&) override;
     Member const* shown() override;
 
     std::shared_ptr<Sightings> const sightings_;
-    std::string current_;  // ref of the member that was chosen last
+    std::string current_;     // ref of the member that was chosen last
+    bool is_active_ = false;  // a function of it goes on, such as a stream: all commands belong to it
     std::vector<SharedAction> actions_;
 };
 

@@ -29,7 +29,7 @@ std::string why_not_free(RegisteredComponent const& component) {
 
 // Also a binding that the session has already: `switching` may be another one, or a sub engine has lost the binding.
 bool must_confirm(RegisteredComponent const& component, Session const& session) {
-    if (!component.confirms_binding() || component.has_failed_to_halt()) return false;
+    if (!component.confirms_binding() || component.has_failed_to_halt() || component.has_departed()) return false;
     return component.is_free() || component.bound_to == &session;
 }
 
@@ -100,6 +100,8 @@ Reply Engine::Core::perform(Session& session, Search const& search, Instant) {
 
 Reply Engine::Core::bind(Session& session, ToBindNow const& wanted, Instant now) {
     auto& component = *wanted.component;
+    if (component.has_departed())
+        return refused<Bind::Reply>(ReturnCode::error, "the component " + quoted(component.ref().code) + " has left");
     bool const mine = component.bound_to == &session;
     switch (Registry::bind(component, session, now)) {
         case Registry::Bound::ok:
@@ -117,6 +119,12 @@ Reply Engine::Core::bind(Session& session, ToBindNow const& wanted, Instant now)
 Engine::Core::Later Engine::Core::perform(Session& session, Bind const& bind_, SharedAsked const& asked, Instant now) {
     auto [component, problem] = registry_.meant(bind_.component_ref);
     if (component == nullptr) return refused<Bind::Reply>(ReturnCode::bad_parameter, std::move(problem));
+    if (component->is_being_halted()) {
+        component->halting->over.emplace_back([this, asked](Instant when) {
+            answer_later(*asked, [&](Session& asker) { return perform(asker, std::get<Bind>(asked->operation()), asked, when); });
+        });
+        return {};
+    }
     ToBindNow wanted{component->shared_from_this(), {.session = session.number, .switching = bind_.switching}};
     if (!must_confirm(*component, session)) return bind(session, wanted, now);
     auto then = [this, asked, wanted](std::optional<ComponentAnswer>& answer, Instant when) {
@@ -184,10 +192,18 @@ Engine::Core::Later Engine::Core::bind_first(Session& session, SharedAsked const
                                              Steady until, Instant now) {
     auto const wanted = candidates.front();
     auto& candidate = *wanted.component;
+    if (candidate.is_being_halted()) {
+        candidate.halting->over.emplace_back([this, asked, candidates = std::move(candidates), until](Instant when) {
+            answer_later(*asked, [&](Session& asker) { return bind_first(asker, asked, candidates, until, when); });
+        });
+        return {};
+    }
     candidates.erase(candidates.begin());
     if (!must_confirm(candidate, session)) {
         auto const bound = bind(session, wanted, now);
         auto const& outcome = std::get<Bind::Reply>(bound);
+        if (outcome.return_code != ReturnCode::ok && !candidates.empty())
+            return bind_first(session, asked, std::move(candidates), until, now);
         if (outcome.return_code != ReturnCode::ok) return refused<BindAny::Reply>(outcome.return_code, outcome.reason);
         BindAny::Reply reply;
         reply.component_ref = candidate.ref();

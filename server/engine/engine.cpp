@@ -430,6 +430,11 @@ std::shared_ptr<NotificationQueue> Engine::notifications(SessionId const& id) co
     return session == nullptr ? nullptr : session->notifications;
 }
 
+bool Engine::is_engine(SessionId const& id) const {
+    auto const* session = core_->find(id);
+    return session != nullptr && session->is_engine;
+}
+
 std::shared_ptr<NotificationQueue> Engine::note_request(SessionId const& id, Instant now) { return core_->note_request(id, now); }
 void Engine::note_pong(SessionId const& id, Instant now) { core_->note_pong(id, now); }
 void Engine::link_opened(SessionId const& id, LinkKind link, Instant now) { core_->link_opened(id, link, now); }

@@ -173,6 +173,8 @@ public:
 
     // Returns the session's queue, or null. The queue stays readable after the session's end.
     std::shared_ptr<NotificationQueue> notifications(SessionId const&) const;
+    // Returns whether the session was opened by another engine (decision 39); false for an unknown one.
+    bool is_engine(SessionId const&) const;
 
     // Signs of life, reported by the network layer: a request or pong was received, a WebSocket or notification stream has opened
     // or closed. Operations renew the motion lease without such a report. `note_request` returns the session's queue, or null.

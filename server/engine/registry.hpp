@@ -1,6 +1,7 @@
 // The components of the engine, with their parameters and bindings (decisions 4 to 7).
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -26,10 +27,11 @@ struct Session;
 
 // A halt that a component has not confirmed (decision 35).
 struct UnconfirmedHalt {
-    bool failed = false;                            // the component threw, or did not confirm in time; its status is ERROR
-    Ticket first{};                                 // of the tickets that confirm it
-    Deadlines::Ticket due;                          // when the time to confirm ends, or the next attempt begins
-    std::vector<std::shared_ptr<Command>> waiting;  // commands that continue once the halt is confirmed; empty if it has failed
+    bool failed = false;                             // the component threw, or did not confirm in time; its status is ERROR
+    Ticket first{};                                  // of the tickets that confirm it
+    Deadlines::Ticket due;                           // when the time to confirm ends, or the next attempt begins
+    std::vector<std::shared_ptr<Command>> waiting;   // commands that continue once the halt is confirmed; empty if it has failed
+    std::vector<std::function<void(Instant)>> over;  // called once it is confirmed, has failed, or the component has left
 };
 
 // A component, and what the engine knows about it.
@@ -147,6 +149,8 @@ public:
 
     std::optional<UnconfirmedHalt> halting;
     bool has_failed_to_halt() const { return halting && halting->failed; }
+    // Released, but perhaps still moving: it can be bound when this is over.
+    bool is_being_halted() const { return bound_to == nullptr && halting && !halting->failed; }
     bool has_stood = false;  // has confirmed a halt at least once
 
     std::uint64_t halts = 0;  // how often it was halted

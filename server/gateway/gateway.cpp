@@ -323,6 +323,7 @@ std::variant<std::unique_ptr<Reading>, Fault> Gateway::read(SessionId const& ses
     }
     readers_.join(*queue, link, reader, until);
     engine_.link_opened(session, link, present());
+    reading->is_of_engine_ = engine_.is_engine(session);
     reading->queue_ = std::move(queue);
     return reading;
 }

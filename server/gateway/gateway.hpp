@@ -80,6 +80,8 @@ public:
     void answered() { closing_ = Closing::answered; }
 
     SessionId const& session() const { return queue_->session(); }
+    // The session is that of another engine, which knows the answers to its requests by their request_id (decision 39).
+    bool is_of_engine() const { return is_of_engine_; }
 
 private:
     friend class Gateway;
@@ -90,6 +92,7 @@ private:
     std::uint64_t after_;
     Reader& reader_;
     std::shared_ptr<NotificationQueue> queue_;  // null until it is among the readers
+    bool is_of_engine_ = false;
 };
 
 // The fault for a request with a missing, unknown or ended session.

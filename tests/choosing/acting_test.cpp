@@ -71,6 +71,27 @@ TEST_F(TwoRobots, FireOneEventForThoseWhoDoNotAskForUnits) {
     EXPECT_THAT(desk.received(), ElementsAre("1 reached_target navigation"));
 }
 
+TEST_F(TwoRobots, AreFoundByTheNameOfTheRobot) {
+    EXPECT_THAT(desk.search(equal("RobotId", "robot2")), ElementsAre("robot2.navigation", "robot2.speech"));
+    EXPECT_THAT(desk.search(equal("RobotId", "main")), ElementsAre("navigation", "speech"));
+}
+
+TEST_F(TwoRobots, KeepTheOneWhoseFunctionIsActive) {
+    for (auto const* ref : {"navigation", "speech"}) desk.bind(ref);
+    desk.execute(named("1", command("dock", "navigation")));
+    ASSERT_THAT(team.drive("robot1").calls, Contains("dock"));
+    team.drive("robot1").finishes(CompletedStatus::ok, {{integer("charge", 1)}, {}}, Afterwards::active);
+    auto hall = world.connect();
+    hall.bind("robot1.speech");
+    desk.execute(named("hello", start("speech", {text("speech_text", "Hello.")})));
+    desk.execute(named("2", command("dock", "navigation")));
+    EXPECT_THAT(team.drive("robot2").calls, Not(Contains("dock"))) << "although robot2 speaks for this application";
+    desk.execute(named("stop", stop("navigation")));
+    world.advance(100ms);
+    desk.execute(named("3", command("dock", "navigation")));
+    EXPECT_THAT(team.drive("robot2").calls, Contains("dock"));
+}
+
 TEST(ATeam, AppearsWithItsFirstMemberAndGoesWithItsLast) {
     Team team{{"robot1", "robot2"}};
     auto desk = team.world.connect();
@@ -409,12 +430,11 @@ TEST_F(TwoRobots, WaitForTheOneThatMovesForAnApplicationThatHasLeft) {
     team.drive("robot2").halts_later = true;
     desk.leave();
     auto other = world.connect();
-    EXPECT_EQ(other.bind("navigation"), ReturnCode::ok);
-    other.execute(drive_to("near2", {"9000, 0, 0"}));
-    other.execute(stop("navigation"));
-    other.execute(drive_to("near1", {"1000, 0, 0"}));
-    EXPECT_EQ(team.starts_of("robot1"), 0);
+    auto const bound = world.begin_to_say(other.session, Bind{Application::identifier("navigation")});
+    EXPECT_FALSE(bound->said);
     team.drive("robot2").stands_still();
+    EXPECT_TRUE(bound->said);
+    other.execute(drive_to("near1", {"1000, 0, 0"}));
     EXPECT_EQ(team.starts_of("robot1"), 1);
 }
 

@@ -35,6 +35,12 @@ public:
     }
 
 private:
+    struct Asked {
+        SessionId session;
+        std::string id;
+        std::shared_ptr<TestedOperation> execute;
+    };
+
     int pick(int below) { return std::uniform_int_distribution{0, below - 1}(random_); }
     std::string const& any_robot() { return robots_[static_cast<std::size_t>(pick(3))]; }
     bool is_there(std::string const& robot) const { return !gone_.contains(robot); }
@@ -48,8 +54,7 @@ private:
     void do_something() {
         switch (pick(10)) {
             case 0:
-                bind(any_application(), "navigation", static_cast<Switching>(pick(3)));
-                break;
+                return bind();
             case 1:
             case 2:
                 return start();
@@ -72,12 +77,28 @@ private:
         }
     }
 
+    // The answer may come later, when a halt is over.
+    void bind() {
+        auto const wanted = Bind{Application::identifier("navigation"), static_cast<Switching>(pick(3))};
+        binds_.push_back(team_.world.begin_to_say(any_application().session, wanted));
+    }
+
     void start() {
         auto& application = any_application();
         auto const id = "go" + std::to_string(++commands_);
         auto const target = std::to_string(pick(10'000)) + ", 0, 0";
-        if (application.execute(drive_to(id, {target, "0, 0, 0"})).return_code == ReturnCode::ok)
-            acknowledged_[application.session].insert(id);
+        asked_.push_back({application.session, id,
+                          team_.world.begin_to_say(application.session, Execute{{{drive_to(id, {target, "0, 0, 0"})}}})});
+    }
+
+    void note_answers() {
+        std::erase_if(asked_, [this](Asked const& each) {
+            if (!each.execute->said) return false;
+            auto const* reply = std::get_if<Reply>(&*each.execute->said);
+            if (reply != nullptr && std::get<Execute::Reply>(*reply).return_code == ReturnCode::ok)
+                acknowledged_[each.session].insert(each.id);
+            return true;
+        });
     }
 
     void leave() {
@@ -142,6 +163,9 @@ private:
             team_.drive(robot).stands_still();
         }
         team_.world.advance(1s);
+        note_answers();
+        ASSERT_THAT(asked_, IsEmpty()) << "an execute was not answered";
+        for (auto const& bind : binds_) ASSERT_TRUE(bind->said) << "a bind was not answered";
         auto const statistics = team_.world.engine->statistics();
         for (auto const& session : statistics.each_session) ASSERT_THAT(session.bound, IsEmpty()) << "a binding was left";
         ASSERT_THAT(team_.world.engine->not_halted(), IsEmpty());
@@ -149,6 +173,7 @@ private:
 
     // Each acknowledged command has one `completed`.
     void expect_ends(Application& application) {
+        note_answers();
         std::map<std::string, int> completed;
         for (auto const& words : application.received()) {
             auto const at = words.find("completed go");
@@ -162,6 +187,8 @@ private:
     std::vector<std::string> const robots_{"robot1", "robot2", "robot3"};
     Team team_{robots_};
     std::array<std::optional<Application>, 2> applications_;
+    std::vector<Asked> asked_;  // without an answer
+    std::vector<std::shared_ptr<TestedOperation>> binds_;
     std::map<SessionId, std::set<std::string>> acknowledged_;
     std::set<std::string> gone_;
     std::set<std::string> acts_;

@@ -125,7 +125,7 @@ Group checks_of(ComponentEntry const& component) {
     checks.add("can_be_bound_and_released", [ref](Program& program) { can_be_bound_and_released(program, ref); });
     for (auto const& query : messages(component, MessageKind::query)) {
         checks.add("answers_the_query_" + query.name, [ref, query](Program& program) { answers_the_query(program, ref, query); });
-        checks.add("answers_requests_behind_the_query_" + query.name + "_in_order",
+        checks.add("answers_requests_behind_the_query_" + query.name,
                    [ref, query](Program& program) { answers_a_request_behind_the_query(program, ref, query.name); });
     }
     checks.add("refuses_an_unknown_command", [ref](Program& program) {

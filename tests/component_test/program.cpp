@@ -143,17 +143,19 @@ void Program::send(std::string const& document) {
 xml::EngineMessage Program::answer_to(Operation operation) { return answers_to({std::move(operation)}).front(); }
 
 std::vector<xml::EngineMessage> Program::answers_to(std::vector<Operation> operations) {
-    auto next = last_request_ + 1;  // the request whose answer must come first
-    for (auto& each : operations) {
-        if (auto const* subscribe = std::get_if<Subscribe>(&each)) subscribed_.insert(subscribe->event_type);
-        send(xml::encode(Request{std::move(each), std::to_string(++last_request_)}));
+    std::map<std::string, xml::EngineMessage*> missing;  // by request_id
+    std::vector<xml::EngineMessage> answers(operations.size());
+    for (std::size_t i = 0; i < operations.size(); ++i) {
+        if (auto const* subscribe = std::get_if<Subscribe>(&operations[i])) subscribed_.insert(subscribe->event_type);
+        auto const id = std::to_string(++last_request_);
+        missing.emplace(id, &answers[i]);
+        send(xml::encode(Request{std::move(operations[i]), id}));
     }
-    std::vector<xml::EngineMessage> answers;
-    while (answers.size() < operations.size()) answers.push_back(next_answer(std::to_string(next++)));
+    while (!missing.empty()) take_next_answer(missing);
     return answers;
 }
 
-xml::EngineMessage Program::next_answer(std::string const& id) {
+void Program::take_next_answer(std::map<std::string, xml::EngineMessage*>& missing) {
     auto const until = Clock::now() + patience_;
     while (Clock::now() < until) {
         auto answer = take(until);
@@ -162,8 +164,12 @@ xml::EngineMessage Program::next_answer(std::string const& id) {
         auto const* fault = std::get_if<Fault>(&*answer);
         if (fault != nullptr && fault->request_id.empty()) continue;  // answers an earlier, malformed document
         auto const& given = fault != nullptr ? fault->request_id : std::get<xml::Answered>(*answer).request_id;
-        if (given != id) fail("expected the answer with request_id " + quoted(id) + ", got " + quoted(given));
-        return std::move(*answer);
+        auto const found = missing.find(given);
+        if (found == missing.end())
+            fail("expected the answer with request_id " + quoted(missing.begin()->first) + ", got " + quoted(given));
+        *found->second = std::move(*answer);
+        missing.erase(found);
+        return;
     }
     fail("the program did not answer within " + std::to_string(patience_.count()) + " ms");
 }

@@ -63,7 +63,8 @@ public:
     }
     // Sends the request, and returns its answer or fault.
     xml::EngineMessage answer_to(Operation);
-    // Sends the requests without a pause between them, and waits for their answers in this order.
+    // Sends the requests without a pause between them. Returns their answers in the order of the requests; they may come in any
+    // order.
     std::vector<xml::EngineMessage> answers_to(std::vector<Operation>);
     void send(std::string const& document);
 
@@ -110,7 +111,8 @@ private:
     // deadline.
     std::optional<xml::EngineMessage> take(Clock::time_point until);
     // Waits for an answer, which must be that of this request.
-    xml::EngineMessage next_answer(std::string const& id);
+    // `missing`: where the answers to requests belong, by request_id.
+    void take_next_answer(std::map<std::string, xml::EngineMessage*>& missing);
     void check_notification(xml::NumberedNotification const&);
     void check_notification(ReceiveEvent const&);
     void check_notification(ReceiveError const&);

@@ -179,7 +179,7 @@ private:
         }
     }
     void command(CommandUnit unit) { say(Execute{{{std::move(unit)}}}); }
-    void say(Operation const& operation) { world_.say(session_, operation); }
+    void say(Operation const& operation) { world_.begin_to_say(session_, operation); }  // the answer may come later
 
     World& world_;
     Dice& dice_;

@@ -243,18 +243,20 @@ elif variant == "accepts_a_fraction":
     def read_value(old, what, code, texts, is_default=False):
         return int(float(texts[0])) if code == "int" else old(what, code, texts, is_default)
 
-elif variant == "answers_a_query_late":
+elif variant == "drops_requests_behind_a_query":
+    queries = set()
 
     @replace(Service, "on_query")
     async def on_query(old, self, request):
-        self.answers.pop(request)  # later answers do not wait
+        queries.add(request)
+        await asyncio.sleep(0.3)
+        queries.remove(request)
+        await old(self, request)
 
-        async def later():
-            await asyncio.sleep(0.3)
-            self.answers[request] = None
+    @replace(Service, "handle")
+    async def handle(old, self, request):
+        if not queries:
             await old(self, request)
-
-        asyncio.ensure_future(later())
 
 elif variant == "reports_each_event_twice":
 

@@ -341,7 +341,7 @@ class Service:
         self.tasks = set()  # the event loop does not own its tasks
         # The link.
         self.socket = None
-        self.answers = {}  # of its requests, in their order; None until there is an answer
+        self.unanswered = set()  # its requests
         self.last_request = time.monotonic()
         # The session.
         self.session = ""
@@ -407,14 +407,14 @@ class Service:
             while True:
                 request = ElementTree.fromstring(await socket.next())
                 self.last_request = time.monotonic()
-                self.answers[request] = None
+                self.unanswered.add(request)
                 self.begin(self.handle(request))
         finally:
             if self.is_attached:
                 self.detached_at = time.monotonic()
             self.is_attached = False
             self.socket = None
-            self.answers = {}
+            self.unanswered = set()
 
     async def handle(self, request):
         name = request.tag.replace(M, "")
@@ -433,19 +433,15 @@ class Service:
         self.answer(request, f'<{name}_response {NAMES} return_code="{code}"{attributes}>{content}</{name}_response>')
 
     def answer(self, request, document):
-        """Sends an answer after those of earlier requests. Drops it if its link has ended."""
-        if self.answers.get(request, "") is None:
-            self.answers[request] = NOT_XML.sub("?", document)
-        while self.answers:
-            first = next(iter(self.answers))
-            if self.answers[first] is None:
-                break
-            self.socket.send(self.answers.pop(first).encode())
+        """Drops the answer if the link of its request has ended."""
+        if request in self.unanswered:
+            self.unanswered.remove(request)
+            self.socket.send(NOT_XML.sub("?", document).encode())
 
     async def on_connect(self, request):
         if not self.is_attached:
             await self.end_session()  # of an engine that has restarted
-        is_new = request in self.answers and not (self.session and self.is_attached)
+        is_new = request in self.unanswered and not (self.session and self.is_attached)
         if is_new:
             self.session = uuid.uuid4().hex
             self.is_attached = True

@@ -63,6 +63,7 @@ void Executor::halt_failed(RegisteredComponent& component, CompletedStatus statu
     if (first) attempts([&] { journal_->halt_failed(component.ref().code, reason); });
     attempts([&] { halt_again_later(component, now); });
     attempts([&] { end_each(std::exchange(component.halting->waiting, {}), status, reason, now); });
+    for (auto const& call : std::exchange(component.halting->over, {})) attempts([&] { call(now); });
     attempts.rethrow();
 }
 
@@ -114,6 +115,7 @@ void Executor::go_on(RegisteredComponent& component, Instant now) {
                 attempt(command, [&] { run_function(command, now); });
         });
     }
+    for (auto const& call : halting->over) attempts([&] { call(now); });
     attempts([&] { run_ready(now); });
     attempts.rethrow();
 }
@@ -132,7 +134,10 @@ void Executor::forget_halt(RegisteredComponent& component, Instant now) {
     auto const halting = std::exchange(component.halting, {});
     if (!halting) return;
     deadlines_.cancel(halting->due);
-    end_each(halting->waiting, CompletedStatus::abort, "its component was removed", now);
+    Attempts attempts;
+    attempts([&] { end_each(halting->waiting, CompletedStatus::abort, "its component was removed", now); });
+    for (auto const& call : halting->over) attempts([&] { call(now); });
+    attempts.rethrow();
 }
 
 void Executor::hold(RegisteredComponent& component, std::string_view reason, Instant now) {

@@ -46,6 +46,7 @@ Texts ComponentCandidate::own_texts(Reference const& reference) const {
         case To::engine:
             return {component_.entry().engine};
         case To::robot_id:
+            if (component_.is_logical()) return {component_.entry().engine};  // it stands for several robots
             return {location() ? location()->ref : component_.entry().engine};
         case To::status:
             return {std::string{to_text(component_.status_for(perspective_.asker()))}};

@@ -62,7 +62,7 @@ Engine::Core::ToBind Engine::Core::select_to_bind(Selection const& selection, Se
     for (auto* component : possible) {
         if (selection.match(present.candidate(*component)) != Match::yes) continue;
         found.push_back(component);
-        bool const will_do = component->is_free() && !component->confirms_binding();
+        bool const will_do = component->is_free() && !component->is_being_halted() && !component->confirms_binding();
         if (will_do && !selection.sorts() && !present.knows_groups()) break;
     }
     if (selection.sorts()) {

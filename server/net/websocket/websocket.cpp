@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t most_answers = 64 * 1024;                  // bytes of waiting answers; with more, nothing is read
 constexpr std::size_t most_at_once = 64;                         // notifications in one write
+constexpr std::size_t most_pending_of_engine = 1024;             // requests that wait for components; with more, nothing is read
 constexpr std::size_t most_kept = 16 * 1024;                     // bytes of memory that an empty buffer of answers may keep
 constexpr std::size_t longest_negligible = 4 * 1024;             // bytes of requests that the memory budget does not count
 constexpr unsigned most_controls = 50;                           // control frames a second
@@ -38,9 +39,14 @@ WebSocket::WebSocket(std::shared_ptr<Wire> wire, Loop& loop, std::shared_ptr<Ope
       opener_{std::move(opener)} {}
 
 bool WebSocket::full() const {
-    return answers_waiting_ + answers_in_out_ + pending_.size() >= shared_.settings.max_requests_in_flight ||
-           answers_.size() > most_answers;
+    auto const unsent = answers_waiting_ + answers_in_out_;
+    auto const most = shared_.settings.max_requests_in_flight;
+    if (in_any_order()) return unsent >= most || pending_.size() >= most_pending_of_engine || answers_.size() > most_answers;
+    return unsent + pending_.size() >= most || answers_.size() > most_answers;
 }
+
+// An engine asks for many applications at once: a slow component must not delay its requests to the others (decision 39).
+bool WebSocket::in_any_order() const { return reading_ && reading_->is_of_engine(); }
 
 Task<> WebSocket::run() {
     // Leaves the session's readers also after an exception.
@@ -119,17 +125,24 @@ void WebSocket::take(Received const& received) {
 }
 
 void WebSocket::take(PendingAnswer&& answer) {
-    if (pending_.empty() && answer.has_come()) return answered(answer.take());
+    bool const is_next = pending_.empty() || (in_any_order() && !answer.is_disconnect());
+    if (is_next && answer.has_come()) return answered(answer.take());
     session_changes_ = answer.is_about_session();
     answer.delay();
     pending_.push_back(std::move(answer));
 }
 
-// Takes the answers that have come, as far as the order of the requests allows.
+// Takes the answers that have come, as far as the order of the requests counts. A disconnect is always answered last.
 void WebSocket::take_answers() {
-    while (!pending_.empty() && pending_.front().has_come()) {
-        auto answer = pending_.front().take();
-        pending_.pop_front();
+    for (auto next = pending_.begin(); next != pending_.end();) {
+        bool const is_first = next == pending_.begin();
+        if (!is_first && (!in_any_order() || next->is_disconnect())) break;
+        if (!next->has_come()) {
+            ++next;
+            continue;
+        }
+        auto answer = next->take();
+        next = pending_.erase(next);
         answered(std::move(answer));
     }
     if (pending_.empty()) session_changes_ = false;

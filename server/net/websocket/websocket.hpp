@@ -51,6 +51,7 @@ private:
     void add_pong(std::string_view payload);
     void join(Answer const&);
     bool full() const;
+    bool in_any_order() const;
     Task<> pause();
     Task<> answer_long_message();
     Task<> leave_session();
@@ -72,7 +73,7 @@ private:
     std::shared_ptr<Wire> wire_;
     Shared& shared_;
     std::unique_ptr<Reading> reading_;  // of the session, until its last notification was written
-    std::list<PendingAnswer> pending_;  // in the order of their requests; the first one has not come yet
+    std::list<PendingAnswer> pending_;  // in the order of their requests
     bool session_changes_ = false;      // a pending answer may change the session; until then no frames are handled
     std::string answers_;               // frames for the next write
     std::size_t answers_waiting_ = 0;   // number of answers and pongs among them

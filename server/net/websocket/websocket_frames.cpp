@@ -140,8 +140,10 @@ Received MessageReader::next(std::span<char> bytes, std::size_t& used) {
 std::optional<Received> MessageReader::rejected(Head const& head) const {
     if (head.is_control()) return {};
     if (head.opcode == Opcode::binary) return violation(CloseCode::unsupported_data, "a binary message: expected text");
-    if (head.opcode == Opcode::continuation && fragments_ == 0) return protocol_error("a continuation frame without a message to continue");
-    if (head.opcode == Opcode::text && fragments_ > 0) return protocol_error("a new message before the last fragment of another one");
+    if (head.opcode == Opcode::continuation && fragments_ == 0)
+        return protocol_error("a continuation frame without a message to continue");
+    if (head.opcode == Opcode::text && fragments_ > 0)
+        return protocol_error("a new message before the last fragment of another one");
     if (head.payload > max_message_ - parts_.size())
         return violation(CloseCode::message_too_big, "the message is longer than max_body allows");
     if (!head.last && fragments_ >= max_fragments_)

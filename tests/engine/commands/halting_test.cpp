@@ -1,4 +1,5 @@
 // Decision 35: `stop` always reaches the component, and returns OK only when that stands still.
+#include "engine/asynchronous.hpp"
 #include "engine/journal.hpp"
 #include "engine/world.hpp"
 
@@ -191,17 +192,50 @@ TEST_F(Halting, AtTheEndOfASessionIsRepeatedUntilItIsConfirmed) {
     EXPECT_EQ(hall.bind("navigation"), ReturnCode::ok);
 }
 
-TEST_F(Halting, ThatIsUnderWayLetsOthersBindAndTheirCommandsWaitForIt) {
+TEST_F(Halting, ThatIsUnderWayDelaysTheNextBinding) {
     robot.halts_later = true;
     desk.execute(go("go"));
     desk.leave();
     auto hall = world.connect();
-    EXPECT_EQ(hall.bind_any(equal("component_ref", "navigation")), "navigation");
-    hall.execute(go("go"), named("dock", command("dock", "navigation")));
-    hall.execute(named("beside", command("dock", "navigation")));
-    EXPECT_THAT(robot.calls, ElementsAre("start", "halt", "parameters_changed"));
+    auto const bound = world.begin_to_say(hall.session, Bind{Application::identifier("navigation")});
+    EXPECT_FALSE(bound->said) << "the robot may still move";
+    auto kitchen = world.connect();
+    auto const late = world.begin_to_say(kitchen.session, Bind{Application::identifier("navigation")});
     robot.stands_still();
-    EXPECT_THAT(robot.calls, ElementsAre("start", "halt", "parameters_changed", "start", "dock"));
+    EXPECT_EQ(code_of(*bound), ReturnCode::ok);
+    EXPECT_EQ(code_of(*late), ReturnCode::out_of_resources);
+    hall.execute(go("go"));
+    EXPECT_THAT(robot.calls, ElementsAre("start", "halt", "parameters_changed", "start"));
+}
+
+TEST_F(Halting, ThatIsUnderWayDelaysTheNextBindAny) {
+    robot.halts_later = true;
+    desk.release("navigation");
+    auto hall = world.connect();
+    auto const bound = world.begin_to_say(hall.session, BindAny{});
+    EXPECT_FALSE(bound->said) << "navigation is preferred to speech, also if it is not quite free yet";
+    robot.stands_still();
+    EXPECT_EQ(std::get<BindAny::Reply>(std::get<Reply>(bound->said.value())).component_ref.code, "navigation");
+}
+
+TEST_F(Halting, ThatIsUnderWayAndFailsRefusesTheBindingsThatWaitForIt) {
+    robot.halts_later = true;
+    desk.release("navigation");
+    auto hall = world.connect();
+    auto const bound = world.begin_to_say(hall.session, Bind{Application::identifier("navigation")});
+    auto const any = world.begin_to_say(hall.session, BindAny{});
+    world.advance(500ms);
+    EXPECT_EQ(code_of(*bound), ReturnCode::error);
+    EXPECT_EQ(std::get<BindAny::Reply>(std::get<Reply>(any->said.value())).component_ref.code, "speech") << reason_of(*any);
+}
+
+TEST_F(Halting, OfAComponentThatLeavesRefusesTheBindingsThatWaitForIt) {
+    robot.halts_later = true;
+    desk.release("navigation");
+    auto hall = world.connect();
+    auto const bound = world.begin_to_say(hall.session, Bind{Application::identifier("navigation")});
+    world.change({"navigation"}, {});
+    EXPECT_EQ(code_of(*bound), ReturnCode::bad_parameter);
 }
 
 TEST_F(Halting, ThatIsUnderWayAndFailsEndsTheCommandsThatWaitForIt) {

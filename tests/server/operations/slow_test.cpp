@@ -96,6 +96,21 @@ TEST(AnswersBehindASlowOne, KeepTheOrderOfTheirRequestsOnAWebSocket) {
     EXPECT_THAT(rest, testing::UnorderedElementsAre("search_response", "completed"));
 }
 
+TEST(AnswersBehindASlowOne, ComeAtOnceToAnEngine) {
+    SlowGateway gateway{"60"};
+    WebSocketClient engine{gateway};
+    engine.call("connect", {}, {{"role", "engine"}});
+    for (int i = 0; i < 100; ++i) engine.ask("query", position_query());
+    engine.ask("bind", component_ref("navigation"));
+    engine.ask("execute", kit::sequence(kit::unit({.component = "navigation", .type = "stop", .id = "stop"})));
+    engine.ask("connect", {}, {{"role", "engine"}});
+    std::vector<std::string> answers;
+    while (answers.size() < 3)
+        if (std::string_view const name = engine.next_document().name(); name.ends_with("_response")) answers.emplace_back(name);
+    EXPECT_THAT(answers, testing::ElementsAre("bind_response", "execute_response", "connect_response"));
+    engine.keep_session();
+}
+
 TEST(AnswersBehindASlowOne, KeepTheOrderOfTheirRequestsOverHttp) {
     SlowGateway gateway{"0.5"};
     HttpClient desk{gateway};
