@@ -105,8 +105,8 @@ public:
         counter("rois_notifications_total", "Notifications queued for sessions.", number(s.notifications));
         counter("rois_notifications_lost_total", "Notifications dropped because a session did not read.",
                 number(s.notifications_lost));
-        counter("rois_stray_component_answers_total", "Answers of components that came late or twice, or that no call had asked for.",
-                number(s.stray_answers));
+        counter("rois_stray_component_answers_total",
+                "Answers of components that came late or twice, or that no call had asked for.", number(s.stray_answers));
         gauge("rois_everything_stopped", "1 while nothing starts because everything was stopped (POST /rois/stop).",
               s.everything_is_stopped ? 1 : 0);
         gauge("rois_components_not_halted", "Components that have not confirmed the last call to halt.", number(s.not_halted));
