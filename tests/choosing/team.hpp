@@ -73,4 +73,17 @@ inline ReturnCode bind(Application& application, std::string const& ref, Switchi
     return application.ask(Bind{Application::identifier(ref), switching}).return_code;
 }
 
+// Two robots, ten metres apart.
+class TwoRobots : public testing::Test {
+protected:
+    TwoRobots() {
+        team.place("robot1", 0, 0);
+        team.place("robot2", 10'000, 0);
+    }
+
+    Team team{{"robot1", "robot2"}};
+    World& world = team.world;
+    Application desk = world.connect();
+};
+
 }  // namespace rois::choosing::test
