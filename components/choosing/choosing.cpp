@@ -6,19 +6,25 @@
 #include "choosing/common_profile.hpp"
 #include "choosing/sensing.hpp"
 #include "types/text/listing.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois::choosing {
 
 Choosing::Choosing(Settings const& settings, std::function<void(std::string const&)> report)
-    : settings_{settings}, report_{std::move(report)}, roster_{std::make_shared<Roster>(settings)} {}
+    : settings_{settings},
+      report_{std::move(report)},
+      roster_{std::make_shared<Roster>(settings)},
+      awaited_{settings.engines.begin(), settings.engines.end()} {}
 
 std::vector<std::string> Choosing::change(ComponentChange change, Perform const& perform) {
     std::lock_guard const lock{mutex_};
     auto members = members_;
     auto shown = shown_;
+    auto awaited = awaited_;
     for (auto const& ref : change.going) members.erase(ref);
     for (auto const& component : change.coming) {
         auto const& description = component->description();
+        awaited.erase(description.ref.code.substr(0, description.ref.code.rfind('.')));
         if (roster_->find(description.ref.code) != nullptr) members.insert_or_assign(description.ref.code, description);
     }
     for (auto const& name : settings_.logical) change_logical(name, false, members, shown, change);
@@ -26,7 +32,17 @@ std::vector<std::string> Choosing::change(ComponentChange change, Perform const&
     auto left_out = perform(std::move(change));
     members_ = std::move(members);
     shown_ = std::move(shown);
+    awaited.swap(awaited_);
+    if (awaited_.empty() && !awaited.empty()) look_for_unknown_names();
     return left_out;
+}
+
+void Choosing::look_for_unknown_names() {
+    for (auto const& [key, names] : {std::pair{"logical", &settings_.logical}, std::pair{"sensing", &settings_.sensing}})
+        for (auto const& name : *names)
+            if (!shown_.contains(name))
+                report_("\"" + std::string{key} + "\" has " + quoted(name) +
+                        R"(, but no engine of "engines" has such a component)");
 }
 
 // A component that is bound stays while all members have its messages and parameters: its commands would end with it. When a

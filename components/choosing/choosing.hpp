@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,8 @@ private:
     using Members = std::map<std::string, ComponentDescription>;                      // by ref; those that are there
     using Profiles = std::map<std::string, std::shared_ptr<ComponentProfile const>>;  // by name of the logical component
 
+    // Reports names of the settings that no engine has, once all engines have come.
+    void look_for_unknown_names();
     void change_logical(std::string const& name, bool senses, Members const&, Profiles& shown, ComponentChange&);
 
     Settings const settings_;
@@ -43,6 +46,7 @@ private:
     std::shared_ptr<Roster> const roster_;
     std::shared_ptr<Sightings> const sightings_ = std::make_shared<Sightings>();
     std::mutex mutex_;
+    std::set<std::string> awaited_;  // engines of the settings that have not come yet
     Members members_;
     Profiles shown_;
 };

@@ -57,12 +57,12 @@ public:
         after_begins.clear();
     }
 
-    void stands_still() {
+    void confirm_halt() {
         if (auto const ticket = std::exchange(halt, {})) report(HaltConfirmed{*ticket});
     }
-    void acts_no_more() {
+    void end_activity() {
         may_act = is_stopping = false;
-        stands_still();
+        confirm_halt();
     }
 
     // Thread-safe. Reports are dropped unless there is a port.

@@ -75,7 +75,7 @@ void RemoteEngine::released(std::shared_ptr<ComponentRecord> const& record) {
 void RemoteEngine::release_unwanted(std::shared_ptr<ComponentRecord> const& record) {
     if (record->is_wanted || record->binds_asked > 0 || record->halt || !std::exchange(record->is_held, false)) return;
     ask(Release{{.code = record->entry.ref}}, [record](Reply const* reply) {
-        if (reply != nullptr && !record->is_held && record->binds_asked == 0) record->acts_no_more();
+        if (reply != nullptr && !record->is_held && record->binds_asked == 0) record->end_activity();
     });
 }
 
@@ -115,7 +115,7 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
         --record->running;
         // Only a success: a command that was aborted, or has failed, completes before the component stands still.
         bool const has_ended = completed.active == false && completed.status == CompletedStatus::ok;
-        if (record->running == 0 && has_ended) record->acts_no_more();
+        if (record->running == 0 && has_ended) record->end_activity();
         if (command_type == "set_parameter" && completed.status == CompletedStatus::ok) record->store(parameters);
         if (completed.active) ended.afterwards = *completed.active ? Afterwards::active : Afterwards::idle;
         record->report(std::move(ended));
@@ -147,13 +147,13 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
 // end of the session there: only the sub engine knows whether its component stands still.
 void RemoteEngine::halt(std::shared_ptr<ComponentRecord> const& record, Ticket ticket) {
     record->halt = ticket;
-    if (!record->may_act) return everything_is_stopped_ ? ask_to_stop() : record->stands_still();
+    if (!record->may_act) return everything_is_stopped_ ? ask_to_stop() : record->confirm_halt();
     if (!record->is_held || record->is_stopping || is_given_up_) return;
     record->is_stopping = true;
     command(record, "stop", {}, [self = shared_from_this(), record](CompletedStatus status, std::string const&) {
         record->is_stopping = false;
         if (status != CompletedStatus::ok) return;
-        record->stands_still();
+        record->confirm_halt();
         self->release_unwanted(record);
     });
 }
@@ -168,7 +168,7 @@ void RemoteEngine::clear_stop() {
     everything_is_stopped_ = false;
     clear_stop_there();
     for (auto const& [ref, record] : records_)
-        if (!record->may_act) record->stands_still();
+        if (!record->may_act) record->confirm_halt();
 }
 
 // Repeated in the next session if this one ends before the answer.
@@ -193,7 +193,7 @@ void RemoteEngine::ask_to_stop() {
             if (record->may_act || !record->halt) continue;
             auto const& moving = stopped->not_halted;
             if (std::ranges::find(moving, ref) == moving.end())
-                record->stands_still();
+                record->confirm_halt();
             else
                 is_waiting = true;
         }

@@ -212,7 +212,7 @@ void RemoteEngine::session_ended() {
 // The sub engine has ended the session, so nothing there acts for this engine any more.
 void RemoteEngine::forget_session() {
     session_ = {};
-    for (auto const& [ref, record] : records_) record->acts_no_more();
+    for (auto const& [ref, record] : records_) record->end_activity();
 }
 
 // Gives up the session: if it were resumed, it would receive the same document again. Until the session is ended there, ignores

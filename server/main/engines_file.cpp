@@ -239,7 +239,7 @@ std::vector<SubEngine> read_engines_file(std::string const& file, TakenNames con
                               ": expected only \"engines\": [ ... ], a list of sub engines, and \"choosing\""};
     if (!object.contains("engines")) throw BadSettings{file + ":1:1: expected \"engines\": [ ... ], a list of sub engines"};
     std::vector<SubEngine> engines;
-    std::set<std::string> names, joining;
+    std::set<std::string> names, joining, urls;
     auto entries = objects_in(text);
     auto const list = std::ranges::find(entries.front().keys, "engines", &ObjectInText::Key::name)->at;
     std::erase_if(entries, [&](ObjectInText const& each) { return each.depth != 2 || each.begin < list; });
@@ -260,6 +260,8 @@ std::vector<SubEngine> read_engines_file(std::string const& file, TakenNames con
             throw BadSettings{where("name") + "there are two sub engines with the name " + rois::quoted(engine.name)};
         if (!engine.joins.empty() && !joining.insert(engine.joins).second)
             throw BadSettings{where("joins") + "two sub engines join as " + rois::quoted(engine.joins)};
+        if (!engine.url.empty() && !urls.insert(engine.url).second)
+            throw BadSettings{where("url") + "two sub engines have the url " + rois::quoted(engine.url)};
     }
     return engines;
 }

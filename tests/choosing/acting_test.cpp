@@ -92,8 +92,18 @@ TEST(ATeam, AppearsWithItsFirstMemberAndGoesWithItsLast) {
     EXPECT_EQ(desk.bind("navigation"), ReturnCode::ok);
 }
 
+TEST(ATeam, ReportsNamesThatNoEngineHas) {
+    Team team{{"robot1", "robot2"}};
+    EXPECT_THAT(team.log, ElementsAre(R"("sensing" has 'localization', but no engine of "engines" has such a component)",
+                                      R"("sensing" has 'detection', but no engine of "engines" has such a component)"));
+    team.go("robot1");
+    team.come("robot1");
+    EXPECT_EQ(team.log.size(), 2u) << "once";
+}
+
 TEST(ATeam, OffersWhatAllItsMembersHave) {
     Team team{{"robot1", "robot2"}};
+    team.log.clear();
     team.go("robot2");
     auto simple = Team::driving("robot2");
     std::erase_if(simple.profile.messages, [](auto const& message) { return message.name == "dock"; });

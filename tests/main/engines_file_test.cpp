@@ -85,6 +85,8 @@ TEST(EnginesFile, NamesThePlaceOfEachMistake) {
         "1:15: sub engine 'a': needs either 'url' (this gateway connects) or 'joins' (the sub engine connects), and has both");
     EXPECT_EQ(complaint(R"({"engines": [{"name": "a", "joins": "x"}, {"name": "b", "joins": "x"}]})"),
               "1:57: two sub engines join as 'x'");
+    EXPECT_EQ(complaint(R"({"engines": [{"name": "a", "url": "ws://x"}, {"name": "b", "url": "ws://x"}]})"),
+              "1:60: two sub engines have the url 'ws://x'");
     std::string const good =
         "{\"engines\": [\n{\"name\": \"a\", \"url\": \"ws://a\"},\n{\"name\": \"b\", \"url\": \"ws://b\",\n ";
     auto const with = [&](std::string const& property) { return complaint(good + property + "}]}"); };
