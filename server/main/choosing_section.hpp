@@ -9,7 +9,8 @@
 
 namespace rois {
 
-// Returns settings without logical components if the file has no such section. Throws BadSettings with the file, the line and the key.
+// Returns settings without logical components if the file has no such section. Throws BadSettings with the file, the line and the
+// key.
 choosing::Settings read_choosing(std::string const& file, std::vector<remote::SubEngine> const&);
 
 }  // namespace rois

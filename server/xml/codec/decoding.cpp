@@ -75,8 +75,14 @@ constexpr std::array<std::pair<std::string_view, Decode>, std::variant_size_v<Op
          return GetErrorDetail{child_id<ErrorTag>(n, "error_id"), condition(n)};
      }},
     {"search", [](Node n) -> Operation { return Search{condition(n)}; }},
-    {"bind", [](Node n) -> Operation { return Bind{component_ref(n), switching(n)}; }},
-    {"bind_any", [](Node n) -> Operation { return BindAny{condition(n), switching(n)}; }},
+    {"bind",
+     [](Node n) -> Operation {
+         return Bind{component_ref(n), switching(n)};
+     }},
+    {"bind_any",
+     [](Node n) -> Operation {
+         return BindAny{condition(n), switching(n)};
+     }},
     {"release", [](Node n) -> Operation { return Release{component_ref(n)}; }},
     {"get_parameter", [](Node n) -> Operation { return GetParameter{component_ref(n)}; }},
     {"set_parameter", decode_set_parameter},
