@@ -193,8 +193,16 @@ std::string Context::hint_for_component(std::string const& ref) {
 
 ComponentEntry Context::component(std::string const& ref) {
     auto reply = ok(GetProfile{});
-    auto const found = std::ranges::find(reply.components, ref, &ComponentEntry::ref);
-    if (found != reply.components.end() && found->profile) return *found;
+    auto const find_in = [&](GetProfile::Reply const& profile) -> ComponentEntry const* {
+        auto const found = std::ranges::find(profile.components, ref, &ComponentEntry::ref);
+        return found != profile.components.end() && found->profile ? &*found : nullptr;
+    };
+    if (auto const* found = find_in(reply)) return *found;
+    // Members of logical components are only shown to those who ask for them.
+    auto const asked = session().request(GetProfile{is_component(ref)});
+    auto const* member = std::get_if<Reply>(&asked);
+    auto const* profile = member != nullptr ? std::get_if<GetProfile::Reply>(member) : nullptr;
+    if (auto const* found = profile != nullptr ? find_in(*profile) : nullptr) return *found;
     refuse<GetProfile>(ReturnCode::bad_parameter, "unknown component " + rois::quoted(ref) + "; there are " +
                                                       listed(reply.components, &ComponentEntry::ref));
 }

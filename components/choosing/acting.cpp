@@ -88,7 +88,6 @@ void Acting::choose_for(SharedAction const& action, Chosen const& chosen) {
     std::erase_if(refs, [&](std::string const& ref) { return action->failed.contains(ref); });
     choose(std::move(refs), action->type, parameters, [this, action, chosen](Choice const& choice) {
         if (choice.ref.empty() || !action->is_over) return chosen(choice);
-        release_unused(choice.ref);
         chosen({{}, {ReturnCode::error, "the command was stopped while a member was being chosen"}});
     });
 }

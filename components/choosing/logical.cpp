@@ -32,10 +32,15 @@ void Logical::session_began(Instant) {
     abort_commands();
     for (auto* member : members_) forget(*member);
     running_.clear();
+    on_trial_.clear();
     subscribed_.clear();
     beginning_ = 0;
     waiting_.clear();
     learn_space();
+}
+
+void Logical::member_freed(std::string const& ref) {
+    if (auto* member = roster_->find(ref)) forget(*member);
 }
 
 // --- Binding ---
@@ -75,7 +80,8 @@ void Logical::release_member(std::string const& ref) {
 
 // A member that has not confirmed a halt yet is released when it does: until then it may move.
 void Logical::release_unused(std::string const& ref) {
-    if (roster_->find(ref)->is_bound && !is_used(ref) && !halting_.contains(ref)) release_member(ref);
+    bool const is_needed = is_used(ref) || halting_.contains(ref) || on_trial_.contains(ref);
+    if (roster_->find(ref)->is_bound && !is_needed) release_member(ref);
 }
 
 void Logical::give_back(std::string const& ref) {
@@ -100,7 +106,6 @@ void Logical::prepare(Ticket ticket, std::string_view command_type, ParameterLis
             return port_->answered(ticket, Refused{choice.why.reason});
         if (choice.ref.empty()) return port_->answered(ticket, Failed{choice.why.reason});
         if (type == "start") planned(choice.ref);
-        release_unused(choice.ref);
         port_->answered(ticket, [this, type, parameters](CommandHandle command, Instant) { begin(type, parameters, command); });
     });
 }
@@ -111,9 +116,13 @@ void Logical::choose(std::vector<std::string> refs, std::string const& type, Par
     if (refs.empty()) return chosen({{}, why_not.value_or(Outcome{ReturnCode::error, none_is_free()})});
     auto const ref = refs.front();
     refs.erase(refs.begin());
+    on_trial_.insert(ref);
     auto const judge = [this, ref, refs, type, parameters, chosen, why_not](Outcome const& outcome) {
-        if (outcome.return_code == ReturnCode::ok) return chosen({ref, {}});
+        if (auto const trial = on_trial_.find(ref); trial != on_trial_.end()) on_trial_.erase(trial);
+        bool const is_chosen = outcome.return_code == ReturnCode::ok;
+        if (is_chosen) chosen({ref, {}});
         release_unused(ref);
+        if (is_chosen) return;
         bool const counts = !why_not || outcome.return_code != ReturnCode::bad_parameter;
         choose(refs, type, parameters, chosen, counts ? Outcome{outcome.return_code, ref + ": " + outcome.reason} : why_not);
     };

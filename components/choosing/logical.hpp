@@ -28,6 +28,8 @@ public:
     ComponentDescription const& description() const final { return description_; }
     void attach(ComponentPort&) override;
     void session_began(Instant now) final;
+    void member_freed(std::string const& ref) final;
+    void members_ordered(std::vector<std::string> const& refs) final { binding_.order = refs; }
     void notified(Notification const&, Instant now) final;
 
     void bind(Ticket, Binding const&, Instant now) final;
@@ -126,6 +128,7 @@ private:
     int beginning_ = 0;                           // commands that a member has not accepted or refused yet
     std::vector<std::function<void()>> waiting_;  // until all have begun
     std::set<std::string> halting_;               // refs of the members that have not confirmed a halt
+    std::multiset<std::string> on_trial_;         // refs of the members that are asked whether they accept a command
     std::map<std::string, Ended> running_;        // commands of the own session, by id
     std::set<std::string> subscribed_;            // refs of the members whose events are subscribed to
     std::string shown_member_;                    // ref; empty: none

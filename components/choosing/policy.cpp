@@ -29,7 +29,8 @@ std::vector<Member*> in_order(std::vector<Member*> members, Occasion const& occa
         // Distance decides on a command with a target. Other commands follow to the engine that the application uses already.
         auto const crew =
             occasion.target ? 0 : roster.count_others_using(occasion.session, member->logical, member->engine, occasion.now);
-        return std::tuple{member->has_low_battery,
+        return std::tuple{occasion.target && !roster.may_act_at(*member, *occasion.target),
+                          member->has_low_battery,
                           member->status != ComponentStatus::ready,
                           sorted,
                           -static_cast<std::ptrdiff_t>(crew),

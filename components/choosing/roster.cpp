@@ -61,6 +61,11 @@ void Roster::note(Member& member, ComponentStatus status, Results const& state) 
                         !is_inside(area->second, member.location->position[0], member.location->position[1]);
 }
 
+bool Roster::may_act_at(Member const& member, std::array<double, 2> const& position) const {
+    auto const area = areas_.find(member.engine);
+    return area == areas_.end() || is_inside(area->second, position[0], position[1]);
+}
+
 std::map<std::string_view, std::size_t> Roster::loads() const {
     std::map<std::string_view, std::size_t> loads;
     for (auto const& [ref, member] : members_)

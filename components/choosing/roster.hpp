@@ -50,6 +50,8 @@ public:
 
     // The number of members in use, by engine. Engines without one are missing.
     std::map<std::string_view, std::size_t> loads() const;
+    // Returns whether the position is inside of the area of the member's engine.
+    bool may_act_at(Member const&, std::array<double, 2> const& position) const;
 
     // Whether an application has bound the logical component. Thread-safe.
     bool is_bound(std::string const& logical) const { return bound_.at(logical); }

@@ -118,8 +118,8 @@ void Sensing::start(std::string const& ref, std::shared_ptr<CommandHandle> const
     start_began();
     auto const failed = [this, ref, for_command](Outcome const& why) {
         started_.erase(ref);
-        if (!is_active_) return;
         release_unused(ref);
+        if (!is_active_) return;
         if (started_.empty()) complete(for_command, {why.return_code, ref + ": " + why.reason});
     };
     bind_member(ref, [this, ref, for_command, failed](Outcome const& bound) {
@@ -361,7 +361,9 @@ void Sensing::report_number(Event const& event, Instant now) {
     if (auto const* fusion = sightings_->fusion_of(event.kind)) {
         for (auto const& person : fusion->persons(now.steady))
             if (!person.sensed_by.empty()) ++number;
-    } else {
+    }
+    // Without positions; those of a person may come a little later than the number.
+    if (number == 0) {
         for (auto const& [ref, count] : counts_) number = std::max(number, static_cast<std::size_t>(std::max(count, 0)));
     }
     if (reported_number_ == number) return;

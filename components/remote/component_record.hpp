@@ -1,6 +1,7 @@
 // What a RemoteEngine knows of one component of its sub engine. The record outlives the RemoteComponent.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -32,9 +33,10 @@ public:
     // Whether the component may act for this engine: from the beginning of a command until the sub engine says that nothing is
     // active, or that it has stopped or released the component, or has ended the session.
     bool may_act = false;
-    int running = 0;             // commands that have not completed
-    std::optional<Ticket> halt;  // the newest halt that is not confirmed yet
-    bool is_stopping = false;    // a `stop` has not ended yet
+    int running = 0;                  // commands that have not completed
+    std::optional<Ticket> halt;       // the newest halt that is not confirmed yet
+    std::deque<std::string> stops{};  // ids of the newest `stop` commands that have not ended yet
+    Steady stopped_at{};              // when the newest was sent
 
     int begins_asked = 0;                             // `execute` requests that are not answered yet
     std::vector<std::function<void()>> after_begins;  // `suspend` or `resume`: sent once these are answered, to keep the order
@@ -53,15 +55,19 @@ public:
 
     void forget_questions() {
         binds_asked = begins_asked = 0;
-        is_stopping = false;
+        stops.clear();
         after_begins.clear();
     }
 
+    void fail_halt() {
+        if (halt) report(HaltFailed{*halt});
+    }
     void confirm_halt() {
         if (auto const ticket = std::exchange(halt, {})) report(HaltConfirmed{*ticket});
     }
     void end_activity() {
-        may_act = is_stopping = false;
+        may_act = false;
+        stops.clear();
         confirm_halt();
     }
 

@@ -266,7 +266,8 @@ void RemoteEngine::restore_parameters(std::shared_ptr<ComponentRecord> const& re
             return known != nullptr && known->values == each.values;
         };
         if (reply != nullptr && !std::ranges::all_of(stored, is_set))
-            self->command(record, "set_parameter", std::move(stored), [](CompletedStatus, std::string const&) {});
+            self->command(record, "set_parameter", std::move(stored), self->fresh_id(),
+                          [](CompletedStatus, std::string const&) {});
     });
 }
 

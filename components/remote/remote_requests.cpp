@@ -12,6 +12,8 @@ namespace {
 
 constexpr auto is_lost = "its engine is lost";
 constexpr std::chrono::milliseconds between_questions{50};  // whether everything stands still
+constexpr std::chrono::milliseconds between_stops{500};     // of a component that does not answer
+constexpr std::size_t most_stops = 4;                       // whose end may still confirm a halt
 
 // Removes the place from a sub engine's reason: this engine adds the place in its own sequence.
 std::string without_place(std::string_view reason) {
@@ -106,7 +108,7 @@ void RemoteEngine::prepare(std::shared_ptr<ComponentRecord> const& record, Ticke
 
 void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, CommandHandle command, std::string const& command_type,
                          ParameterList const& parameters) {
-    auto const id = "c" + std::to_string(++last_command_);
+    auto const id = fresh_id();
     auto end = [self = shared_from_this(), record, command, command_type, parameters](Completed const& completed) {
         CommandEnded ended{
             .command = command, .status = completed.status, .results = {}, .afterwards = {}, .reason = completed.reason};
@@ -148,10 +150,20 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
 void RemoteEngine::halt(std::shared_ptr<ComponentRecord> const& record, Ticket ticket) {
     record->halt = ticket;
     if (!record->may_act) return everything_is_stopped_ ? ask_to_stop() : record->confirm_halt();
-    if (!record->is_held || record->is_stopping || is_given_up_) return;
-    record->is_stopping = true;
-    command(record, "stop", {}, [self = shared_from_this(), record](CompletedStatus status, std::string const&) {
-        record->is_stopping = false;
+    if (!record->is_held || is_given_up_) return;
+    auto& stops = record->stops;
+    auto const now = host_->now();
+    if (!stops.empty() && now < record->stopped_at + between_stops) return;
+    if (stops.size() == most_stops) {
+        commands_.erase(stops.front());
+        stops.pop_front();
+    }
+    record->stopped_at = now;
+    auto const id = fresh_id();
+    stops.push_back(id);
+    command(record, "stop", {}, id, [self = shared_from_this(), record, id](CompletedStatus status, std::string const&) {
+        std::erase(record->stops, id);
+        if (status == CompletedStatus::error) return record->fail_halt();
         if (status != CompletedStatus::ok) return;
         record->confirm_halt();
         self->release_unwanted(record);
@@ -206,24 +218,26 @@ void RemoteEngine::pause(std::shared_ptr<ComponentRecord> const& record, Ticket 
         record->after_begins.emplace_back([=, self = shared_from_this()] { self->pause(record, ticket, command_type); });
         return;
     }
-    command(record, command_type, {}, [record, ticket, command_type](CompletedStatus status, std::string const& reason) {
-        if (status == CompletedStatus::ok)
-            record->answer(ticket, Done{});
-        else
-            record->answer(ticket, Failed{command_type + ": " + std::string{to_text(status)} + ": " + reason});
-    });
+    command(record, command_type, {}, fresh_id(),
+            [record, ticket, command_type](CompletedStatus status, std::string const& reason) {
+                if (status == CompletedStatus::ok)
+                    record->answer(ticket, Done{});
+                else
+                    record->answer(ticket, Failed{command_type + ": " + std::string{to_text(status)} + ": " + reason});
+            });
 }
 
 // Runs a command. Calls `then` once, with the end.
 void RemoteEngine::command(std::shared_ptr<ComponentRecord> const& record, std::string const& command_type,
-                           ParameterList arguments, std::function<void(CompletedStatus, std::string const& reason)> const& then) {
-    auto const id = "c" + std::to_string(++last_command_);
+                           ParameterList arguments, std::string const& id,
+                           std::function<void(CompletedStatus, std::string const& reason)> const& then) {
     commands_.emplace(id, [then](Completed const& completed) { then(completed.status, completed.reason); });
     ask(Execute{{{unit_of(record->entry.ref, command_type, id, std::move(arguments))}}},
         [self = shared_from_this(), then, id](Reply const* reply) {
             if (reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok) return;
             if (self->commands_.erase(id) > 0)
-                then(CompletedStatus::error, reply == nullptr ? is_lost : without_place(outcome_of(*reply).reason));
+                reply == nullptr ? then(CompletedStatus::abort, is_lost)
+                                 : then(CompletedStatus::error, without_place(outcome_of(*reply).reason));
         },
         {id});
 }

@@ -316,7 +316,7 @@ void RemoteEngine::give_up(std::string const& reason) {
     for (auto const& [ref, record] : records_) {
         record->is_held = false;
         record->report(std::make_shared<ComponentState const>(ComponentState{ComponentStatus::error, {}, {}}));
-        record->report(ErrorOccurred{ErrorType::component_not_responding, why, Report::once});
+        record->report(ErrorOccurred{ErrorType::component_not_responding, why, Report::each});
     }
 }
 

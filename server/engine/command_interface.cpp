@@ -100,12 +100,13 @@ Reply Engine::Core::perform(Session& session, Search const& search, Instant) {
 
 Reply Engine::Core::bind(Session& session, ToBindNow const& wanted, Instant now) {
     auto& component = *wanted.component;
-    if (component.has_departed())
+    if (registry_.find(component.ref().code) != &component)
         return refused<Bind::Reply>(ReturnCode::error, "the component " + quoted(component.ref().code) + " has left");
     bool const mine = component.bound_to == &session;
     switch (Registry::bind(component, session, now)) {
         case Registry::Bound::ok:
             component.switching = wanted.as.switching;
+            component.preference = component.is_logical() ? wanted.condition : nullptr;
             if (!mine) journal_->bound(session.number, component.ref().code);
             return Bind::Reply{};
         case Registry::Bound::not_halted:
@@ -119,14 +120,22 @@ Reply Engine::Core::bind(Session& session, ToBindNow const& wanted, Instant now)
 Engine::Core::Later Engine::Core::perform(Session& session, Bind const& bind_, SharedAsked const& asked, Instant now) {
     auto [component, problem] = registry_.meant(bind_.component_ref);
     if (component == nullptr) return refused<Bind::Reply>(ReturnCode::bad_parameter, std::move(problem));
-    if (component->is_being_halted()) {
-        component->halting->over.emplace_back([this, asked](Instant when) {
-            answer_later(*asked, [&](Session& asker) { return perform(asker, std::get<Bind>(asked->operation()), asked, when); });
+    return bind_one(session, asked, {component->shared_from_this(), {.session = session.number, .switching = bind_.switching}},
+                    now.steady + settings_.question_deadline, now);
+}
+
+Engine::Core::Later Engine::Core::bind_one(Session& session, SharedAsked const& asked, ToBindNow const& wanted, Steady until,
+                                           Instant now) {
+    auto& component = *wanted.component;
+    if (registry_.find(component.ref().code) != &component)
+        return refused<Bind::Reply>(ReturnCode::bad_parameter, "the component " + quoted(component.ref().code) + " has left");
+    if (component.is_being_halted()) {
+        component.halting->over.emplace_back([this, asked, wanted, until](Instant when) {
+            answer_later(*asked, [&](Session& asker) { return bind_one(asker, asked, wanted, until, when); });
         });
         return {};
     }
-    ToBindNow wanted{component->shared_from_this(), {.session = session.number, .switching = bind_.switching}};
-    if (!must_confirm(*component, session)) return bind(session, wanted, now);
+    if (!must_confirm(component, session)) return bind(session, wanted, now);
     auto then = [this, asked, wanted](std::optional<ComponentAnswer>& answer, Instant when) {
         auto& bound = *wanted.component;
         auto const make = [&](Session& asker) -> Later {
@@ -149,10 +158,9 @@ Engine::Core::Later Engine::Core::perform(Session& session, Bind const& bind_, S
         answer_later(*asked, make);
         notify_of_release(bound, when);
     };
-    auto const ticket = questions_.ask(*component, now.steady + settings_.question_deadline,
-                                       "the component did not answer whether it can be bound", std::move(then));
-    ++component->binds_asked;
-    component->hosted().bind(ticket, wanted.as, now);
+    auto const ticket = questions_.ask(component, until, "the component did not answer whether it can be bound", std::move(then));
+    ++component.binds_asked;
+    component.hosted().bind(ticket, wanted.as, now);
     return {};
 }
 
@@ -168,10 +176,12 @@ Engine::Core::Later Engine::Core::perform(Session& session, BindAny const& bind,
         return refused<BindAny::Reply>(ReturnCode::unsupported, "no component of this engine can match the condition");
     auto const [matches, held_of_group] = select_to_bind(selection, session);
     std::vector<ToBindNow> candidates;
+    auto const condition = std::make_shared<QueryExpression const>(bind.condition);
     auto const add = [&](RegisteredComponent& match) {
         candidates.push_back(
             {match.shared_from_this(),
-             {.session = session.number, .switching = bind.switching, .order = members_in_order(match, selection, session)}});
+             {.session = session.number, .switching = bind.switching, .order = members_in_order(match, selection, session)},
+             selection.sorts() ? condition : nullptr});
     };
     for (auto* match : matches)
         if (match->is_free()) add(*match);
@@ -255,6 +265,7 @@ void Engine::Core::unbind(Session& session, RegisteredComponent& component, Inst
     session.bound.erase(&component);
     component.bound_to = nullptr;
     component.switching = Switching::none;
+    component.preference = nullptr;
     component.restore_defaults(now);
     notify_of_release(component, now);
     journal_->released(session.number, component.ref().code);
@@ -276,6 +287,14 @@ Reply Engine::Core::perform(Session& session, GetParameter const& get, Instant) 
         return refused<GetParameter::Reply>(ReturnCode::error, "the component " + quoted(component->ref().code) + " failed");
     reply.parameters = std::move(*parameters);
     return reply;
+}
+
+// The members have moved since `bind_any` sorted them.
+void Engine::Core::order_members(RegisteredComponent const& logical, Session const& session) {
+    auto const compiled = Selection::compile(*logical.preference, vocabulary());
+    if (!std::holds_alternative<Selection>(compiled)) return;
+    auto order = members_in_order(logical, std::get<Selection>(compiled), session);
+    logical.hosted().call([order = std::move(order)](Component& component) { component.members_ordered(order); });
 }
 
 // Asks the components of the commands whether they are possible (Component::prepare), all at once. `then` gets the prepared
@@ -305,6 +324,7 @@ Engine::Core::Later Engine::Core::prepare(Session& session, SharedAsked const& a
         auto const ticket =
             questions_.add(round, place++, component, "the component did not answer whether a command is possible");
         auto changed = component.in_own_frame(each.parameters);
+        if (component.preference) order_members(component, session);
         component.hosted().prepare(ticket, each.command_type, changed ? std::move(*changed) : each.parameters, now);
     }
     return {};

@@ -122,6 +122,11 @@ struct HaltConfirmed {
     Ticket ticket;
 };
 
+// The component has not stopped. The engine calls `halt` again.
+struct HaltFailed {
+    Ticket ticket;
+};
+
 struct EventOccurred {
     std::string event_type;
     std::shared_ptr<Results const> results;
@@ -155,8 +160,8 @@ struct MemberSwitched {
     std::string reason;
 };
 
-using ComponentReport = std::variant<CommandStarted, CommandEnded, HaltConfirmed, EventOccurred, ErrorOccurred, StateChanged,
-                                     Answered, OperationAsked, MemberSwitched>;
+using ComponentReport = std::variant<CommandStarted, CommandEnded, HaltConfirmed, HaltFailed, EventOccurred, ErrorOccurred,
+                                     StateChanged, Answered, OperationAsked, MemberSwitched>;
 
 // The component's way to report to the engine, which owns the port. Thread-safe. All functions return at once: the engine handles
 // the reports of a provider in their order. The port lives as long as the component.
@@ -250,6 +255,10 @@ public:
 
     // For logical components. Their session has begun: it has no bindings, commands and subscriptions. Usually called once.
     virtual void session_began(Instant) {}
+    // For a logical component: the engine has ended the binding of this member in the component's own session.
+    virtual void member_freed(std::string const& /*ref*/) {}
+    // The same for the order of its members by the condition of `bind_any`, before each command.
+    virtual void members_ordered(std::vector<std::string> const& /*refs*/) {}
     // A notification of the session, which receives what the session of an engine receives (decision 39), but component_changed
     // only for the members. UNINITIALIZED: the member is not there.
     virtual void notified(Notification const&, Instant) {}

@@ -133,8 +133,11 @@ private:
     struct ToBindNow {
         SharedComponent component;
         Binding as;
+        std::shared_ptr<QueryExpression const> condition = {};  // of bind_any
     };
     Reply bind(Session&, ToBindNow const&, Instant now);
+    void order_members(RegisteredComponent const& logical, Session const&);
+    Later bind_one(Session&, SharedAsked const&, ToBindNow const&, Steady until, Instant now);
     Later bind_first(Session&, SharedAsked const&, std::vector<ToBindNow> candidates, Steady until, Instant now);
     std::optional<Objection> why_not_now(Session const&, bool begins, bool lasts, std::size_t commands);
     template <class Op, class Then>

@@ -52,12 +52,14 @@ Session& Engine::Core::own_session(RegisteredComponent& component, Instant now) 
     return *component.own_session;
 }
 
-// Releases the members of a logical component that no session has bound. Normally the component does so; memory may be missing.
+// Releases the members of a logical component that no session has bound. Normally the component does so. But memory may be
+// missing, or a `bind` was answered late.
 void Engine::Core::free_members(RegisteredComponent const& component, Instant now) {
     auto* session = component.own_session;
     if (session == nullptr || component.bound_to != nullptr || component.halting || component.binds_asked > 0) return;
     while (!session->bound.empty()) {
         auto& member = **session->bound.begin();
+        component.hosted().call([ref = member.ref().code](Component& owner) { owner.member_freed(ref); });
         executor_.release(*session, member, now);
         unbind(*session, member, now);
     }

@@ -74,7 +74,7 @@ void Questions::expire(Instant now) {
     open_.erase(late.begin(), late.end());
     Attempts attempts;
     for (auto const& question : over) {
-        attempts([&] { question.component->report_silence(question.what); });
+        attempts([&] { question.component->report_silence(question.what, now.steady); });
         end(question, {}, now, attempts);
     }
     attempts.rethrow();

@@ -174,9 +174,16 @@ void RegisteredComponent::report_failure(std::string_view problem, Report each) 
     report(ErrorType::component_internal_error, std::string{problem}, each);
 }
 
-void RegisteredComponent::report_silence(std::string_view what) {
+void RegisteredComponent::report_silence(std::string_view what, Steady now) {
     is_silent_ = true;
-    report(ErrorType::component_not_responding, std::string{what}, Report::once);
+    report_no_response(std::string{what}, Report::once, now);
+}
+
+void RegisteredComponent::report_no_response(std::string text, Report each, Steady now) {
+    constexpr std::chrono::milliseconds same_silence{300};
+    if (found_silent_ && now < *found_silent_ + same_silence) return;
+    found_silent_ = now;
+    report(ErrorType::component_not_responding, std::move(text), each);
 }
 
 void RegisteredComponent::report(ErrorType type, std::string text, Report each) {

@@ -130,6 +130,8 @@ public:
 
     Session* bound_to = nullptr;
     Switching switching = Switching::none;  // as agreed in the binding
+    // Of a logical component that was bound by `bind_any`: the condition, which may sort its members.
+    std::shared_ptr<QueryExpression const> preference;
     // The answer to the last command of this session, which comes before what the component reports to it (decision 22).
     NotificationQueue::Hold answer = 0;
     NotificationQueue::Hold answer_to(Session const& session) const { return bound_to == &session ? answer : 0; }
@@ -139,7 +141,8 @@ public:
     Activity activity = Activity::idle;
     // `all`: everything is suspended. `some`: a command has begun after the suspension.
     enum class Suspended : std::uint8_t { nothing, some, all } suspended = Suspended::nothing;
-    void something_begins() {
+    void note_begin() {
+        stands_still = false;
         if (suspended == Suspended::all) suspended = Suspended::some;
     }
     // Returns whether an action or function runs that is not suspended.
@@ -151,7 +154,8 @@ public:
     bool has_failed_to_halt() const { return halting && halting->failed; }
     // Released, but perhaps still moving: it can be bound when this is over.
     bool is_being_halted() const { return bound_to == nullptr && halting && !halting->failed; }
-    bool has_stood = false;  // has confirmed a halt at least once
+    bool has_stood = false;     // has confirmed a halt at least once
+    bool stands_still = false;  // has confirmed a halt, and nothing has begun since
 
     std::uint64_t halts = 0;  // how often it was halted
 
@@ -161,7 +165,10 @@ public:
     // The component has thrown an exception, or reported something that does not fit its profile.
     void report_failure(std::string_view problem, Report);
     // The component has not answered in time. Its status is ERROR until its next report.
-    void report_silence(std::string_view what);
+    void report_silence(std::string_view what, Steady now);
+    // Reports COMPONENT_NOT_RESPONDING. The engines of several levels find the same silence at nearly the same time: it is
+    // reported once.
+    void report_no_response(std::string text, Report, Steady now);
     void end_silence() { is_silent_ = false; }
     void report(ErrorType, std::string text, Report);
     // Called after a command or query has succeeded.
@@ -181,8 +188,9 @@ private:
     bool has_departed_ = false;
     bool failed_ = false;  // an exception left the component
     bool is_silent_ = false;
-    std::set<ErrorType> reported_once_;  // errors that are not to be reported again
-    ComponentState state_;               // with normalized parameters, in the engine's frame
+    std::set<ErrorType> reported_once_;   // errors that are not to be reported again
+    std::optional<Steady> found_silent_;  // when COMPONENT_NOT_RESPONDING was reported last
+    ComponentState state_;                // with normalized parameters, in the engine's frame
     std::uint64_t reported_states_ = 0;
     bool fits_ = true;  // the reported parameters fit the profile
     Identifier ref_;

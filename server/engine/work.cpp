@@ -122,8 +122,14 @@ void Engine::Core::handle(InboxEntry& entry, Instant now, Attempts& deliveries) 
         void operator()(CommandStarted const& report) { core.executor_.started(report.command); }
         void operator()(CommandEnded& report) { core.executor_.completed(report, now); }
         void operator()(HaltConfirmed const& report) { core.executor_.halted(component, report.ticket, now); }
+        void operator()(HaltFailed const& report) { core.executor_.halt_failed(component, report.ticket, now); }
         void operator()(EventOccurred const& report) { core.publish(component, report, now, deliveries); }
-        void operator()(ErrorOccurred const& report) { component.report(report.type, report.text, report.report); }
+        void operator()(ErrorOccurred const& report) {
+            bool const is_silence = report.type == ErrorType::component_not_responding;
+            if (is_silence) return component.report_no_response(report.text, report.report, now.steady);
+            // A halt that fails is repeated, and fails for the same reason.
+            component.report(report.type, report.text, component.has_failed_to_halt() ? Report::once : report.report);
+        }
         void operator()(StateChanged const& state) { component.accept(*state); }
         void operator()(OperationAsked& report) { core.perform(component, std::move(report), now); }
         void operator()(MemberSwitched& report) { core.publish(component, std::move(report)); }

@@ -111,7 +111,8 @@ choosing::Settings read(json const& section, std::vector<remote::SubEngine> cons
                              rois::quoted(corners.dump(), 100));
         auto const& area = settings.areas[name] = corners.template get<choosing::Area>();
         if (!(surface(area) > 0))
-            bad("areas", "the area of " + rois::quoted(name) + " has no surface: its corners must not lie on one line, as " +
+            bad("areas", "the area of " + rois::quoted(name) +
+                             " has no surface: its corners must not lie on one line, nor its sides cross, as " +
                              rois::quoted(corners.dump(), 100) + " do");
     }
     return settings;
@@ -135,6 +136,13 @@ choosing::Settings read_choosing(std::string const& file, std::vector<remote::Su
     if (auto const* twice = in_text->repeated())
         throw BadSettings{file + ":" + place_of(text, twice->at) + ": " + rois::quoted(twice->name) +
                           " is given twice in \"choosing\""};
+    if (auto const areas = std::ranges::find(in_text->keys, "areas", &ObjectInText::Key::name); areas != in_text->keys.end()) {
+        auto const inner = std::ranges::find_if(objects, [&](auto const& each) { return each.begin > areas->at; });
+        auto const* twice = object["choosing"]["areas"].is_object() && inner != objects.end() ? inner->repeated() : nullptr;
+        if (twice != nullptr)
+            throw BadSettings{file + ":" + place_of(text, twice->at) + ": " + rois::quoted(twice->name) +
+                              " is given twice in \"areas\""};
+    }
     return read(object["choosing"], engines, bad);
 }
 

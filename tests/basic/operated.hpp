@@ -217,6 +217,7 @@ private:
         if (!halted_) return record("halted");
         halted_ = Halted::confirmed;
     }
+    void take(HaltFailed const&) { ADD_FAILURE() << "only a sub engine reports that a halt has failed"; }
     void take(CommandStarted const&) { record("started"); }
     void take(CommandEnded& ended) {
         if (setting_ == ended.command) {

@@ -189,6 +189,20 @@ TEST_F(TwoRobots, AreChosenInTheOrderOfTheCondition) {
     ASSERT_EQ(desk.bind_any(farthest), "navigation");
     desk.execute(drive_to("go", {"1000, 0, 0"}));
     EXPECT_EQ(team.starts_of("robot2"), 1);
+    team.drive("robot2").finishes();
+    team.place("robot1", 20'000, 0);
+    desk.execute(drive_to("on", {"1000, 0, 0"}));
+    EXPECT_EQ(team.starts_of("robot1"), 1) << "as the members are now";
+}
+
+TEST(ATeam, PrefersRobotsWhoseAreaHasTheTarget) {
+    Team team{{"robot1", "robot2"}, {{"robot1", {{0, -1'000}, {5'000, -1'000}, {5'000, 1'000}, {0, 1'000}}}}};
+    team.place("robot1", 4'000, 0);
+    team.place("robot2", 20'000, 0);
+    auto desk = team.world.connect();
+    desk.bind("navigation");
+    desk.execute(drive_to("go", {"6000, 0, 0"}));
+    EXPECT_EQ(team.starts_of("robot2"), 1);
 }
 
 TEST_F(TwoRobots, AreNotChosenIfAnotherApplicationHasBoundThem) {

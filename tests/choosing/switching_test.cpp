@@ -130,7 +130,7 @@ TEST(ARobotThatLeavesItsArea, IsStoppedAndAnotherGoesOn) {
     team.place("robot2", 10'000, 0);
     auto desk = team.world.connect();
     bind(desk, "navigation", Switching::restart);
-    desk.execute(drive_to("go", {"5000, 0, 0"}));
+    desk.execute(drive_to("go", {"1500, 0, 0", "5000, 0, 0"}));
     EXPECT_EQ(team.starts_of("robot1"), 1);
     team.drive("robot1").calls.clear();
     team.place("robot1", 2'100, 0);

@@ -168,7 +168,7 @@ void reports_no_event_without_a_subscription(Program& program) {
     program.settle();
 }
 
-void answers_requests_in_their_order(Program& program) {
+void answers_each_of_several_requests_once(Program& program) {
     program.ensure_ready();
     program.answers_to({GetProfile{}, Connect{}, Search{}, GetCommandResult{{unknown_name}, {}}, Connect{}, GetProfile{}});
 }
@@ -217,7 +217,7 @@ Group joining_checks() {
 Group link_checks() {
     Group group{"The link",
                 {{"answers_an_unsupported_operation", answers_an_unsupported_operation},
-                 {"answers_requests_in_their_order", answers_requests_in_their_order},
+                 {"answers_each_of_several_requests_once", answers_each_of_several_requests_once},
                  {"answers_a_ping", answers_a_ping},
                  {"survives_malformed_xml", survives_malformed_xml},
                  {"ends_its_session_on_disconnect", ends_its_session_on_disconnect},

@@ -84,7 +84,10 @@ TEST(ChoosingSection, IsRefusedWithThePlaceTheValueAndTheExpectation) {
     EXPECT_EQ(complaint(R"({"logical": ["a"], "engines": ["robot1"], "areas": {"robot1": [[0, 0], [1, 1]]}})"),
               "2:55: the area of 'robot1' must have at least three corners, [x, y] in mm, not '[[0,0],[1,1]]'");
     EXPECT_EQ(complaint(R"({"logical": ["a"], "engines": ["robot1"], "areas": {"robot1": [[0, 0], [1, 1], [2, 2]]}})"),
-              "2:55: the area of 'robot1' has no surface: its corners must not lie on one line, as '[[0,0],[1,1],[2,2]]' do");
+              "2:55: the area of 'robot1' has no surface: its corners must not lie on one line, nor its sides cross, as "
+              "'[[0,0],[1,1],[2,2]]' do");
+    EXPECT_EQ(complaint(R"({"logical": ["a"], "engines": ["robot1"], "areas": {"robot1": [], "robot1": []}})"),
+              "2:79: 'robot1' is given twice in \"areas\"");
     EXPECT_EQ(complaint(R"({"logical": ["system_information"], "engines": ["robot1"]})"),
               "2:14: 'system_information' cannot be logical: a query without a condition joins the answers of all engines");
     EXPECT_EQ(complaint(R"({"logical": ["person_detection"], "engines": ["robot1"]})"),

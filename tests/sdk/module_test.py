@@ -122,14 +122,22 @@ class Failures(ModuleTest):
         self.assert_ok(await self.link.execute("a", "stop"))
         await self.completed("stop", "OK")
 
-    async def test_an_exception_in_halt_is_reported_and_ends_stop_with_error(self):
+    async def test_an_exception_in_halt_is_reported_once_and_ends_each_stop_with_error(self):
         await self.link.connect()
         self.a.halt = fail_with(RuntimeError("motor"))
-        self.assert_ok(await self.link.execute("a", "stop"))
-        end = await self.completed("stop", "ERROR")
-        self.assertIn("motor", end.findtext(rois.M + "reason"))
+        for id in "first", "second":
+            self.assert_ok(await self.link.execute("a", "stop", id=id))
+            end = await self.completed(id, "ERROR")
+            self.assertIn("motor", end.findtext(rois.M + "reason"))
         error = await self.link.report("receive_error", error_type="COMPONENT_INTERNAL_ERROR")
         self.assertIn("motor", error.findtext(rois.M + "text"))
+        self.assertEqual([each.tag for each in self.link.reports].count(rois.M + "receive_error"), 1)
+
+    async def test_components_of_one_type_have_profiles_of_their_own(self):
+        await self.link.connect()
+        profile = await self.link.ask("get_profile")
+        ids = [each.get(rois.GML + "id") for each in profile.iter(rois.R + "HRIComponentProfile")]
+        self.assertEqual(ids, ["profile.a", "profile.b"])
 
     async def test_an_oserror_of_a_component_does_not_end_the_link(self):
         session = await self.link.connect()

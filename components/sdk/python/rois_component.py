@@ -74,8 +74,9 @@ class Component:
         self._running = set()  # the tasks of the commands that run
         self._active = False  # whether a function goes on after `start`
         self._halt = None  # the task of the last halt
+        self._has_failed_to_halt = False
         is_document = self.profile.lstrip().startswith("<")
-        self._profile = Profile(self.profile if is_document else pathlib.Path(self.profile).read_text(encoding="utf-8"))
+        self._profile = Profile(self.profile if is_document else pathlib.Path(self.profile).read_text(encoding="utf-8"), ref)
         self.parameters = dict(self._profile.defaults)  # set by `set_parameter` and `start`; the defaults again after `release`
 
     def check(self, command, arguments):
@@ -102,10 +103,11 @@ class Component:
 
 
 class Profile:
-    """A component profile document: the messages with the types of their parameters."""
+    """The profile document of a component: the messages with the types of their parameters."""
 
-    def __init__(self, text):
+    def __init__(self, text, ref):
         root = ElementTree.fromstring(text)
+        root.set(GML + "id", f"profile.{ref}")  # components of one type are in one document
         if root.tag != R + "HRIComponentProfile":
             raise ValueError(f"expected an HRIComponentProfile, not {root.tag}")
         self.urn = root.findtext(GML + "identifier")
@@ -608,8 +610,8 @@ class Service:
             await asyncio.wait([last_halt])
         if running:
             await asyncio.wait(running, timeout=LONGEST_HALT)
-        reason = await self.call(component, component.halt)
-        component._active = bool(reason)  # after an exception, it may still move
+        reason = await self.call(component, component.halt, is_again=component._has_failed_to_halt)
+        component._active = component._has_failed_to_halt = bool(reason)  # after an exception, it may still move
         await asyncio.gather(*running, return_exceptions=True)
         if is_released and component.parameters != component._profile.defaults:
             component.parameters = dict(component._profile.defaults)
@@ -617,14 +619,16 @@ class Service:
                 await self.call(component, component.set_parameter, dict(component.parameters))
         return reason
 
-    async def call(self, component, function, *arguments):
-        """Calls a function of the component. Reports its exception, and returns the text of it."""
+    async def call(self, component, function, *arguments, is_again=False):
+        """Calls a function of the component. Returns the text of its exception, and reports it unless it failed before, too."""
         try:
             return await function(*arguments) and ""
         except (Exception, asyncio.CancelledError) as problem:
-            log.exception("%s: %s failed", component.ref, function.__name__)
-            self.error(component, f"{function.__name__} failed: {type(problem).__name__}: {problem}")
-            return f"{type(problem).__name__}: {problem}"
+            text = f"{type(problem).__name__}: {problem}"
+            if not is_again:
+                log.exception("%s: %s failed", component.ref, function.__name__)
+                self.error(component, f"{function.__name__} failed: {text}")
+            return text
 
     async def end_session(self, patience=LONGEST_HALT):
         """Ends the session, halts its components, and waits at most this time for them. Keeps the events that no link has

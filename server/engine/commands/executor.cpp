@@ -184,7 +184,7 @@ void Executor::go_on_with_start(SharedCommand const& command, Instant now) {
     if (component.halting) return wait_for_halt(command, now);
     component.activity = RegisteredComponent::Activity::running;
     component.start = command;
-    component.something_begins();
+    component.note_begin();
     await_start(command, now);
     begin(command, component.for_start(component.parameters, command->arguments), now);
 }
@@ -285,7 +285,7 @@ void Executor::run_function(SharedCommand const& command, Instant now) {
     if (command->state != Command::State::running) return;
     if (component.halting) return wait_for_halt(command, now);
     component.functions.push_back(command);
-    component.something_begins();
+    component.note_begin();
     await_start(command, now);
     begin(command, now);
 }
@@ -448,8 +448,9 @@ void Executor::forget(Session& session) {
     if (!session.ended.empty()) by_age_.erase({session.ended.front()->ended_at, &session});
 }
 
+// An engine stops its component before it releases it: halting it once more would delay the next binding.
 void Executor::release(Session& session, RegisteredComponent& component, Instant now) {
-    halt(component, CompletedStatus::abort, "its component was released", now);
+    if (!session.is_engine || !component.stands_still) halt(component, CompletedStatus::abort, "its component was released", now);
     for (auto const& command : live_commands(session))
         if (command->component.get() == &component) command->binding_lost = true;
     run_ready(now);

@@ -49,7 +49,7 @@ void Executor::await_confirmation(RegisteredComponent& component, Instant now) {
             auto const late = weak.lock();
             if (!late || !late->halting || late->halting->failed) return;
             std::string const reason = "the component did not confirm that it stands still";
-            late->report(ErrorType::component_not_responding, reason, Report::each);
+            late->report_no_response(reason, Report::each, then.steady);
             halt_failed(*late, CompletedStatus::timeout, reason, then);
             run_ready(then);
         });
@@ -96,7 +96,7 @@ void Executor::halt_failed(RegisteredComponent& component, Ticket ticket, Instan
 }
 
 void Executor::go_on(RegisteredComponent& component, Instant now) {
-    component.has_stood = true;
+    component.has_stood = component.stands_still = true;
     auto const halting = std::exchange(component.halting, {});
     if (!halting) return;
     deadlines_.cancel(halting->due);

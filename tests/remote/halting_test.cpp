@@ -1,0 +1,84 @@
+// Components of a sub engine that must stand still.
+#include <algorithm>
+
+#include "remote/two_engines.hpp"
+
+namespace rois {
+
+namespace {
+
+struct HaltingThere : testing::Test {
+    TwoEngines engines{{navigation}};
+    Application desk = engines.main.connect();
+
+    HaltingThere() {
+        engines.bind(desk, "hall.navigation");
+        engines.execute(desk, go("go", "hall.navigation"));
+        desk.received();
+        engines.asked();
+    }
+    ScriptedComponent& robot() { return engines.hall["navigation"]; }
+    auto halts() { return std::ranges::count(robot().calls, "halt"); }
+    void stop(std::string const& id) { engines.execute(desk, named(id, rois::stop("hall.navigation"))); }
+
+    // How often the application has received this error since the last call.
+    std::ptrdiff_t reports_of(std::string const& error) {
+        return std::ranges::count_if(desk.received(), [&](std::string const& words) { return words.find(error) != words.npos; });
+    }
+};
+
+}  // namespace
+
+TEST_F(HaltingThere, IsAskedForAgainWhileNothingIsAnswered) {
+    engines.hold_back(true);
+    stop("stop");
+    engines.advance(3s);
+    EXPECT_EQ(desk.result_of("stop"), "TIMEOUT");
+    auto const asked = engines.asked();
+    EXPECT_GE(std::ranges::count(asked, "execute"), 3);
+    EXPECT_LE(std::ranges::count(asked, "execute"), 7) << "at most twice a second";
+    engines.hold_back(false);
+    engines.advance(300ms);
+    EXPECT_THAT(engines.main.engine->not_halted(), IsEmpty());
+    stop("again");
+    EXPECT_EQ(desk.result_of("again"), "OK");
+}
+
+TEST_F(HaltingThere, ThatFailsEndsTheStopWithErrorAndIsReportedOnce) {
+    robot().throws_in = {"halt"};
+    stop("stop");
+    engines.advance(100ms);
+    EXPECT_EQ(desk.result_of("stop"), "ERROR");
+    engines.advance(2s);
+    EXPECT_EQ(reports_of("COMPONENT_INTERNAL_ERROR hall.navigation"), 1);
+    robot().throws_in = {};
+    engines.advance(500ms);
+    EXPECT_THAT(engines.main.engine->not_halted(), IsEmpty());
+}
+
+TEST_F(HaltingThere, ThatIsNotConfirmedIsReportedByOneOfTheEngines) {
+    robot().halts_later = true;
+    stop("stop");
+    engines.advance(1s);
+    EXPECT_EQ(desk.result_of("stop"), "TIMEOUT");
+    EXPECT_EQ(reports_of("COMPONENT_NOT_RESPONDING hall.navigation"), 1);
+}
+
+TEST_F(HaltingThere, HappensOnceForARelease) {
+    engines.ask(desk, Release{Application::identifier("hall.navigation")});
+    engines.advance(200ms);
+    EXPECT_EQ(halts(), 1);
+    EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::ok);
+}
+
+TEST_F(HaltingThere, IsReportedAtEachLoss) {
+    for (int loss = 0; loss < 3; ++loss) {
+        engines.cut();
+        engines.advance(3100ms);
+        EXPECT_EQ(reports_of("COMPONENT_NOT_RESPONDING hall.navigation"), 1) << "loss " << loss;
+        engines.repair();
+        engines.advance(5s);
+    }
+}
+
+}  // namespace rois
