@@ -86,7 +86,7 @@ void Acting::choose_for(SharedAction const& action, Chosen const& chosen) {
     auto const parameters = rest_of(action->parameters, action->reached);
     auto refs = candidates(parameters);
     std::erase_if(refs, [&](std::string const& ref) { return action->failed.contains(ref); });
-    choose(std::move(refs), action->type, parameters, [this, action, chosen](Choice const& choice) {
+    choose(std::move(refs), action->type, parameters, [action, chosen](Choice const& choice) {
         if (choice.ref.empty() || !action->is_over) return chosen(choice);
         chosen({{}, {ReturnCode::error, "the command was stopped while a member was being chosen"}});
     });

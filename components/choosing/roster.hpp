@@ -77,7 +77,7 @@ public:
 
 private:
     struct InUse {
-        std::uint64_t session;
+        std::uint64_t session = 0;
         std::string engine;
     };
     struct Plan {

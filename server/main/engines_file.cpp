@@ -236,7 +236,7 @@ std::vector<SubEngine> read_engines_file(std::string const& file, TakenNames con
     for (auto const& [name, value] : object.items())
         if (name != "choosing" && (name != "engines" || !value.is_array()))
             throw BadSettings{file + ":" + place_of_key(text, name) +
-                              ": expected only \"engines\": [ ... ], a list of sub engines, and \"choosing\""};
+                              R"(: expected only "engines": [ ... ], a list of sub engines, and "choosing")"};
     if (!object.contains("engines")) throw BadSettings{file + ":1:1: expected \"engines\": [ ... ], a list of sub engines"};
     std::vector<SubEngine> engines;
     std::set<std::string> names, joining, urls;
