@@ -164,8 +164,8 @@ QueryExpression Context::condition() {
     }
 }
 
-std::vector<ComponentEntry> Context::components() {
-    auto answer = session().request(GetProfile{});
+std::vector<ComponentEntry> Context::components(QueryExpression condition) {
+    auto answer = session().request(GetProfile{std::move(condition)});
     auto* const reply = std::get_if<Reply>(&answer);
     auto* const profile = reply != nullptr ? std::get_if<GetProfile::Reply>(reply) : nullptr;
     return profile != nullptr ? std::move(profile->components) : std::vector<ComponentEntry>{};
@@ -193,16 +193,13 @@ std::string Context::hint_for_component(std::string const& ref) {
 
 ComponentEntry Context::component(std::string const& ref) {
     auto reply = ok(GetProfile{});
-    auto const find_in = [&](GetProfile::Reply const& profile) -> ComponentEntry const* {
-        auto const found = std::ranges::find(profile.components, ref, &ComponentEntry::ref);
-        return found != profile.components.end() && found->profile ? &*found : nullptr;
+    auto const find_in = [&](std::vector<ComponentEntry> const& there) -> std::optional<ComponentEntry> {
+        auto const found = std::ranges::find(there, ref, &ComponentEntry::ref);
+        return found != there.end() && found->profile ? std::optional{*found} : std::nullopt;
     };
-    if (auto const* found = find_in(reply)) return *found;
+    if (auto const found = find_in(reply.components)) return *found;
     // Members of logical components are only shown to those who ask for them.
-    auto const asked = session().request(GetProfile{is_component(ref)});
-    auto const* member = std::get_if<Reply>(&asked);
-    auto const* profile = member != nullptr ? std::get_if<GetProfile::Reply>(member) : nullptr;
-    if (auto const* found = profile != nullptr ? find_in(*profile) : nullptr) return *found;
+    if (auto const member = find_in(components(is_component(ref)))) return *member;
     refuse<GetProfile>(ReturnCode::bad_parameter, "unknown component " + rois::quoted(ref) + "; there are " +
                                                       listed(reply.components, &ComponentEntry::ref));
 }

@@ -70,7 +70,7 @@ public:
     std::string hint_for_component(std::string const& ref);
 
     // The engine's components; none if the engine does not answer.
-    std::vector<ComponentEntry> components();
+    std::vector<ComponentEntry> components(QueryExpression condition = {});
 
     // Reports an error that this program has found itself as if the engine had refused the operation: as a document or, for
     // people, only the reason.

@@ -29,7 +29,7 @@ std::string why_not_free(RegisteredComponent const& component) {
 
 // Also a binding that the session has already: `switching` may be another one, or a sub engine has lost the binding.
 bool must_confirm(RegisteredComponent const& component, Session const& session) {
-    if (!component.confirms_binding() || component.has_failed_to_halt() || component.has_departed()) return false;
+    if (!component.confirms_binding() || component.has_failed_to_halt()) return false;
     return component.is_free() || component.bound_to == &session;
 }
 
@@ -209,7 +209,8 @@ Engine::Core::Later Engine::Core::bind_first(Session& session, SharedAsked const
         return {};
     }
     candidates.erase(candidates.begin());
-    if (!must_confirm(candidate, session)) {
+    bool const has_left = registry_.find(candidate.ref().code) != &candidate;
+    if (has_left || !must_confirm(candidate, session)) {
         auto const bound = bind(session, wanted, now);
         auto const& outcome = std::get<Bind::Reply>(bound);
         if (outcome.return_code != ReturnCode::ok && !candidates.empty())

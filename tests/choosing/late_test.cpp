@@ -1,6 +1,6 @@
 // Members that answer late, as those of another engine do.
 #include "choosing/team.hpp"
-#include "engine/slow_component.hpp"
+#include "engine/asynchronous.hpp"
 
 namespace rois::choosing::test {
 
@@ -51,8 +51,11 @@ protected:
         world.advance(1s);
         return bound->said && code_of(*bound) == ReturnCode::ok && world.engine->not_halted().empty();
     }
-    static ReturnCode code_of(TestedOperation const& asked) {
-        return std::visit([](Outcome const& outcome) { return outcome.return_code; }, std::get<Reply>(asked.said.value()));
+    // The application leaves, and only then do the members answer.
+    void leave() {
+        desk.leave();
+        work();
+        let_all();
     }
 
     Team team{{"robot1", "robot2"}};
@@ -94,18 +97,14 @@ protected:
 
 TEST_F(LateSensors, AreFreeAgainIfTheApplicationLeavesBeforeTheyAreBound) {
     ASSERT_EQ(waiting(*members[0], "bind"), 1);
-    desk.leave();
-    work();
-    let_all();
+    leave();
     EXPECT_TRUE(can_be_used("localization"));
 }
 
 TEST_F(LateSensors, AreFreeAgainIfTheApplicationLeavesBeforeTheyHaveStarted) {
     answer(*members[0], "bind", Done{});
     ASSERT_EQ(waiting(*members[0], "prepare"), 1);
-    desk.leave();
-    work();
-    let_all();
+    leave();
     EXPECT_TRUE(can_be_used("localization"));
 }
 
@@ -130,9 +129,7 @@ TEST_F(LateRobot, CarriesOutSeveralCommandsOfOneSequence) {
 TEST_F(LateRobot, IsFreeAgainIfTheApplicationLeavesBeforeItIsBound) {
     begin({drive_to("go", {"1000, 0, 0"})});
     ASSERT_EQ(waiting(robot(), "bind"), 1);
-    desk.leave();
-    work();
-    let_all();
+    leave();
     EXPECT_TRUE(can_be_used("navigation"));
 }
 
@@ -142,9 +139,7 @@ TEST_F(LateRobot, IsFreeAgainIfTheApplicationLeavesBeforeItHasStarted) {
         if (waiting(robot(), "bind") > 0) answer(robot(), "bind", Done{});
         if (waiting(robot(), "prepare") > 0) let_prepare(robot());
     }
-    desk.leave();
-    work();
-    let_all();
+    leave();
     EXPECT_TRUE(can_be_used("navigation"));
 }
 
