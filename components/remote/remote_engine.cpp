@@ -281,7 +281,6 @@ std::shared_ptr<ComponentRecord> RemoteEngine::record_of(std::string_view ref) c
 void RemoteEngine::operator()(ReceiveEvent const& event) {
     auto const record = record_of(event.component_ref.code);
     if (!record || !event.results) return;
-    if (record->halt && !record->is_wanted) return;  // it happened before the component, which was released, stood still
     auto results = *event.results;
     translation_.to_here(results);
     record->report(EventOccurred{event.event_type, std::make_shared<Results const>(std::move(results))});

@@ -71,21 +71,6 @@ TEST_F(HaltingThere, HappensOnceForARelease) {
     EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::ok);
 }
 
-TEST_F(HaltingThere, HidesEventsThatHappenedBetweenTheReleaseAndTheHalt) {
-    desk.subscribe("reached_target");
-    engines.settle();
-    engines.hold_back(true);
-    robot().fires("reached_target", {value("is_final_target", "bool", {"false"})});
-    desk.release("hall.navigation");
-    engines.hold_back(false);
-    engines.advance(200ms);
-    EXPECT_EQ(reports_of("reached_target"), 0);
-    EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::ok);
-    robot().fires("reached_target", {value("is_final_target", "bool", {"false"})});
-    engines.settle();
-    EXPECT_EQ(reports_of("reached_target"), 1);
-}
-
 TEST_F(HaltingThere, IsReportedAtEachLoss) {
     for (int loss = 0; loss < 3; ++loss) {
         engines.cut();
