@@ -19,6 +19,7 @@ constexpr int deepest = 8;  // levels of engines
 constexpr std::chrono::seconds between_restores{1};
 // Names that a component's profile declares. The engine compares them with one another, while all applications wait.
 constexpr std::size_t most_names = 500;
+constexpr std::size_t most_engines = 500;  // with robots
 
 // The instance of a robot begins with that of its engine ("e1.robot2"). Robots do not count as a level.
 void collect(EngineProfile const& profile, int level, std::string const& instance_above, std::vector<std::string>& instances) {
@@ -151,6 +152,8 @@ void RemoteEngine::enter(GetProfile::Reply const& reply) {
     std::vector<std::string> left_out, refused;
     change.belongings.space = translation.to_here(reply.space, left_out);
     if (settings_.engine.empty()) add_engines(profile, translation, change.belongings.engines);
+    if (change.belongings.engines.size() > most_engines)
+        throw std::runtime_error("it has more than " + std::to_string(most_engines) + " engines and robots");
     Records records;
     auto const is_taken = [&](ComponentEntry const& entry) {
         if (!settings_.engine.empty() && entry.engine != settings_.engine) return false;

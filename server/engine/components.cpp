@@ -67,12 +67,19 @@ void list(EngineProfile& main, std::string const& engine, std::string const& ref
     owner.components.push_back(ref);
 }
 
-// A sub engine without components and sub engines is removed.
-void unlist(EngineProfile& engine, std::set<std::string_view> const& refs) {
+using Names = std::set<std::string_view>;
+
+void unlist(EngineProfile& engine, Names const& refs) {
     std::erase_if(engine.components, [&](std::string const& ref) { return refs.contains(ref); });
     for (auto& sub : engine.sub_profiles) unlist(sub, refs);
-    std::erase_if(engine.sub_profiles,
-                  [](EngineProfile const& sub) { return sub.components.empty() && sub.sub_profiles.empty(); });
+}
+
+// Removes the sub engines without components and sub engines, except these.
+void remove_empty(EngineProfile& engine, Names const& kept = {}) {
+    for (auto& sub : engine.sub_profiles) remove_empty(sub, kept);
+    std::erase_if(engine.sub_profiles, [&](EngineProfile const& sub) {
+        return sub.components.empty() && sub.sub_profiles.empty() && !kept.contains(sub.object.name);
+    });
 }
 
 // Returns why the area of a place is invalid, or nullopt. Messages have only boxes.
@@ -82,6 +89,13 @@ std::optional<std::string> why_not(NamedPlace const& place) {
     for (std::size_t axis = 0; axis < area.low.size(); ++axis) valid = valid && area.low[axis] <= area.high[axis];
     if (valid) return {};
     return "the place " + quoted(name, 200) + " has an invalid area: expected its lowest and its highest coordinates";
+}
+
+Names engines_of(std::map<std::string, Belongings> const& all) {
+    Names names;
+    for (auto const& [provider, brought] : all)
+        for (auto const& [name, parameters] : brought.engines) names.insert(name);
+    return names;
 }
 
 auto all_space_of(Belongings const& brought) { return std::tie(brought.frames, brought.places, brought.space); }
@@ -126,23 +140,38 @@ void Engine::Core::add(std::shared_ptr<Device> device, std::string const& name, 
     devices_.push_back(std::move(state));
 }
 
+// For applications: without sub engines that have no components.
 std::shared_ptr<EngineProfile const> Engine::Core::profile() const {
-    if (!shared_profile_) shared_profile_ = std::make_shared<EngineProfile const>(profile_);
+    if (!shared_profile_) {
+        auto shown = profile_;
+        remove_empty(shown);
+        shared_profile_ = std::make_shared<EngineProfile const>(std::move(shown));
+    }
     return shared_profile_;
 }
 
-// For sessions whose condition names no member.
+EngineProfile Engine::Core::without_members() const {
+    auto shown = profile_;
+    Names members;
+    for (auto const* component : registry_.logical()) members.insert(component->members().begin(), component->members().end());
+    unlist(shown, members);
+    return shown;
+}
+
+// For applications whose condition names no member.
 std::shared_ptr<EngineProfile const> Engine::Core::profile_without_members() const {
     if (registry_.logical().empty()) return profile();
     if (!shared_profile_without_members_) {
-        auto shown = profile_;
-        std::set<std::string_view> members;
-        for (auto const* component : registry_.logical())
-            members.insert(component->members().begin(), component->members().end());
-        unlist(shown, members);
+        auto shown = without_members();
+        remove_empty(shown);
         shared_profile_without_members_ = std::make_shared<EngineProfile const>(std::move(shown));
     }
     return shared_profile_without_members_;
+}
+
+// For other engines: with all sub engines, because they find loops by them.
+std::shared_ptr<EngineProfile const> Engine::Core::profile_for_engines(bool with_members) const {
+    return std::make_shared<EngineProfile const>(with_members ? profile_ : without_members());
 }
 
 void Engine::Core::enter(SharedComponent const& component) {
@@ -274,7 +303,9 @@ std::vector<std::string> Engine::Core::change(ComponentChange change, Instant no
         auto const& entry = registry.add(coming.back()).entry();
         list(profile, entry.engine, entry.ref);
     }
+    for (auto const& [name, parameters] : brought.engines) profile_of(profile, name);
     describe_engines(profile, brought.engines);
+    remove_empty(profile, engines_of(belongings));
     expect_providers(registry.all().size() + going.size() + devices_.size());
 
     std::swap(registry_, registry);

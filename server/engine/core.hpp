@@ -69,7 +69,9 @@ public:
     void link_closed(SessionId const&, LinkKind, Closing, Instant now);
 
     std::shared_ptr<EngineProfile const> profile() const;
+    EngineProfile without_members() const;
     std::shared_ptr<EngineProfile const> profile_without_members() const;
+    std::shared_ptr<EngineProfile const> profile_for_engines(bool with_members) const;
     std::vector<ComponentEntry> components() const;
     EngineStatistics statistics() const;
 

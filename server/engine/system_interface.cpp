@@ -188,7 +188,9 @@ Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
         if (session.is_engine) reply.components.back().traits = component->traits();
     }
     if (session.is_engine) reply.space = space();
-    auto const whole = names_members ? profile() : profile_without_members();
+    auto const whole = session.is_engine ? profile_for_engines(names_members)
+                       : names_members   ? profile()
+                                         : profile_without_members();
     reply.profile = selected.filter().restricts() ? profile_of_engine_with(whole, reply.components) : whole;
     return reply;
 }

@@ -227,6 +227,26 @@ TEST_F(TwoEyes, CountTheGreatestNumberWithoutPositions) {
     EXPECT_THAT(events.front(), HasSubstr("number=2"));
 }
 
+TEST_F(TwoEyes, ReportEachNumberOnceAlsoZero) {
+    desk.bind("detection");
+    desk.subscribe("person_detected", {}, true);
+    desk.execute(named("count", start("detection")));
+    desk.received();
+    std::string numbers;
+    auto const detect = [&](std::string const& robot, int number) {
+        world[robot + ".detection"].fires("person_detected", {date_time("timestamp", {}), integer("number", number)});
+        for (auto const& words : desk.received())
+            if (auto const at = words.find("number="); at != words.npos) numbers += words.substr(at + 7, 1);
+    };
+    detect("robot1", 1);
+    detect("robot2", 1);
+    detect("robot1", 0);
+    EXPECT_EQ(numbers, "1") << "robot2 still detects somebody";
+    detect("robot2", 0);
+    detect("robot1", 0);
+    EXPECT_EQ(numbers, "10");
+}
+
 TEST_F(TwoEyes, CountPersonsWithPositionsOnce) {
     watch();
     desk.bind("detection");

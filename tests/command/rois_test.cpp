@@ -18,6 +18,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 TEST_F(Rois, SearchesByConditionTextOrFile) {
@@ -43,6 +44,27 @@ TEST_F(Rois, ShowsProfiles) {
                 AllOf(HasSubstr("reached_target"), HasSubstr("time_limit       int       = 0")));
     EXPECT_EQ(objects({"profile", "reaction"})[0]["identifier"], "urn:x-rois:def:component:OMG::Reaction");
     EXPECT_THAT(run({"profile", "reaction", "--xml"}).out, StartsWith("<rois:HRIComponentProfile"));
+}
+
+// Members of logical components are only shown to those who ask for them.
+TEST(RoisWithLogicalComponents, FindsAMemberByItsRef) {
+    kit::ProfileFolder const folder;
+    folder.put("engines.json", R"({
+        "engines": [{"name": "robot1", "joins": "robot1"}],
+        "choosing": {"logical": ["navigation"], "engines": ["robot1"]}})");
+    GatewayProcess gateway{{"--robots", "none", "--engines", folder.name() + "/engines.json"}};
+    GatewayProcess const robot{{"--join", gateway.url(), "--join-as", "robot1"}};
+    gateway.log_with("present with");
+    auto const run = [&](std::vector<std::string> const& arguments) {
+        return run_rois(arguments, {}, {{"ROIS_URL", gateway.url()}});
+    };
+    EXPECT_THAT(run({"profile"}).out, AllOf(HasSubstr("\nnavigation "), Not(HasSubstr("robot1.navigation"))));
+    EXPECT_THAT(run({"profile", "robot1.navigation"}).out, HasSubstr("reached_target"));
+    EXPECT_EQ(run({"set", "robot1.navigation", "time_limit=7000"}).exit_code, 0);
+    EXPECT_EQ(run({"execute", "robot1.navigation", "stop"}).exit_code, 0);
+    auto const unknown = run({"profile", "robot2.navigation"});
+    EXPECT_EQ(unknown.exit_code, 3);
+    EXPECT_THAT(unknown.error, HasSubstr("unknown component 'robot2.navigation'"));
 }
 
 TEST_F(Rois, QueriesInThreeForms) {

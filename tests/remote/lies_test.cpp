@@ -181,6 +181,16 @@ TEST_F(ALyingSubEngine, MayHaveEightLevelsAndRobots) {
     EXPECT_THAT(after(deep), testing::Not(IsEmpty()));
 }
 
+TEST_F(ALyingSubEngine, IsRefusedWithMoreThanFiveHundredEngines) {
+    auto const many = [](auto& profile) {
+        auto whole = *profile.profile;
+        for (int i = 0; i < 500; ++i) whole.sub_profiles.emplace_back().object.name = "room" + std::to_string(i);
+        profile.profile = std::make_shared<EngineProfile const>(whole);
+    };
+    EXPECT_THAT(after(many), IsEmpty());
+    EXPECT_EQ(reported(), "it has more than 500 engines and robots");
+}
+
 TEST_F(ALyingSubEngine, WaitsIfItReportsMoreThanThisEngineHandles) {
     desk.subscribe("reached_target");
     for (int i = 0; i < 900; ++i)

@@ -298,6 +298,32 @@ TEST_F(SubEngines, ShowTheirNewInstanceWhenTheyReturn) {
     EXPECT_THAT(desk.received(), testing::Contains(HasSubstr("profile_changed")));
 }
 
+// Engines above this one count levels and find loops by them.
+TEST(ASubEngineWithoutComponents, IsShownOnlyToOtherEngines) {
+    TwoEngines engines{{}};
+    auto const shown_to = [&](bool is_engine) {
+        Connect as;
+        as.is_engine = is_engine;
+        std::vector<std::string> names;
+        for (auto const& sub : engines.main.connect(as).ask(GetProfile{}).profile->sub_profiles) names.push_back(sub.object.name);
+        return names;
+    };
+    EXPECT_THAT(shown_to(false), IsEmpty());
+    EXPECT_THAT(shown_to(true), ElementsAre("hall"));
+
+    engines.hall.change({}, {speech});
+    engines.advance(2s);
+    EXPECT_THAT(shown_to(false), ElementsAre("hall"));
+    engines.hall.change({"speech"}, {});
+    engines.advance(2s);
+    EXPECT_THAT(shown_to(false), IsEmpty());
+    EXPECT_THAT(shown_to(true), ElementsAre("hall"));
+
+    engines.cut();
+    engines.advance(60s);
+    EXPECT_THAT(shown_to(true), IsEmpty());
+}
+
 TEST_F(SubEngines, AreGivenUpAfterTheWindow) {
     engines.bind(desk, "hall.navigation");
     engines.execute(desk, go("go", "hall.navigation"));
