@@ -10,7 +10,9 @@ namespace rois::choosing {
 Identifier identifier(std::string const& ref) { return {ref, {}, {}, {}}; }
 
 Outcome outcome_of(Reply const* reply) {
-    return reply != nullptr ? rois::outcome_of(*reply) : Outcome{ReturnCode::error, "the engine could not perform the operation"};
+    if (reply == nullptr) return {ReturnCode::error, "the engine could not perform the operation"};
+    auto const& outcome = rois::outcome_of(*reply);
+    return {outcome.return_code, reason_of_only_command(outcome)};
 }
 
 Execute execution(std::string const& ref, std::string const& type, ParameterList const& arguments, bool check_only) {

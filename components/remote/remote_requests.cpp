@@ -15,13 +15,6 @@ constexpr std::chrono::milliseconds between_questions{50};  // whether everythin
 constexpr std::chrono::milliseconds between_stops{500};     // of a component that does not answer
 constexpr std::size_t most_stops = 4;                       // whose end may still confirm a halt
 
-// Removes the place from a sub engine's reason: this engine adds the place in its own sequence.
-std::string without_place(std::string_view reason) {
-    constexpr std::string_view place = "command_unit_list[1]: ";
-    if (reason.starts_with(place)) reason.remove_prefix(place.size());
-    return std::string{reason};
-}
-
 CompletedStatus status_of_refusal(ReturnCode code) {
     if (code == ReturnCode::out_of_resources) return CompletedStatus::out_of_resources;
     return code == ReturnCode::timeout ? CompletedStatus::timeout : CompletedStatus::error;
@@ -91,8 +84,8 @@ void RemoteEngine::prepare(std::shared_ptr<ComponentRecord> const& record, Ticke
         if (reply == nullptr) return record->answer(ticket, Failed{is_lost});
         auto const outcome = outcome_of(*reply);
         if (outcome.return_code == ReturnCode::bad_parameter)
-            return record->answer(ticket, Refused{without_place(outcome.reason)});
-        if (outcome.return_code != ReturnCode::ok) return record->answer(ticket, Failed{without_place(outcome.reason)});
+            return record->answer(ticket, Refused{reason_of_only_command(outcome)});
+        if (outcome.return_code != ReturnCode::ok) return record->answer(ticket, Failed{reason_of_only_command(outcome)});
         record->answer(ticket, [self, record, command_type, parameters](CommandHandle command, Instant) {
             self->run([=](RemoteEngine& engine) {
                 try {
@@ -139,7 +132,7 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
             self->commands_.erase(known);
             --record->running;
             auto const status = reply == nullptr ? CompletedStatus::abort : status_of_refusal(outcome_of(*reply).return_code);
-            auto const reason = reply == nullptr ? is_lost : outcome_of(*reply).reason;
+            auto const reason = reply == nullptr ? std::string{is_lost} : reason_of_only_command(outcome_of(*reply));
             record->report(CommandEnded{.command = command, .status = status, .results = {}, .afterwards = {}, .reason = reason});
         },
         {id});
@@ -237,7 +230,7 @@ void RemoteEngine::command(std::shared_ptr<ComponentRecord> const& record, std::
             if (reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok) return;
             if (self->commands_.erase(id) > 0)
                 reply == nullptr ? then(CompletedStatus::abort, is_lost)
-                                 : then(CompletedStatus::error, without_place(outcome_of(*reply).reason));
+                                 : then(CompletedStatus::error, reason_of_only_command(outcome_of(*reply)));
         },
         {id});
 }

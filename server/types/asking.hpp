@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -18,6 +19,15 @@ inline Condition is_component(std::string ref) {
 // The part that all answers have.
 inline Outcome const& outcome_of(Reply const& reply) {
     return *std::visit([](Outcome const& outcome) { return &outcome; }, reply);
+}
+
+// The reason why an `execute` with one command is refused, without the command's place in the sequence: the asker has received
+// the command in another sequence.
+inline std::string reason_of_only_command(Outcome const& outcome) {
+    constexpr std::string_view place = "command_unit_list[1]: ";
+    std::string_view reason = outcome.reason;
+    if (reason.starts_with(place)) reason.remove_prefix(place.size());
+    return std::string{reason};
 }
 
 // The rows of an answer to a query; none if it is null or not OK.
