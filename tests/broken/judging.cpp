@@ -1,5 +1,7 @@
 #include "broken/judging.hpp"
 
+#include <signal.h>
+
 #include <algorithm>
 #include <ostream>
 #include <sstream>
@@ -45,6 +47,34 @@ std::set<std::string> broken_in(std::string const& report) { return marked_in(re
 std::set<std::string> held_in(std::string const& report) { return marked_in(report, "holds          "); }
 
 EmptyHall::EmptyHall(std::vector<std::string> const& settings) : GatewayProcess{with_usual(settings)} {}
+
+Team::Team() : main_{{"--robots", "none", "--engines", engines(), "--sim-speed", "20"}} {
+    main_.log_with("robot1: present with");
+    main_.log_with("robot2: present with");
+}
+
+Team::~Team() {
+    robot1_.signal(SIGCONT);
+    robot2_.signal(SIGCONT);
+}
+
+std::string Team::engines() const {
+    auto const robot = [](std::string const& name, EmptyHall const& of) {
+        return R"({"name": ")" + name + R"(", "url": ")" + url(of.port()) + R"("})";
+    };
+    folder_.put("engines.json", R"({"engines": [)" + robot("robot1", robot1_) + ", " + robot("robot2", robot2_) +
+                                    R"(], "choosing": {"logical": ["navigation", "speech_synthesis", "reaction"],
+                                                       "sensing": ["person_detection"], "engines": ["robot1", "robot2"]}})");
+    return folder_.name() + "/engines.json";
+}
+
+std::string Team::disturbance() const {
+    auto const file = folder_.name() + "/disturb.sh";
+    folder_.put("disturb.sh", "case $COMPONENT in robot1.*) robot=" + std::to_string(robot1_.id()) +
+                                  ";; *) robot=" + std::to_string(robot2_.id()) +
+                                  ";; esac\nkill -STOP $robot && { sleep 6; kill -CONT $robot; } >/dev/null 2>&1 &\n");
+    return "'sh " + file + "'";
+}
 
 std::string url(std::uint16_t port) { return "http://127.0.0.1:" + std::to_string(port); }
 

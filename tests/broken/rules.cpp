@@ -26,6 +26,8 @@ Settings settings_of(World world) {
                     " --room 600"};
         case World::failed_functions:
             return {{"--start-timeout", "1", "--scenario", data("unwell_functions.xml")}, ""};
+        case World::team:
+            return {{}, " --patience 10"};
         case World::short_expiry:
             return {{"--event-details", "1"}, ""};
     }

@@ -21,6 +21,7 @@ enum class World {
     strollers,         // walking visitors
     two_robots,        // two robots in one hall
     failed_functions,  // failed functions
+    team,              // two robots in their own gateways, below a main engine that chooses; one fails when it is disturbed
     short_expiry,      // details of events expire after a second
 };
 
@@ -49,6 +50,7 @@ std::vector<BrokenRule> rules_of_motion();  // from here on: effects of componen
 std::vector<BrokenRule> rules_of_actions();
 std::vector<BrokenRule> rules_of_people();
 std::vector<BrokenRule> rules_of_systems();
+std::vector<BrokenRule> rules_of_choosing();
 
 // A named group of rules.
 struct Part {
@@ -59,7 +61,7 @@ inline constexpr Part all_parts[] = {
     {"Sessions", rules_of_sessions},     {"Commands", rules_of_commands}, {"Information", rules_of_information},
     {"Conditions", rules_of_conditions}, {"Http", rules_of_http},         {"Gaps", rules_of_gaps},
     {"Motion", rules_of_motion},         {"Actions", rules_of_actions},   {"People", rules_of_people},
-    {"Systems", rules_of_systems}};
+    {"Systems", rules_of_systems},       {"Choosing", rules_of_choosing}};
 
 inline std::ostream& operator<<(std::ostream& out, Part const& part) { return out << part.name; }
 

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -22,15 +23,22 @@ TEST(BrokenRules, AreManyAndHaveUniqueNames) {
     std::set<std::string> names;
     for (auto const part : all_parts)
         for (auto const& rule : part.rules()) EXPECT_TRUE(names.insert(rule.name).second) << rule.name;
-    EXPECT_GE(names.size(), 197u);
+    EXPECT_GE(names.size(), 206u);
 }
 
 // Runs the check that must find the broken rule; all checks if the rule applies to all messages.
 Judged judge_broken(BrokenRule const& rule) {
     constexpr int no_such_check = 2;
-    auto const [for_gateway, for_judge] = settings_of(rule.world);
-    EmptyHall gateway{for_gateway};
-    Proxy const proxy{gateway.port(), rule.breaking};
+    auto [for_gateway, for_judge] = settings_of(rule.world);
+    std::optional<EmptyHall> hall;
+    std::optional<Team> team;
+    if (rule.world == World::team) {
+        team.emplace();
+        for_judge += " --disturb " + team->disturbance();
+    } else {
+        hall.emplace(for_gateway);
+    }
+    Proxy const proxy{team ? team->port() : hall->port(), rule.breaking};
     std::string const over = rule.over == Over::http ? "http" : "websocket";
     auto const order = url(proxy.port()) + " --patience 2 --limit 90 --over " + over + for_judge;
     auto const judged = judge(order + " --only " + rule.found_by);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <ctime>
+#include <utility>
 
 #include "kit/line.hpp"
 
@@ -30,12 +32,14 @@ std::string in_ssml(std::string const& content) {
 
 }  // namespace
 
-Context::Context(kit::Address address, Transport transport, Catalogue const& catalogue, Traffic& traffic, double room)
+Context::Context(kit::Address address, Transport transport, Catalogue const& catalogue, Traffic& traffic, double room,
+                 std::string disturbance)
     : address_{std::move(address)},
       transport_{transport},
       catalogue_{catalogue},
       traffic_{traffic},
       room_{room},
+      disturbance_{std::move(disturbance)},
       end_{std::chrono::steady_clock::now() + std::max<Clock::duration>(longest_check, 6 * address_.patience)} {}
 
 Component const& Context::component_of_kind(std::vector<std::string> const& kinds) const {
@@ -67,6 +71,16 @@ std::pair<Component const*, Component const*> Context::two_common_components() c
 double Context::room() const {
     if (room_ == 0) throw Skipped{"robots must not move (--room 0)"};
     return room_;
+}
+
+void Context::can_disturb() const {
+    if (disturbance_.empty()) throw Skipped{"no command makes a component fail (--disturb)"};
+}
+
+// The ref is from the gateway, so it is not a part of the command.
+void Context::disturb(std::string const& ref) const {
+    ::setenv("COMPONENT", ref.c_str(), 1);
+    if (std::system(disturbance_.c_str()) != 0) throw Skipped{"the command of --disturb has failed for " + ref};
 }
 
 void Context::check_deadline() const {

@@ -23,7 +23,8 @@ using kit::Transport;
 
 class Context {
 public:
-    Context(kit::Address address, Transport transport, Catalogue const& catalogue, Traffic& traffic, double room);
+    Context(kit::Address address, Transport transport, Catalogue const& catalogue, Traffic& traffic, double room,
+            std::string disturbance);
 
     kit::Address const& address() const { return address_; }
     Transport transport() const { return transport_; }
@@ -31,6 +32,9 @@ public:
     Traffic& traffic() { return traffic_; }
     // Returns the greatest distance of a robot from its starting point, in mm. Throws Skipped if robots must not move (--room 0).
     double room() const;
+    // Makes a component fail for some seconds (--disturb). `can_disturb` throws Skipped if there is no such command.
+    void can_disturb() const;
+    void disturb(std::string const& ref) const;
     std::chrono::milliseconds patience() const { return address_.patience; }
 
     // Returns a basic component of one of these kinds; earlier kinds come first. Throws Skipped if the gateway has none.
@@ -50,6 +54,7 @@ private:
     Catalogue const& catalogue_;
     Traffic& traffic_;
     double room_;
+    std::string disturbance_;
     std::chrono::steady_clock::time_point end_;
 };
 

@@ -30,6 +30,7 @@ constexpr auto usage =
     "  --token TOKEN        bearer token for the gateway\n"
     "  --patience SECONDS   longest wait for one answer, notification or motion [10]\n"
     "  --room MILLIMETRES   greatest distance of a robot from its starting point; 0 forbids motion [300]\n"
+    "  --disturb COMMAND    a shell command that makes the component $COMPONENT fail for some seconds: checks switching\n"
     "  --limit SECONDS      longest time for all checks [600]\n\n"
     "Exit codes: 0 no rule is broken, 1 a rule is broken, 2 invalid option or no gateway at URL\n";
 
@@ -99,6 +100,8 @@ std::optional<CommandLine> read_command_line(std::span<char* const> arguments) {
             line.options.address.patience = std::chrono::seconds{whole_number(name, value, 3'600)};
         } else if (name == "--room") {
             line.options.room = whole_number(name, value, 10'000, 0);
+        } else if (name == "--disturb") {
+            line.options.disturbance = value;
         } else if (name == "--limit") {
             line.options.limit = std::chrono::seconds{whole_number(name, value, 86'400)};
         } else {

@@ -86,7 +86,7 @@ Report run_checks(RunOptions const& options) {
                 if (!matches(options, check, transport)) continue;
                 Finding finding{check.name, check.proves, name_of(transport)};
                 if (Clock::now() < end) {
-                    Context context{options.address, transport, catalogue, traffic, options.room};
+                    Context context{options.address, transport, catalogue, traffic, options.room, options.disturbance};
                     run_check(finding, check, context);
                 } else {
                     finding.outcome = Outcome::skipped;

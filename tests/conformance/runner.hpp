@@ -15,6 +15,7 @@ struct RunOptions {
     kit::Address address;
     std::vector<kit::Transport> transports{kit::Transport::http, kit::Transport::websocket};
     std::string only{};               // runs only checks whose name contains this text; empty: all
+    std::string disturbance{};        // a shell command that makes the component $COMPONENT fail; empty: none
     double room = 300;                // the greatest distance of a robot from its starting point, in mm
     std::chrono::seconds limit{600};  // the longest time for all checks; later checks are skipped, and the report has a failure
 };

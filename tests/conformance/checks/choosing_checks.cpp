@@ -7,6 +7,8 @@ namespace rois::conformance {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 // The components of units with the same name: "robot1.navigation" for "navigation". They are seen only by those who ask for
 // units.
 std::vector<std::string> members_of(Client& client, Component const& component) {
@@ -76,17 +78,29 @@ void members_are_seen_by_those_who_ask_for_units(Context& context) {
     }
 }
 
-void at_most_one_member_acts(Context& context) {
-    Client client{context};
+Logical logical_speech(Context& context, Client& client) {
     auto const all = logical_components(context, client);
     auto const speech = std::ranges::find(all, "speechsynthesis", [](Logical const& each) { return each.component->basic(); });
     if (speech == all.end()) throw NotObservable{"no speech synthesis is logical"};
-    auto const& [component, members] = *speech;
-    if (!busy(client, members).empty()) throw Skipped{"another application uses one of " + list(members)};
+    if (!busy(client, speech->members).empty()) throw Skipped{"another application uses one of " + list(speech->members)};
+    return *speech;
+}
+
+// Returns the members that act. One begins a little later than the logical component.
+std::vector<std::string> acting_members(Context& context, Client& client, std::vector<std::string> const& members) {
+    auto acting = busy(client, members);
+    for (; acting.empty(); context.check_deadline()) acting = busy(client, members);
+    return acting;
+}
+
+void at_most_one_member_acts(Context& context) {
+    Client client{context};
+    auto const [component, members] = logical_speech(context, client);
     client.bind_or_skip(*component);
     auto const id = client.execute_one(long_speech(*component, unique_name()));
-    auto acting = busy(client, members);
-    for (; acting.empty(); context.check_deadline()) acting = busy(client, members);  // a member begins a little later
+    auto acting = acting_members(context, client, members);
+    for (auto const end = Clock::now() + std::chrono::milliseconds{500}; acting.size() == 1 && Clock::now() < end;)
+        acting = acting_members(context, client, members);  // a second one may begin later
     require(acting.size() == 1, "while " + component->ref + " acts, expected one of its members to be BUSY, got " + list(acting));
     require_equal("the status of stop of " + component->ref, "OK", client.run(command(*component, "stop")));
     client.flush_notifications(*component);
@@ -101,12 +115,85 @@ void a_logical_component_cannot_be_bound_without_free_members(Context& context) 
     for (auto const& member : members)
         if (holder.bind(member).return_code() != "OK") throw Skipped{"another application uses " + member};
     // The engine may notice a little later that the members are not free.
-    for (;;) {
-        auto const code = client.bind(component->ref).return_code();
-        if (code == "OUT_OF_RESOURCES") return;
+    std::string code;
+    for (auto const end = Clock::now() + context.patience(); code != "OUT_OF_RESOURCES" && Clock::now() < end;) {
+        code = client.bind(component->ref).return_code();
         if (code == "OK") require_ok(client.release(component->ref));
-        context.check_deadline();
     }
+    require_equal("bind of " + component->ref + " while all its members are bound", "OUT_OF_RESOURCES", code);
+}
+
+// A long speech of a logical component. The member that performs it fails.
+struct DisturbedSpeech {
+    DisturbedSpeech(Context& where, std::string const& switching) : context{where}, client{where} {
+        context.can_disturb();
+        auto const [logical, all_members] = logical_speech(context, client);
+        component = logical;
+        members = all_members;
+        await_two_members();
+        client.bind_or_skip(*component);
+        require_ok(client.ask("bind", kit::component_ref(component->ref), {{"switching", switching}}));
+        id = client.execute_one(long_speech(*component, unique_name()));
+        failed = acting_members(context, client, members).front();
+        context.disturb(failed);
+    }
+
+    // A member that an earlier check has disturbed returns after a while.
+    void await_two_members() {
+        auto const is_ready = [&](std::string const& ref) { return client.component_status(ref) == "READY"; };
+        for (auto const end = Clock::now() + context.patience(); std::ranges::count_if(members, is_ready) < 2;)
+            if (Clock::now() > end) throw Skipped{"fewer than two of " + list(members) + " are READY"};
+    }
+
+    // Requires that one member acts, and that it is not the one that has failed. Returns its ref.
+    std::string require_another(std::string const& when) {
+        std::vector<std::string> acting;
+        for (; acting.empty(); context.check_deadline()) {
+            acting = busy(client, members);
+            std::erase(acting, failed);
+        }
+        require(acting.size() == 1, when + ": expected one other member to be BUSY, got " + list(acting));
+        return acting.front();
+    }
+
+    void stop() {
+        require_equal("the status of stop of " + component->ref, "OK", client.run(command(*component, "stop")));
+        client.flush_notifications(*component);
+    }
+
+    Context& context;
+    Client client;
+    Component const* component = nullptr;
+    std::vector<std::string> members{};
+    std::string id{};      // of the command
+    std::string failed{};  // the member
+};
+
+void a_command_goes_on_with_another_member(Context& context) {
+    DisturbedSpeech speech{context, "restart"};
+    auto& client = speech.client;
+    auto received = client.receive();
+    while (received.name() != "switched") {
+        require(client.completion_statuses(speech.id).empty(),
+                "expected `switched` after " + speech.failed + " has failed, got " + received.whole());
+        received = client.receive();
+    }
+    require_equal("component_ref of `switched`", speech.component->ref, received.ref());
+    require_equal("`from` of `switched`", speech.failed, received.text("from"));
+    require_equal("`to` of `switched`", speech.require_another("after `switched`"), received.text("to"));
+    speech.stop();
+    require(client.completion_statuses(speech.id) == std::vector<std::string>{"ABORT"},
+            "expected one `completed` of start, with ABORT because of stop, got " + list(client.completion_statuses(speech.id)));
+}
+
+void a_command_aborts_with_its_member(Context& context) {
+    DisturbedSpeech speech{context, "abort"};
+    auto& client = speech.client;
+    require_equal("the status of start after " + speech.failed + " has failed", "ABORT", client.status_of(speech.id));
+    client.execute_one(long_speech(*speech.component, unique_name()));
+    speech.require_another("after a new start");
+    speech.stop();
+    require(client.completion_statuses(speech.id).size() == 1, "expected one `completed` of start");
 }
 
 }  // namespace
@@ -118,7 +205,9 @@ Clause choosing_clause() {
              {"members_are_seen_by_those_who_ask_for_units", "7.2; decision 44", members_are_seen_by_those_who_ask_for_units},
              {"at_most_one_member_acts", "7.2; decision 44", at_most_one_member_acts},
              {"a_logical_component_cannot_be_bound_without_free_members", "7.2; decision 44",
-              a_logical_component_cannot_be_bound_without_free_members}}};
+              a_logical_component_cannot_be_bound_without_free_members},
+             {"a_command_goes_on_with_another_member", "7.2; decision 44", a_command_goes_on_with_another_member},
+             {"a_command_aborts_with_its_member", "7.2; decision 44", a_command_aborts_with_its_member}}};
 }
 
 }  // namespace rois::conformance
