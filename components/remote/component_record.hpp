@@ -35,7 +35,7 @@ public:
     bool may_act = false;
     int running = 0;                  // commands that have not completed
     std::optional<Ticket> halt;       // the newest halt that is not confirmed yet
-    std::deque<std::string> stops{};  // ids of the newest `stop` commands that have not ended yet
+    std::deque<std::string> stops{};  // ids of the newest `stop` commands whose end confirms that the component stands still
     Steady stopped_at{};              // when the newest was sent
 
     int begins_asked = 0;                             // `execute` requests that are not answered yet

@@ -195,7 +195,7 @@ void RemoteEngine::enter(GetProfile::Reply const& reply) {
     space_ = reply.space;
     left_out.insert(left_out.end(), refused.begin(), refused.end());
     if (differs) report_left_out(left_out);
-    if (changes)
+    if (changes || !is_present_)
         host_->report(settings_.name,
                       "present with " + std::to_string(records_.size()) + (records_.size() == 1 ? " component" : " components"));
 }

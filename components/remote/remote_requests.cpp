@@ -117,6 +117,7 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
     };
     commands_.emplace(id, std::move(end));
     record->may_act = true;
+    if (command_type != "set_parameter") record->stops.clear();
     ++record->running;
     auto unit = unit_of(record->entry.ref, command_type, id, translation_.to_there(parameters, record->entry));
     ++record->begins_asked;
@@ -138,11 +139,13 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
         {id});
 }
 
-// Stops the component. The halt is confirmed by the end of `stop`, by the answer to a `release` that was sent before, or by the
-// end of the session there: only the sub engine knows whether its component stands still.
+// Stops the component, also one that is believed to be idle, if it can be asked. The halt is confirmed by the end of `stop`, by
+// the answer to a `release` that was sent before, or by the end of the session there: only the sub engine knows whether its
+// component stands still.
 void RemoteEngine::halt(std::shared_ptr<ComponentRecord> const& record, Ticket ticket) {
     record->halt = ticket;
-    if (!record->may_act) return everything_is_stopped_ ? ask_to_stop() : record->confirm_halt();
+    bool const can_be_asked = record->is_held && is_open_;
+    if (!record->may_act && !can_be_asked) return everything_is_stopped_ ? ask_to_stop() : record->confirm_halt();
     if (!record->is_held || is_given_up_) return;
     auto& stops = record->stops;
     auto const now = host_->now();
@@ -155,9 +158,11 @@ void RemoteEngine::halt(std::shared_ptr<ComponentRecord> const& record, Ticket t
     auto const id = fresh_id();
     stops.push_back(id);
     command(record, "stop", {}, id, [self = shared_from_this(), record, id](CompletedStatus status, std::string const&) {
-        std::erase(record->stops, id);
+        bool const is_current = std::erase(record->stops, id) > 0;
+        if (!is_current) return;
         if (status == CompletedStatus::error) return record->fail_halt();
         if (status != CompletedStatus::ok) return;
+        record->stops.clear();
         record->confirm_halt();
         self->release_unwanted(record);
     });
@@ -173,7 +178,7 @@ void RemoteEngine::clear_stop() {
     everything_is_stopped_ = false;
     clear_stop_there();
     for (auto const& [ref, record] : records_)
-        if (!record->may_act) record->confirm_halt();
+        if (!record->may_act && !record->is_held) record->confirm_halt();
 }
 
 // Repeated in the next session if this one ends before the answer.

@@ -206,7 +206,10 @@ void RemoteEngine::session_ended() {
     give_up("its session has ended");
     forget_session();
     failures_ = 0;  // it answers
-    give_up_link("its session has ended");
+    if (is_open_ || !link_) return give_up_link("its session has ended");
+    ++era_;
+    limit_attempt();
+    connected();  // opens a new session on the same link
 }
 
 // The sub engine has ended the session, so nothing there acts for this engine any more.

@@ -30,7 +30,7 @@ struct UnconfirmedHalt {
     bool failed = false;                             // the component threw, or did not confirm in time; its status is ERROR
     Ticket first{};                                  // of the tickets that confirm it
     Deadlines::Ticket due;                           // when the time to confirm ends, or the next attempt begins
-    std::vector<std::shared_ptr<Command>> waiting;   // commands that continue once the halt is confirmed; empty if it has failed
+    std::vector<std::shared_ptr<Command>> waiting;   // commands that continue once the halt is confirmed
     std::vector<std::function<void(Instant)>> over;  // called once it is confirmed, has failed, or the component has left
 };
 

@@ -173,6 +173,28 @@ TEST_F(AnEngine, KeepsItsSessionWithPongsAlsoIfTheyDoNotProveMotion) {
     EXPECT_EQ(engine.refusal_of(GetProfile{}), std::nullopt);
 }
 
+// The other engine has its own time to confirm.
+TEST_F(AnEngine, HasItsStopAnsweredWhenTheHaltIsConfirmed) {
+    world["navigation"].halts_later = true;
+    engine.bind("navigation");
+    auto application = world.connect();
+    engine.execute(named("stop", stop("navigation")));
+    world.advance(900ms);
+    EXPECT_EQ(engine.result_of("stop"), "RUNNING");
+    engine.execute(named("again", stop("navigation")));
+    world["navigation"].stands_still();
+    EXPECT_EQ(engine.result_of("stop"), "OK");
+    EXPECT_EQ(engine.result_of("again"), "OK");
+}
+
+TEST_F(AnEngine, HasAtMostEightStopsThatWaitForAHalt) {
+    world["navigation"].halts_later = true;
+    engine.bind("navigation");
+    for (int i = 1; i <= 9; ++i) engine.execute(named("stop" + std::to_string(i), stop("navigation")));
+    EXPECT_EQ(engine.result_of("stop1"), "TIMEOUT");
+    EXPECT_EQ(engine.result_of("stop2"), "RUNNING");
+}
+
 TEST(Window, IsTheTimeAfterWhichASessionWithoutALinkEnds) {
     World world{navigation};
     auto desk =

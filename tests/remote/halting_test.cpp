@@ -64,6 +64,56 @@ TEST_F(HaltingThere, ThatIsNotConfirmedIsReportedByOneOfTheEngines) {
     EXPECT_EQ(reports_of("COMPONENT_NOT_RESPONDING hall.navigation"), 1);
 }
 
+// It may always take a little longer than the time to confirm, on each of several levels.
+TEST_F(HaltingThere, IsKnownAsSoonAsItIsConfirmedLate) {
+    robot().halts_later = true;
+    stop("stop");
+    engines.advance(600ms);
+    EXPECT_EQ(desk.result_of("stop"), "TIMEOUT");
+    robot().stands_still();
+    engines.settle();
+    EXPECT_THAT(engines.main.engine->not_halted(), IsEmpty());
+    engines.advance(300ms);
+    EXPECT_EQ(desk.status_of("hall.navigation"), "READY");
+}
+
+TEST_F(HaltingThere, IsAskedForAtOnceIfSomethingHasBegunSince) {
+    robot().halts_later = true;
+    stop("first");
+    engines.advance(700ms);
+    engines.inject(Completed{.command_id = {"c3"}, .status = CompletedStatus::ok});  // the repetition of the first, c2
+    EXPECT_THAT(engines.main.engine->not_halted(), IsEmpty());
+    engines.execute(desk, go("next", "hall.navigation"));
+    engines.asked();
+    auto const before = halts();
+    stop("second");
+    EXPECT_EQ(engines.asked(), std::vector<std::string>{"execute"});
+    EXPECT_EQ(halts(), before + 1);
+}
+
+TEST_F(HaltingThere, IsNotConfirmedByAnEarlierStop) {
+    robot().halts_later = true;
+    stop("first");
+    engines.advance(700ms);
+    engines.inject(Completed{.command_id = {"c3"}, .status = CompletedStatus::ok});
+    engines.execute(desk, go("next", "hall.navigation"));
+    stop("second");
+    engines.inject(Completed{.command_id = {"c2"}, .status = CompletedStatus::ok});
+    EXPECT_EQ(desk.result_of("second"), "RUNNING");
+}
+
+TEST(HaltingSomethingIdle, ReachesTheComponent) {
+    TwoEngines engines{{navigation}};
+    auto desk = engines.main.connect();
+    engines.bind(desk, "hall.navigation");
+    engines.hall["navigation"].calls.clear();
+    engines.execute(desk, named("stop", rois::stop("hall.navigation")));
+    EXPECT_THAT(engines.hall["navigation"].calls, testing::ElementsAre("halt"));
+    EXPECT_EQ(desk.result_of("stop"), "OK");
+    engines.ask(desk, Release{Application::identifier("hall.navigation")});
+    EXPECT_THAT(engines.hall["navigation"].calls, testing::ElementsAre("halt")) << "it stands still";
+}
+
 TEST_F(HaltingThere, HappensOnceForARelease) {
     engines.ask(desk, Release{Application::identifier("hall.navigation")});
     engines.advance(200ms);

@@ -93,4 +93,47 @@ TEST_F(ReturningSubEngines, HaveTheLastParametersOfStart) {
     EXPECT_THAT(find(robot().changed_to, "time_limit")->values, ElementsAre("8000"));
 }
 
+TEST(AMotionThatASubEngineHolds, GoesOnWithResume) {
+    auto part = navigation;
+    part.moves = true;
+    TwoEngines engines{{part}};
+    auto desk = engines.main.connect();
+    auto const& calls = engines.hall["navigation"].calls;
+    engines.bind(desk, "hall.navigation");
+    engines.execute(desk, go("go", "hall.navigation"));
+    engines.execute(desk, named("early", command("resume", "hall.navigation")));
+    EXPECT_EQ(desk.result_of("early"), "ERROR");
+    EXPECT_THAT(calls, testing::Not(testing::Contains("halt"))) << "it goes on";
+    auto const pass = [&](std::chrono::milliseconds time) {
+        for (auto passed = 0ms; passed < time; passed += 100ms) {
+            engines.main.engine->note_pong(desk.session, engines.main.now);
+            engines.advance(100ms);
+        }
+    };
+    engines.cut();
+    pass(1500ms);
+    EXPECT_THAT(calls, testing::Contains("suspend"));
+    engines.repair();
+    pass(1s);
+    engines.execute(desk, named("resume", command("resume", "hall.navigation")));
+    EXPECT_EQ(desk.result_of("resume"), "OK");
+    EXPECT_THAT(calls, testing::Contains("resume"));
+}
+
+// An engine that joins would come again only after a while.
+TEST(ASubEngineThatReturnsAfterTheWindow, GetsANewSessionOnTheSameLink) {
+    TwoEngines engines{{navigation}};
+    auto desk = engines.main.connect();
+    engines.bind(desk, "hall.navigation");
+    engines.cut();
+    engines.advance(4s);
+    engines.repair();
+    engines.asked();
+    auto const links = engines.links;
+    engines.advance(5s);
+    EXPECT_EQ(engines.links, links + 1);
+    EXPECT_EQ(desk.status_of("hall.navigation"), "READY");
+    EXPECT_THAT(engines.asked(), testing::IsSupersetOf({"resume", "connect", "bind"}));
+}
+
 }  // namespace rois

@@ -214,6 +214,7 @@ TwoEngines::~TwoEngines() {
 }
 
 std::shared_ptr<client::Link> TwoEngines::link_for(client::Link::Listener& listener) {
+    ++links;
     return wire_ = std::make_shared<Wire>(*this, listener);
 }
 

@@ -80,6 +80,7 @@ public:
 
     std::vector<std::string> reported;  // lines for the log
     EngineState shown;                  // the last state of the hall
+    int links = 0;                      // that were tried
     remote::RemoteEngine& remote() { return *remote_; }
     std::shared_ptr<client::Link> link_for(client::Link::Listener&);
 

@@ -1,6 +1,5 @@
 """Tests of components/sdk/python/rois_component.py with an engine that the test plays."""
 import asyncio
-import logging
 import pathlib
 import signal
 import subprocess
@@ -8,95 +7,8 @@ import sys
 import time
 import unittest
 
-from fake_engine import Engine, patience, rois
-
-TYPES = {"flag": "bool", "moment": "DateTime", "day": "Date", "clock": "Time", "count": "int", "size": "double", "text": "string", "counts": "int[]"}
-
-
-def message(kind, name, parameters="", element="Arguments"):
-    inner = "".join(f'<rois:{element} rois:name="{key}"><rois:data_type_ref rois:code="{code}"/></rois:{element}>' for key, code in parameters)
-    return f'<rois:MessageProfile xsi:type="rois:{kind}MessageProfileType" rois:name="{name}">{inner}</rois:MessageProfile>'
-
-
-class Machine(rois.Component):
-    """A component whose functions the test replaces."""
-
-    profile = (
-        f'<rois:HRIComponentProfile xmlns:rois="{rois.R[1:-1]}" xmlns:gml="{rois.GML[1:-1]}" xmlns:xsi="{rois.XSI[1:-1]}" gml:id="profile.machine">'
-        "<gml:identifier>urn:x-example:def:component:Machine</gml:identifier><gml:name>machine</gml:name>"
-        "<rois:SubComponentProfile>urn:x-rois:def:component:OMG::RoISCommon</rois:SubComponentProfile>"
-        + message("Command", "take", TYPES.items())
-        + message("Command", "set_parameter", [("level", "int")])
-        + message("Query", "state", [("is_on", "bool")], "Results")
-        + message("Query", "numbers", [("all", "int[]")], "Results")
-        + message("Event", "switched", [("number", "int")], "Results")
-        + '<rois:ParameterProfile rois:name="level" rois:default_value="1"><rois:data_type_ref rois:code="int"/></rois:ParameterProfile>'
-        "</rois:HRIComponentProfile>"
-    )
-    continuous = True
-
-    def __init__(self, ref):
-        super().__init__(ref)
-        self.taken, self.halts, self.levels = [], 0, []
-
-    async def take(self, arguments):
-        self.taken.append(arguments)
-
-    async def set_parameter(self, arguments):
-        self.levels.append(arguments["level"])
-
-    async def halt(self):
-        self.halts += 1
-
-    def state(self):
-        return {"is_on": True}
-
-    def numbers(self):
-        return {"all": [1, 2, 3]}
-
-
-def fail_with(problem):
-    async def fail(*arguments):
-        raise problem
-
-    return fail
-
-
-def wait_for(seconds):
-    async def wait(*arguments):
-        await asyncio.sleep(seconds)
-
-    return wait
-
-
-async def until(condition):
-    for _ in range(patience * 100):
-        if condition():
-            return
-        await asyncio.sleep(0.01)
-    raise AssertionError("the condition did not become true")
-
-
-class ModuleTest(unittest.IsolatedAsyncioTestCase):
-    async def asyncSetUp(self):
-        logging.disable(logging.CRITICAL)
-        self.engine = await Engine().open()
-        self.a, self.b = Machine("a"), Machine("b")
-        self.service = rois.Service("machines", [self.a, self.b])
-        self.program = asyncio.ensure_future(rois.keep_joined(self.service, self.engine.url))
-        self.link = await self.engine.link()
-
-    async def asyncTearDown(self):
-        self.a.halt = self.b.halt = wait_for(0)
-        self.program.cancel()
-        await asyncio.wait([self.program])
-        self.engine.close()
-
-    async def completed(self, id, status):
-        return await self.link.report("completed", command_id=id, status=status)
-
-    def assert_ok(self, answer):
-        self.assertEqual(answer.get("return_code"), "OK", rois.ElementTree.tostring(answer))
+from fake_engine import patience, rois
+from machines import TYPES, Machine, fail_with, wait_for, until, ModuleTest
 
 
 class Failures(ModuleTest):
@@ -190,10 +102,10 @@ class Failures(ModuleTest):
 
     async def test_an_exception_of_the_module_ends_the_program_with_an_exit_code(self):
         program = (
-            "import sys; sys.path[:0] = sys.argv.pop().split(':'); import module_test, fake_engine; rois = fake_engine.rois\n"
+            "import sys; sys.path[:0] = sys.argv.pop().split(':'); import machines, fake_engine; rois = fake_engine.rois\n"
             "async def watch(self): raise RuntimeError('a mistake in the module')\n"
             "rois.Service.watch = watch\n"
-            "rois.run('ws://127.0.0.1:9', 'machines', [module_test.Machine('a')])"
+            "rois.run('ws://127.0.0.1:9', 'machines', [machines.Machine('a')])"
         )
         here = str(pathlib.Path(__file__).resolve().parent)
         ended = subprocess.run([sys.executable, "-B", "-c", program, here], capture_output=True, timeout=patience)
@@ -201,9 +113,9 @@ class Failures(ModuleTest):
 
     async def test_sigterm_ends_a_program_whose_query_hangs(self):
         program = (
-            "import sys; sys.path[:0] = sys.argv.pop().split(':'); import module_test, fake_engine, time\n"
-            "module_test.Machine.state = lambda self: time.sleep(60)\n"
-            f"fake_engine.rois.run('{self.engine.url}', 'machines', [module_test.Machine('a')])"
+            "import sys; sys.path[:0] = sys.argv.pop().split(':'); import machines, fake_engine, time\n"
+            "machines.Machine.state = lambda self: time.sleep(60)\n"
+            f"fake_engine.rois.run('{self.engine.url}', 'machines', [machines.Machine('a')])"
         )
         here = str(pathlib.Path(__file__).resolve().parent)
         process = subprocess.Popen([sys.executable, "-B", "-c", program, here], stderr=subprocess.DEVNULL)
@@ -288,6 +200,42 @@ class Waiting(ModuleTest):
         self.link.execute("a", "start")
         await self.completed("start", "OK")
         self.assertEqual(order, ["halt", "start"])
+
+    async def test_one_halt_is_enough_for_a_stop_its_repetition_and_the_release(self):
+        await self.link.connect()
+        await self.link.execute("a", "start")
+        halts = []
+
+        async def slow():
+            await asyncio.sleep(0.2)
+            halts.append("halt")
+
+        self.a.halt = slow
+        self.link.execute("a", "stop", id="first")
+        await asyncio.sleep(0.05)
+        self.link.execute("a", "stop", id="again")
+        self.assert_ok(await self.link.release("a"))
+        for id in ("first", "again"):
+            await self.completed(id, "OK")
+        self.assertEqual(halts, ["halt"])
+        self.assert_ok(await self.link.release("a"))
+        self.assertEqual(halts, ["halt"], "it stands still")
+
+    async def test_a_stop_ends_a_start_that_waits_for_the_halt_before_it(self):
+        await self.link.connect()
+        halts = []
+
+        async def slow():
+            await asyncio.sleep(0.2)
+            halts.append("halt")
+
+        self.a.halt = slow
+        self.link.execute("a", "stop", id="first")
+        self.link.execute("a", "start")
+        self.link.execute("a", "stop", id="second")
+        await self.completed("start", "ABORT")
+        await self.completed("second", "OK")
+        self.assertEqual(halts, ["halt", "halt"])
 
     async def test_a_start_and_a_stop_in_one_packet_both_complete(self):
         await self.link.connect()

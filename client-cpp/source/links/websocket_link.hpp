@@ -166,7 +166,8 @@ private:
         stream_.async_write(asio::buffer(*outgoing_.front()), [self = this->shared_from_this()](error_code error, std::size_t) {
             self->outgoing_.pop_front();
             if (error) {
-                self->broke(error);
+                // The read that waits fails, too, and knows why the link broke.
+                if (self->read_is_due_) self->broke(error);
             } else if (!self->outgoing_.empty() && self->listener_ != nullptr) {
                 self->write();
             }

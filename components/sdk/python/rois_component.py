@@ -74,6 +74,8 @@ class Component:
         self._running = set()  # the tasks of the commands that run
         self._active = False  # whether a function goes on after `start`
         self._halt = None  # the task of the last halt
+        self._ended = set()  # the commands that it ends
+        self._stands = False  # a halt has succeeded, and nothing has begun since
         self._has_failed_to_halt = False
         is_document = self.profile.lstrip().startswith("<")
         self._profile = Profile(self.profile if is_document else pathlib.Path(self.profile).read_text(encoding="utf-8"), ref)
@@ -572,6 +574,7 @@ class Service:
                 component._running.add(task)
                 if component._halt:
                     await asyncio.wait([component._halt])  # a halt ends first
+                component._stands = False
                 given = {name: value for name, value in arguments.items() if name in component._profile.parameters}
                 if command == "start":
                     component.parameters.update(given)
@@ -599,21 +602,33 @@ class Service:
         self.notify("completed", what, f' active="{str(component._active).lower()}"')
 
     def halt(self, component, is_released=False):
-        """Begins to end what the component does. The task ends when it stands still, and returns why that failed."""
+        """Begins to end what the component does. The task ends when it stands still, and returns why that failed. A halt that is
+        under way is enough, unless a command has come since: an engine repeats a `stop` that takes long. A component that stands
+        still is not halted for its release."""
         for task in component._running:
             task.cancel()
-        component._halt = self.begin(self.finish(component, list(component._running), component._halt, is_released))
+        is_halting = component._halt and not component._halt.done() and component._running <= component._ended
+        if not is_halting and not (is_released and component._stands and not component._running):
+            component._ended = set(component._running)
+            component._halt = self.begin(self.finish(component, component._ended, component._halt))
+        if is_released:
+            component._halt = self.begin(self.restore_defaults(component, component._halt))
         return component._halt
 
-    async def finish(self, component, running, last_halt, is_released):
+    async def finish(self, component, running, last_halt):
         if last_halt:
             await asyncio.wait([last_halt])
         if running:
             await asyncio.wait(running, timeout=LONGEST_HALT)
         reason = await self.call(component, component.halt, is_again=component._has_failed_to_halt)
         component._active = component._has_failed_to_halt = bool(reason)  # after an exception, it may still move
+        component._stands = not reason
         await asyncio.gather(*running, return_exceptions=True)
-        if is_released and component.parameters != component._profile.defaults:
+        return reason
+
+    async def restore_defaults(self, component, halt):
+        reason = await halt if halt else ""
+        if component.parameters != component._profile.defaults:
             component.parameters = dict(component._profile.defaults)
             if hasattr(component, "set_parameter"):
                 await self.call(component, component.set_parameter, dict(component.parameters))

@@ -243,43 +243,6 @@ void Executor::run_stop(SharedCommand const& command, Instant now) {
     end(command, CompletedStatus::ok, {}, now);
 }
 
-void Executor::run_suspend(SharedCommand const& command, Instant now) {
-    auto& component = *command->component;
-    if (!component.works())
-        return end(command, CompletedStatus::error,
-                   component.suspended == Suspended::all ? "the component is suspended already" : "nothing is running", now);
-    auto const ticket = ask_to_confirm(command, Suspended::all, now);
-    component.hosted().suspend(ticket, now);
-}
-
-void Executor::run_resume(SharedCommand const& command, Instant now) {
-    auto& component = *command->component;
-    if (component.suspended == Suspended::nothing) return end(command, CompletedStatus::error, "nothing is suspended", now);
-    auto const ticket = ask_to_confirm(command, Suspended::nothing, now);
-    component.hosted().resume(ticket, now);
-}
-
-// A suspend or resume completes when the component has confirmed it. If it does not, its state is unknown.
-Ticket Executor::ask_to_confirm(SharedCommand const& command, Suspended afterwards, Instant now) {
-    auto then = [this, command, afterwards, halts = command->component->halts](std::optional<ComponentAnswer>& answer,
-                                                                               Instant when) {
-        auto& component = *command->component;
-        bool const confirmed = answer && std::holds_alternative<Done>(*answer);
-        if (confirmed && component.halts == halts) component.suspended = afterwards;
-        Attempts attempts;
-        if (!answer || (!confirmed && afterwards == Suspended::nothing)) attempts([&] { halt_if_it_moves(component, when); });
-        attempts([&] {
-            if (confirmed) return end(command, CompletedStatus::ok, {}, when);
-            if (answer) return end(command, CompletedStatus::error, "the component failed", when);
-            end(command, CompletedStatus::timeout, "the component did not confirm the suspend or resume in time", when);
-        });
-        attempts([&] { run_ready(when); });
-        attempts.rethrow();
-    };
-    auto const* what = "the component did not confirm that it is suspended or resumed";
-    return questions_.ask(*command->component, now.steady + time_to_confirm, what, std::move(then));
-}
-
 void Executor::run_function(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
     if (command->state != Command::State::running) return;
@@ -448,9 +411,12 @@ void Executor::forget(Session& session) {
     if (!session.ended.empty()) by_age_.erase({session.ended.front()->ended_at, &session});
 }
 
-// An engine stops its component before it releases it: halting it once more would delay the next binding.
+// An engine stops its component before it releases it: halting it once more would delay the next binding. A component of another
+// engine is halted there if it does not stand still.
 void Executor::release(Session& session, RegisteredComponent& component, Instant now) {
-    if (!session.is_engine || !component.stands_still) halt(component, CompletedStatus::abort, "its component was released", now);
+    bool const is_halted_elsewhere = session.is_engine || component.confirms_binding();
+    if (!is_halted_elsewhere || !component.stands_still)
+        halt(component, CompletedStatus::abort, "its component was released", now);
     for (auto const& command : live_commands(session))
         if (command->component.get() == &component) command->binding_lost = true;
     run_ready(now);

@@ -1,4 +1,5 @@
-// Halts components until they confirm that they stand still (decision 35), and holds them (decision 33).
+// Halts components until they confirm that they stand still (decision 35).
+#include <algorithm>
 #include <utility>
 
 #include "engine/commands/executor.hpp"
@@ -8,6 +9,22 @@ namespace rois {
 namespace {
 
 constexpr std::chrono::milliseconds between_attempts{200};
+constexpr std::ptrdiff_t most_stops_of_engines = 8;  // that wait for one halt
+
+// Another engine has its own time to confirm, and asks again. Its `stop` waits until the halt is confirmed (decision 39):
+// otherwise a component that always needs a little longer would never be confirmed over several levels.
+bool is_stop_of_engine(std::shared_ptr<Command> const& command) {
+    auto const* session = command->session;
+    return command->type == "stop" && session != nullptr && session->is_engine && session->owner == nullptr;
+}
+
+// Takes the commands that do not wait longer for an unconfirmed halt.
+std::vector<std::shared_ptr<Command>> take_late(UnconfirmedHalt& halting) {
+    auto const first_late = std::ranges::stable_partition(halting.waiting, is_stop_of_engine).begin();
+    std::vector<std::shared_ptr<Command>> late{first_late, halting.waiting.end()};
+    halting.waiting.erase(first_late, halting.waiting.end());
+    return late;
+}
 
 }  // namespace
 
@@ -62,7 +79,11 @@ void Executor::halt_failed(RegisteredComponent& component, CompletedStatus statu
     Attempts attempts;
     if (first) attempts([&] { journal_->halt_failed(component.ref().code, reason); });
     attempts([&] { halt_again_later(component, now); });
-    attempts([&] { end_each(std::exchange(component.halting->waiting, {}), status, reason, now); });
+    auto& waiting = component.halting->waiting;
+    attempts([&] {
+        end_each(status == CompletedStatus::timeout ? take_late(*component.halting) : std::exchange(waiting, {}), status, reason,
+                 now);
+    });
     for (auto const& call : std::exchange(component.halting->over, {})) attempts([&] { call(now); });
     attempts.rethrow();
 }
@@ -75,9 +96,7 @@ void Executor::halt_again_later(RegisteredComponent& component, Instant now) {
         auto const failed = weak.lock();
         if (!failed || !failed->halting) return;
         Attempts attempts;
-        attempts([&] {
-            end_each(std::exchange(failed->halting->waiting, {}), CompletedStatus::timeout, "the component failed to halt", then);
-        });
+        attempts([&] { end_each(take_late(*failed->halting), CompletedStatus::timeout, "the component failed to halt", then); });
         attempts([&] { ask_to_halt(*failed, then); });
         attempts([&] { run_ready(then); });
         attempts.rethrow();
@@ -127,6 +146,11 @@ void Executor::wait_for_halt(SharedCommand const& command, Instant now) {
     if (halting.failed && command->type != "stop")
         return end(command, CompletedStatus::error, "the component failed to halt", now);
     halting.waiting.push_back(command);
+    if (std::ranges::count_if(halting.waiting, is_stop_of_engine) <= most_stops_of_engines) return;
+    auto const oldest = std::ranges::find_if(halting.waiting, is_stop_of_engine);
+    auto const forgotten = *oldest;
+    halting.waiting.erase(oldest);
+    end(forgotten, CompletedStatus::timeout, "the component failed to halt", now);
 }
 
 // For a component that leaves the engine: ends the commands that wait for its halt.
@@ -137,41 +161,6 @@ void Executor::forget_halt(RegisteredComponent& component, Instant now) {
     Attempts attempts;
     attempts([&] { end_each(halting->waiting, CompletedStatus::abort, "its component was removed", now); });
     for (auto const& call : halting->over) attempts([&] { call(now); });
-    attempts.rethrow();
-}
-
-void Executor::hold(RegisteredComponent& component, std::string_view reason, Instant now) {
-    auto then = [this, shared = component.shared_from_this(), reason = std::string{reason}, halts = component.halts](
-                    std::optional<ComponentAnswer>& answer, Instant when) {
-        shared->is_being_held = false;
-        if (shared->halts != halts) return;
-        if (answer && std::holds_alternative<Done>(*answer)) {
-            shared->suspended = Suspended::all;
-            agenda_.add({shared, ErrorType::user_defined_error,
-                         "its motion is held: " + reason + "; to continue, send resume or a new command"});
-            return;
-        }
-        stop_instead_of_hold(*shared, reason, when);
-    };
-    try {
-        auto const* what = "the component did not confirm that its motion is held";
-        auto const ticket = questions_.ask(component, now.steady + time_to_confirm, what, std::move(then));
-        component.hosted().suspend(ticket, now);
-        component.is_being_held = true;
-    } catch (...) {  // a halt needs no memory
-        stop_instead_of_hold(component, reason, now);
-        throw;
-    }
-}
-
-void Executor::stop_instead_of_hold(RegisteredComponent& component, std::string_view reason, Instant now) {
-    Attempts attempts;
-    attempts([&] { halt(component, CompletedStatus::abort, reason, now); });
-    attempts([&] {
-        agenda_.add(
-            {component.shared_from_this(), ErrorType::user_defined_error, "its motion was stopped: " + std::string{reason}});
-    });
-    attempts([&] { run_ready(now); });
     attempts.rethrow();
 }
 
