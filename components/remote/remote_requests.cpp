@@ -116,7 +116,7 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
         record->report(std::move(ended));
     };
     commands_.emplace(id, std::move(end));
-    record->may_act = true;
+    record->may_act = record->can_be_stopped;
     if (command_type != "set_parameter") record->stops.clear();
     ++record->running;
     auto unit = unit_of(record->entry.ref, command_type, id, translation_.to_there(parameters, record->entry));
@@ -139,12 +139,12 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
         {id});
 }
 
-// Stops the component, also one that is believed to be idle, if it can be asked. The halt is confirmed by the end of `stop`, by
-// the answer to a `release` that was sent before, or by the end of the session there: only the sub engine knows whether its
-// component stands still.
+// Stops the component, also one that is believed to be idle. One without the command `stop` is halted there when it is released.
+// The halt is confirmed by the end of `stop`, by the answer to a `release` that was sent before, or by the end of the session
+// there: only the sub engine knows whether its component stands still.
 void RemoteEngine::halt(std::shared_ptr<ComponentRecord> const& record, Ticket ticket) {
     record->halt = ticket;
-    bool const can_be_asked = record->is_held && is_open_;
+    bool const can_be_asked = record->can_be_stopped && record->is_held && is_open_;
     if (!record->may_act && !can_be_asked) return everything_is_stopped_ ? ask_to_stop() : record->confirm_halt();
     if (!record->is_held || is_given_up_) return;
     auto& stops = record->stops;

@@ -64,7 +64,7 @@ TEST(Conformance, FindsNoBrokenRuleWithTwoRobots) {
 class Above {
 public:
     explicit Above(std::uint16_t below) : gateway_{{"--robots", "none", "--engines", engines(below), "--sim-speed", "20"}} {
-        EXPECT_THAT(gateway_.log_with("present with"), testing::HasSubstr("present with"));
+        EXPECT_THAT(gateway_.log_with("present with 17"), testing::HasSubstr("present with 17"));
     }
     std::uint16_t port() const { return gateway_.port(); }
 
@@ -84,7 +84,7 @@ public:
     explicit Joined(std::vector<std::string> const& more = {}) : gateway_{arguments(more)} {}
     std::uint16_t port() const { return gateway_.port(); }
     std::vector<std::string> joining() const { return {"--join", gateway_.url(), "--join-as", "below"}; }
-    void await() { EXPECT_THAT(gateway_.log_with("present with"), testing::HasSubstr("present with")); }
+    void await() { EXPECT_THAT(gateway_.log_with("present with 17"), testing::HasSubstr("present with 17")); }
 
 private:
     std::string engines() const {

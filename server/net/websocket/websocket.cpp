@@ -125,26 +125,26 @@ void WebSocket::take(Received const& received) {
 }
 
 void WebSocket::take(PendingAnswer&& answer) {
-    bool const is_next = pending_.empty() || (in_any_order() && !answer.is_disconnect());
-    if (is_next && answer.has_come()) return answered(answer.take());
+    bool const is_sign_of_life = in_any_order() && answer.is_about_session() && !answer.is_disconnect();
+    if (is_sign_of_life) take_answers();
+    if ((pending_.empty() || is_sign_of_life) && answer.has_come()) return answered(answer.take());
     session_changes_ = answer.is_about_session();
     answer.delay();
     pending_.push_back(std::move(answer));
 }
 
-// Takes the answers that have come, as far as the order of the requests counts. A disconnect is always answered last.
+// Takes the answers that have come, as far as the order of the requests counts. A disconnect is always answered last. Looks at
+// the newest one first: if it has come, the ones that came before it are not overlooked.
 void WebSocket::take_answers() {
-    for (auto next = pending_.begin(); next != pending_.end();) {
-        bool const is_first = next == pending_.begin();
-        if (!is_first && (!in_any_order() || next->is_disconnect())) break;
-        if (!next->has_come()) {
-            ++next;
-            continue;
-        }
-        auto answer = next->take();
-        next = pending_.erase(next);
-        answered(std::move(answer));
+    std::list<PendingAnswer> come;
+    for (auto each = pending_.end(); in_any_order() && each != pending_.begin();) {
+        --each;
+        if (each->is_disconnect() || !each->has_come()) continue;
+        auto const taken = each++;
+        come.splice(come.begin(), pending_, taken);
     }
+    while (!pending_.empty() && pending_.front().has_come()) come.splice(come.end(), pending_, pending_.begin());
+    for (auto& answer : come) answered(answer.take());
     if (pending_.empty()) session_changes_ = false;
     if (room_) room_->raise();
 }

@@ -1,6 +1,8 @@
 // Requests behind one that a component does not answer (decisions 36 and 37).
+#include <algorithm>
 #include <thread>
 
+#include "kit/profile_folder.hpp"
 #include "server/conversation.hpp"
 #include "server/websocket_client.hpp"
 
@@ -109,6 +111,33 @@ TEST(AnswersBehindASlowOne, ComeAtOnceToAnEngine) {
         if (std::string_view const name = engine.next_document().name(); name.ends_with("_response")) answers.emplace_back(name);
     EXPECT_THAT(answers, testing::ElementsAre("bind_response", "execute_response", "connect_response"));
     engine.keep_session();
+}
+
+// Otherwise the other engine would begin its commands in another order.
+TEST(AnswersOfPromptComponents, KeepTheOrderOfTheirRequestsForAnEngine) {
+    GatewayProcess const robot;
+    kit::ProfileFolder const folder;
+    folder.put("engines.json", R"({"engines": [{"name": "robot", "url": ")" + robot.url() + R"("}]})");
+    GatewayProcess gateway{{"--robots", "none", "--engines", folder.name() + "/engines.json"}};
+    gateway.log_with("present with");
+    WebSocketClient engine{gateway};
+    engine.call("connect", {}, {{"role", "engine"}});
+    auto const ref = component_ref("robot.navigation");
+    auto const next = [&](std::string_view name) {
+        auto answer = engine.next_document();
+        while (name != answer.name()) answer = engine.next_document();
+        return answer;
+    };
+    engine.ask("bind", ref);
+    next("bind_response");
+    std::vector<int> answers;
+    for (int i = 0; i < 1000; i += 2) {
+        for (int id : {i, i + 1})
+            engine.ask("set_parameter", ref + kit::parameters({{"time_limit", "int", {std::to_string(7'000 + id)}}}),
+                       {{"request_id", std::to_string(id)}});
+        for (int n = 0; n < 2; ++n) answers.push_back(next("set_parameter_response").attribute("request_id").as_int());
+    }
+    EXPECT_TRUE(std::ranges::is_sorted(answers));
 }
 
 TEST(AnswersBehindASlowOne, KeepTheOrderOfTheirRequestsOverHttp) {
