@@ -1,4 +1,5 @@
 // How the engine calls components and devices, and handles what they report (docs/engine.md).
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -114,6 +115,9 @@ void Engine::Core::handle(InboxEntry& entry, Instant now, Attempts& deliveries) 
     if (entry.from->registered == nullptr) return;
     auto& component = *entry.from->registered;
     component.end_silence();
+    // A component of another engine also reports while an operation is performed that does not concern it.
+    std::optional<Notifier::Meanwhile> meanwhile;
+    if (component.confirms_binding()) meanwhile.emplace(notifier_);
     struct Handler {
         Core& core;
         RegisteredComponent& component;

@@ -324,6 +324,21 @@ TEST(ASubEngineWithoutComponents, IsShownOnlyToOtherEngines) {
     EXPECT_THAT(shown_to(true), IsEmpty());
 }
 
+TEST_F(SubEngines, HaveTheirReportsPassedOnBeforeTheAnswerToAnotherRequest) {
+    engines.bind(desk, "hall.navigation");
+    engines.execute(desk, go("go", "hall.navigation"));
+    desk.received();
+    robot().finishes();
+    engines.receive_without_main();
+    auto const queue = engines.main.engine->notifications(desk.session);
+    auto const hold = queue->hold();
+    auto const slow = engines.main.begin_to_say(desk.session, Query{"route", {}});
+    EXPECT_FALSE(slow->said);
+    queue->leave(hold);
+    queue->delay(hold);
+    EXPECT_THAT(desk.received(), ElementsAre(HasSubstr("completed go OK")));
+}
+
 TEST_F(SubEngines, AreGivenUpAfterTheWindow) {
     engines.bind(desk, "hall.navigation");
     engines.execute(desk, go("go", "hall.navigation"));

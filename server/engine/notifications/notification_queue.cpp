@@ -21,11 +21,12 @@ std::uint64_t before(Numbered const& entry) {
 
 }  // namespace
 
-NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotification const> notification, Hold cause) {
+NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotification const> notification, Hold cause,
+                                                  bool only_cause) {
     std::lock_guard const lock{mutex_};
     if (waiting_ >= max_waiting_ && !make_room()) overflowed_ = true;
     if (overflowed_ && std::holds_alternative<ReceiveEvent>(notification->body)) return Pushed::dropped;
-    auto const hold = is_held(cause) ? cause : current_;
+    auto const hold = only_cause || is_held(cause) ? cause : current_;
     reserve_for_held(1);
     bool const would_overtake = std::ranges::any_of(held_, [&](Held const& held) { return is_being_sent(held.by); });
     if (is_held(hold) || would_overtake) {

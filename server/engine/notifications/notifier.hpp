@@ -16,6 +16,18 @@ class Notifier {
 public:
     explicit Notifier(Outbox& outbox) : outbox_{outbox} {}
 
+    // While this exists, notifications do not wait for the operation that is being performed: it has not caused them.
+    class Meanwhile {
+    public:
+        explicit Meanwhile(Notifier& notifier) : notifier_{notifier} { notifier_.only_causes_ = true; }
+        ~Meanwhile() { notifier_.only_causes_ = false; }
+        Meanwhile(Meanwhile const&) = delete;
+        Meanwhile& operator=(Meanwhile const&) = delete;
+
+    private:
+        Notifier& notifier_;
+    };
+
     // `cause`: the answer that must be sent first.
     void notify(Session& session, Notification notification, NotificationQueue::Hold cause = 0) {
         notify(*session.notifications, std::make_shared<OutgoingNotification const>(std::move(notification)), cause);
@@ -28,7 +40,7 @@ public:
     void notify(NotificationQueue& queue, SharedNotification notification, NotificationQueue::Hold cause = 0) {
         auto const lost = queue.lost();
         bool const known = queue.overflowed();
-        auto const pushed = queue.push(std::move(notification), cause);
+        auto const pushed = queue.push(std::move(notification), cause, only_causes_);
         if (queue.overflowed() && !known) {
             overflowed_ = true;
             ++overflows_;
@@ -64,6 +76,7 @@ public:
 
 private:
     Outbox& outbox_;
+    bool only_causes_ = false;
     bool overflowed_ = false;
     std::uint64_t pushed_ = 0;
     std::uint64_t lost_ = 0;
