@@ -148,7 +148,7 @@ void Executor::wait_for_halt(SharedCommand const& command, Instant now) {
     halting.waiting.push_back(command);
     if (std::ranges::count_if(halting.waiting, is_stop_of_engine) <= most_stops_of_engines) return;
     auto const oldest = std::ranges::find_if(halting.waiting, is_stop_of_engine);
-    auto const forgotten = *oldest;
+    auto const forgotten = std::move(*oldest);
     halting.waiting.erase(oldest);
     end(forgotten, CompletedStatus::timeout, "the component failed to halt", now);
 }
