@@ -187,6 +187,18 @@ TEST_F(AnEngine, HasItsStopAnsweredWhenTheHaltIsConfirmed) {
     EXPECT_EQ(engine.result_of("again"), "OK");
 }
 
+TEST_F(AnEngine, HasItsStopsForgottenWithItsSession) {
+    world["navigation"].halts_later = true;
+    engine.bind("navigation");
+    engine.execute(named("stop", stop("navigation")));
+    engine.leave();
+    world.advance(1s);
+    world["navigation"].stands_still();
+    EXPECT_THAT(world.engine->not_halted(), IsEmpty());
+    auto other = world.connect();
+    EXPECT_EQ(other.bind("navigation"), ReturnCode::ok);
+}
+
 TEST_F(AnEngine, HasAtMostEightStopsThatWaitForAHalt) {
     world["navigation"].halts_later = true;
     engine.bind("navigation");

@@ -14,8 +14,8 @@ constexpr std::ptrdiff_t most_stops_of_engines = 8;  // that wait for one halt
 // Another engine has its own time to confirm, and asks again. Its `stop` waits until the halt is confirmed (decision 39):
 // otherwise a component that always needs a little longer would never be confirmed over several levels.
 bool is_stop_of_engine(std::shared_ptr<Command> const& command) {
-    auto const* session = command->session;
-    return command->type == "stop" && session != nullptr && session->is_engine && session->owner == nullptr;
+    bool const waits = command->state == Command::State::running && command->session != nullptr;
+    return waits && command->type == "stop" && command->session->is_engine && command->session->owner == nullptr;
 }
 
 // Takes the commands that do not wait longer for an unconfirmed halt.
