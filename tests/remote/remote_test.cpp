@@ -304,8 +304,9 @@ TEST(ASubEngineWithoutComponents, IsShownOnlyToOtherEngines) {
     auto const shown_to = [&](bool is_engine) {
         Connect as;
         as.is_engine = is_engine;
+        auto const profile = engines.main.connect(as).ask(GetProfile{}).profile;
         std::vector<std::string> names;
-        for (auto const& sub : engines.main.connect(as).ask(GetProfile{}).profile->sub_profiles) names.push_back(sub.object.name);
+        for (auto const& sub : profile->sub_profiles) names.push_back(sub.object.name);
         return names;
     };
     EXPECT_THAT(shown_to(false), IsEmpty());
