@@ -31,8 +31,8 @@ public:
 
     ParameterList stored;  // in the sub engine, for the application that has bound the component
 
-    // Whether a component that can be stopped may act for this engine: from the beginning of a command until the sub engine says
-    // that nothing is active, or that it has stopped or released the component, or has ended the session.
+    // Whether the component may act for this engine: from the beginning of a command until the sub engine says that nothing is
+    // active, or that it has stopped or released the component, or has ended the session.
     bool may_act = false;
     int running = 0;                  // commands that have not completed
     std::optional<Ticket> halt;       // the newest halt that is not confirmed yet

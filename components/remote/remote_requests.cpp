@@ -116,7 +116,7 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
         record->report(std::move(ended));
     };
     commands_.emplace(id, std::move(end));
-    record->may_act = record->can_be_stopped;
+    record->may_act = true;
     if (command_type != "set_parameter") record->stops.clear();
     ++record->running;
     auto unit = unit_of(record->entry.ref, command_type, id, translation_.to_there(parameters, record->entry));
@@ -139,14 +139,15 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
         {id});
 }
 
-// Stops the component, also one that is believed to be idle. One without the command `stop` is halted there when it is released.
-// The halt is confirmed by the end of `stop`, by the answer to a `release` that was sent before, or by the end of the session
-// there: only the sub engine knows whether its component stands still.
+// Stops the component, also one that is believed to be idle. The halt is confirmed by the end of `stop`, by the answer to a
+// `release` that was sent before, or by the end of the session there: only the sub engine knows whether its component stands
+// still.
 void RemoteEngine::halt(std::shared_ptr<ComponentRecord> const& record, Ticket ticket) {
     record->halt = ticket;
     bool const can_be_asked = record->can_be_stopped && record->is_held && is_open_;
     if (!record->may_act && !can_be_asked) return everything_is_stopped_ ? ask_to_stop() : record->confirm_halt();
     if (!record->is_held || is_given_up_) return;
+    if (!record->can_be_stopped) return halt_by_release(record);
     auto& stops = record->stops;
     auto const now = host_->now();
     if (!stops.empty() && now < record->stopped_at + between_stops) return;
@@ -165,6 +166,16 @@ void RemoteEngine::halt(std::shared_ptr<ComponentRecord> const& record, Ticket t
         record->stops.clear();
         record->confirm_halt();
         self->release_unwanted(record);
+    });
+}
+
+// For a component without the command `stop`. It is bound again if an application still wants it.
+void RemoteEngine::halt_by_release(std::shared_ptr<ComponentRecord> const& record) {
+    record->is_held = false;
+    ask(Release{{.code = record->entry.ref}}, [self = shared_from_this(), record](Reply const* reply) {
+        if (reply == nullptr) return;
+        record->end_activity();
+        if (record->is_wanted) self->restore(record);
     });
 }
 

@@ -114,6 +114,21 @@ TEST(HaltingSomethingIdle, ReachesTheComponent) {
     EXPECT_THAT(engines.hall["navigation"].calls, testing::ElementsAre("halt")) << "it stands still";
 }
 
+TEST(HaltingSomethingWithoutStop, ReleasesItAndBindsItAgain) {
+    auto part = navigation;
+    part.profile.sub_components.clear();
+    TwoEngines engines{{part}};
+    auto desk = engines.main.connect();
+    engines.bind(desk, "hall.navigation");
+    engines.execute(desk, named("dock", command("dock", "hall.navigation")));
+    engines.asked();
+    engines.main.engine->stop_everything(engines.main.now);
+    engines.settle();
+    EXPECT_THAT(engines.asked(), testing::IsSupersetOf({"release", "bind"}));
+    EXPECT_THAT(engines.hall["navigation"].calls, testing::Contains("halt"));
+    EXPECT_THAT(engines.main.engine->not_halted(), IsEmpty());
+}
+
 TEST_F(HaltingThere, HappensOnceForARelease) {
     engines.ask(desk, Release{Application::identifier("hall.navigation")});
     engines.advance(200ms);

@@ -64,6 +64,18 @@ def wait_for(seconds):
     return wait
 
 
+def halts_slowly(component):
+    """Each halt takes 0.2 s. Returns the list of those that have ended."""
+    halts = []
+
+    async def slow():
+        await asyncio.sleep(0.2)
+        halts.append("halt")
+
+    component.halt = slow
+    return halts
+
+
 async def until(condition):
     for _ in range(patience * 100):
         if condition():

@@ -8,7 +8,7 @@ import time
 import unittest
 
 from fake_engine import patience, rois
-from machines import TYPES, Machine, fail_with, wait_for, until, ModuleTest
+from machines import TYPES, Machine, ModuleTest, fail_with, halts_slowly, until, wait_for
 
 
 class Failures(ModuleTest):
@@ -204,13 +204,7 @@ class Waiting(ModuleTest):
     async def test_one_halt_is_enough_for_a_stop_its_repetition_and_the_release(self):
         await self.link.connect()
         await self.link.execute("a", "start")
-        halts = []
-
-        async def slow():
-            await asyncio.sleep(0.2)
-            halts.append("halt")
-
-        self.a.halt = slow
+        halts = halts_slowly(self.a)
         self.link.execute("a", "stop", id="first")
         await asyncio.sleep(0.05)
         self.link.execute("a", "stop", id="again")
@@ -223,13 +217,7 @@ class Waiting(ModuleTest):
 
     async def test_a_stop_ends_a_start_that_waits_for_the_halt_before_it(self):
         await self.link.connect()
-        halts = []
-
-        async def slow():
-            await asyncio.sleep(0.2)
-            halts.append("halt")
-
-        self.a.halt = slow
+        halts = halts_slowly(self.a)
         self.link.execute("a", "stop", id="first")
         self.link.execute("a", "start")
         self.link.execute("a", "stop", id="second")

@@ -60,10 +60,9 @@ public:
     enum class Pushed : std::uint8_t { first, behind, held, overflow, dropped };
 
     // Numbers and stores the notification, or holds it if `cause`, or else the current hold, is not released yet (with
-    // `only_cause` the current hold does not count), or if it would
-    // overtake a held one whose answer is being sent (decision 22: notifications are numbered as things happen). If too many
-    // wait, replaces the oldest waiting event by a `Lost`. If there is no event to replace, the queue overflows, and events are
-    // dropped from then on.
+    // `only_cause` the current hold does not count), or if it would overtake a held one whose answer is being sent (decision 22:
+    // notifications are numbered as things happen). If too many wait, replaces the oldest waiting event by a `Lost`. If there is
+    // no event to replace, the queue overflows, and events are dropped from then on.
     Pushed push(std::shared_ptr<OutgoingNotification const>, Hold cause = 0, bool only_cause = false);
 
     // Drops the sent notifications. Replaces the oldest waiting events by `Lost` until `events` are left.
