@@ -268,6 +268,12 @@ TEST(ATeam, GoesOnWithTheChosenOneWhenANearerOneJoins) {
     EXPECT_EQ(team.starts_of("robot2"), 1) << "the next command goes to the nearer one";
 }
 
+TEST_F(TwoRobots, ResumeNothingWhileIdle) {
+    desk.bind("navigation");
+    desk.execute(named("resume", command("resume", "navigation")));
+    EXPECT_EQ(desk.result_of("resume"), "ERROR");
+}
+
 TEST_F(TwoRobots, RefuseTogether) {
     desk.bind("navigation");
     auto const reply = desk.execute(start("navigation"));

@@ -23,7 +23,8 @@ void Executor::run_suspend(SharedCommand const& command, Instant now) {
 void Executor::run_resume(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
     // The motion of a component of another engine may be held there.
-    bool const may_be_suspended = component.suspended != Suspended::nothing || component.confirms_binding();
+    bool const may_be_suspended =
+        component.suspended != Suspended::nothing || (component.confirms_binding() && component.works());
     if (!may_be_suspended) return end(command, CompletedStatus::error, nothing_suspended, now);
     auto const ticket = ask_to_confirm(command, Suspended::nothing, now);
     component.hosted().resume(ticket, now);
