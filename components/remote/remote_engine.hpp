@@ -157,6 +157,8 @@ private:
     // --- remote_requests.cpp: what this engine asks ---
     void bind_there(std::shared_ptr<ComponentRecord> const&, Then const&);
     void release_unwanted(std::shared_ptr<ComponentRecord> const&);
+    void confirm_halt(std::shared_ptr<ComponentRecord> const&);
+    void end_activity(std::shared_ptr<ComponentRecord> const&);
     std::string fresh_id() { return "c" + std::to_string(++last_command_); }  // of a command
     void command(std::shared_ptr<ComponentRecord> const&, std::string const& command_type, ParameterList arguments,
                  std::string const& id, std::function<void(CompletedStatus, std::string const& reason)> const& then);

@@ -74,6 +74,16 @@ void RemoteEngine::release_unwanted(std::shared_ptr<ComponentRecord> const& reco
     });
 }
 
+void RemoteEngine::confirm_halt(std::shared_ptr<ComponentRecord> const& record) {
+    record->confirm_halt();
+    release_unwanted(record);
+}
+
+void RemoteEngine::end_activity(std::shared_ptr<ComponentRecord> const& record) {
+    record->end_activity();
+    release_unwanted(record);
+}
+
 // `start` takes the stored parameters as arguments: they may have been stored while the sub engine was lost.
 void RemoteEngine::prepare(std::shared_ptr<ComponentRecord> const& record, Ticket ticket, std::string const& command_type,
                            ParameterList const& parameters) {
@@ -110,7 +120,7 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
         --record->running;
         // Only a success: a command that was aborted, or has failed, completes before the component stands still.
         bool const has_ended = completed.active == false && completed.status == CompletedStatus::ok;
-        if (record->running == 0 && has_ended) record->end_activity();
+        if (record->running == 0 && has_ended) self->end_activity(record);
         if (command_type == "set_parameter" && completed.status == CompletedStatus::ok) record->store(parameters);
         if (completed.active) ended.afterwards = *completed.active ? Afterwards::active : Afterwards::idle;
         record->report(std::move(ended));
@@ -164,8 +174,7 @@ void RemoteEngine::halt(std::shared_ptr<ComponentRecord> const& record, Ticket t
         if (status == CompletedStatus::error) return record->fail_halt();
         if (status != CompletedStatus::ok) return;
         record->stops.clear();
-        record->confirm_halt();
-        self->release_unwanted(record);
+        self->confirm_halt(record);
     });
 }
 
@@ -214,7 +223,7 @@ void RemoteEngine::ask_to_stop() {
             if (record->may_act || !record->halt) continue;
             auto const& moving = stopped->not_halted;
             if (std::ranges::find(moving, ref) == moving.end())
-                record->confirm_halt();
+                self->confirm_halt(record);
             else
                 is_waiting = true;
         }

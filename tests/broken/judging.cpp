@@ -70,9 +70,8 @@ std::string Team::engines() const {
 
 std::string Team::disturbance() const {
     auto const file = folder_.name() + "/disturb.sh";
-    folder_.put("disturb.sh", "case $COMPONENT in robot1.*) robot=" + std::to_string(robot1_.id()) +
-                                  ";; *) robot=" + std::to_string(robot2_.id()) +
-                                  ";; esac\nkill -STOP $robot && { sleep 6; kill -CONT $robot; } >/dev/null 2>&1 &\n");
+    folder_.put("disturb.sh", "case $COMPONENT in robot1.*) robot=" + std::to_string(robot1_.id()) + ";; *) robot=" +
+                                  std::to_string(robot2_.id()) + ";; esac\nkill -STOP $robot && sleep 6 && kill -CONT $robot\n");
     return "'sh " + file + "'";
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 #include <ctime>
+#include <future>
 #include <utility>
 
 #include "kit/line.hpp"
@@ -15,7 +16,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds longest_check{60};  // or six times the patience if that is longer
-constexpr std::chrono::hours clocks_differ{1};     // tolerance for the clock of the gateway
+constexpr std::chrono::milliseconds until_a_command_fails{500};
+constexpr std::chrono::hours clocks_differ{1};  // tolerance for the clock of the gateway
 
 // Returns a time like "2026-11-22T10:00:00": every time in the future is later, even if the clocks differ.
 std::string now_less_tolerance() {
@@ -78,9 +80,12 @@ void Context::can_disturb() const {
 }
 
 // The ref is from the gateway, so it is not a part of the command.
-void Context::disturb(std::string const& ref) const {
+std::future<int> Context::disturb(std::string const& ref) const {
     ::setenv("COMPONENT", ref.c_str(), 1);
-    if (std::system(disturbance_.c_str()) != 0) throw Skipped{"the command of --disturb has failed for " + ref};
+    auto running = std::async(std::launch::async, [command = disturbance_] { return std::system(command.c_str()); });
+    bool const has_ended = running.wait_for(until_a_command_fails) == std::future_status::ready;
+    if (has_ended && running.get() != 0) throw Skipped{"the command of --disturb has failed for " + ref};
+    return running;
 }
 
 void Context::check_deadline() const {

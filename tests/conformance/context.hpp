@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <future>
 #include <map>
 #include <optional>
 #include <set>
@@ -32,9 +33,10 @@ public:
     Traffic& traffic() { return traffic_; }
     // Returns the greatest distance of a robot from its starting point, in mm. Throws Skipped if robots must not move (--room 0).
     double room() const;
-    // Makes a component fail for some seconds (--disturb). `can_disturb` throws Skipped if there is no such command.
+    // Makes a component fail for some seconds (--disturb). The end of the future waits for the end of the command. `can_disturb`
+    // throws Skipped if there is no such command.
     void can_disturb() const;
-    void disturb(std::string const& ref) const;
+    std::future<int> disturb(std::string const& ref) const;
     std::chrono::milliseconds patience() const { return address_.patience; }
 
     // Returns a basic component of one of these kinds; earlier kinds come first. Throws Skipped if the gateway has none.

@@ -136,6 +136,15 @@ TEST_F(HaltingThere, HappensOnceForARelease) {
     EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::ok);
 }
 
+// Its parameters there are those of nobody then.
+TEST_F(HaltingThere, OfItselfBeforeItIsStoppedReleasesItThere) {
+    robot().halts_later = true;
+    engines.ask(desk, Release{Application::identifier("hall.navigation")});
+    EXPECT_THAT(engines.asked(), testing::Contains("execute")) << "stop";
+    engines.inject(Completed{.command_id = {"c1"}, .status = CompletedStatus::ok, .active = false});
+    EXPECT_THAT(engines.asked(), testing::Contains("release"));
+}
+
 TEST_F(HaltingThere, IsReportedAtEachLoss) {
     for (int loss = 0; loss < 3; ++loss) {
         engines.cut();

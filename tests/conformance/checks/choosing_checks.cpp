@@ -1,5 +1,6 @@
 // Logical components, which stand for components of several units (7.2; decision 44).
 #include <algorithm>
+#include <future>
 
 #include "conformance/context.hpp"
 
@@ -135,7 +136,7 @@ struct DisturbedSpeech {
         require_ok(client.ask("bind", kit::component_ref(component->ref), {{"switching", switching}}));
         id = client.execute_one(long_speech(*component, unique_name()));
         failed = acting_members(context, client, members).front();
-        context.disturb(failed);
+        disturbance = context.disturb(failed);
     }
 
     // A member that an earlier check has disturbed returns after a while.
@@ -167,6 +168,7 @@ struct DisturbedSpeech {
     std::vector<std::string> members{};
     std::string id{};      // of the command
     std::string failed{};  // the member
+    std::future<int> disturbance{};
 };
 
 void a_command_goes_on_with_another_member(Context& context) {
