@@ -136,12 +136,14 @@ TEST_F(HaltingThere, HappensOnceForARelease) {
     EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::ok);
 }
 
-// Its parameters there are those of nobody then.
-TEST_F(HaltingThere, OfItselfBeforeItIsStoppedReleasesItThere) {
-    robot().halts_later = true;
+// So the next application does not find its parameters.
+TEST_F(HaltingThere, OfItselfJustBeforeItIsStoppedEndsTheBindingThere) {
+    engines.hold_back(true);
+    robot().finishes(CompletedStatus::ok, {}, Afterwards::idle);
     engines.ask(desk, Release{Application::identifier("hall.navigation")});
-    EXPECT_THAT(engines.asked(), testing::Contains("execute")) << "stop";
-    engines.inject(Completed{.command_id = {"c1"}, .status = CompletedStatus::ok, .active = false});
+    EXPECT_EQ(engines.asked(), std::vector<std::string>{"execute"}) << "stop";
+    engines.hold_back(false);
+    engines.settle();
     EXPECT_THAT(engines.asked(), testing::Contains("release"));
 }
 
