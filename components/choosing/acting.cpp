@@ -36,9 +36,11 @@ Completed failure(Outcome const& why) {
 Acting::Acting(ComponentDescription description, std::shared_ptr<Roster> roster, std::shared_ptr<Sightings> sightings)
     : Logical{std::move(description), std::move(roster)}, sightings_{std::move(sightings)} {}
 
-bool Acting::is_used(std::string const& ref) const {
-    return ref == current_ || std::ranges::any_of(actions_, [&](auto const& each) { return each->member == ref; });
+bool Acting::acts(std::string const& ref) const {
+    return std::ranges::any_of(actions_, [&](auto const& each) { return each->member == ref; });
 }
+
+bool Acting::is_used(std::string const& ref) const { return ref == current_ || acts(ref); }
 
 // Releases the previous member, unless another command still runs on it.
 void Acting::note_current(std::string const& ref) {
@@ -77,8 +79,13 @@ std::optional<ParameterList> Acting::arguments_for(ParameterList const& paramete
     return arguments;
 }
 
-// In a parallel unit the commands of other components begin before this one has chosen again.
+// In a parallel unit the commands of other components begin before this one has chosen again. A member that has failed is not
+// needed any more: a `stop` does not wait for it, because a lost one cannot confirm anything.
 void Acting::planned(std::string const& ref) {
+    if (auto const* current = roster().find(current_); current != nullptr && !current->can_act() && !acts(current_)) {
+        current_.clear();
+        release_unused(current->ref);
+    }
     if (description().moves) roster().note_plan(name(), binding().session, roster().find(ref)->engine, sightings_->now());
 }
 

@@ -41,6 +41,7 @@ private:
     std::vector<std::string> candidates(ParameterList const& parameters) override;
     std::optional<ParameterList> arguments_for(ParameterList const& parameters, Member const&) const override;
     bool is_used(std::string const& ref) const override;
+    bool acts(std::string const& ref) const;  // a command runs on this member
     void begin(std::string const& command_type, ParameterList const& parameters, CommandHandle) override;
 
     // Finds a member that has not failed at the action. If there is none, or the action has ended meanwhile, passes an empty ref

@@ -143,4 +143,26 @@ TEST_F(LateRobot, IsFreeAgainIfTheApplicationLeavesBeforeItHasStarted) {
     EXPECT_TRUE(can_be_used("navigation"));
 }
 
+// A lost engine cannot confirm that its robot stands still. Its own engine stops it.
+TEST_F(LateRobot, StopsWhileItIsChosenInsteadOfOneThatIsLost) {
+    come(Team::driving("robot2"));
+    auto& lost = *members[0];
+    begin({drive_to("go", {"1000, 0, 0"})});
+    let_all();
+    ASSERT_EQ(lost.begun.size(), 1U);
+    lost.answers_halts = false;
+    lost.port().completed(lost.begun.back(), CompletedStatus::abort, {}, Afterwards::as_before, "lost");
+    lost.port().changed({.status = ComponentStatus::error, .location = {}, .parameters = {}});
+    work();
+    EXPECT_EQ(desk.result_of("go"), "ABORT");
+    auto const again = begin({drive_to("again", {"1000, 0, 0"})});
+    auto& other = *members[1];
+    answer(other, "bind", Done{});
+    let_prepare(other);
+    ASSERT_TRUE(again->said) << "accepted, and not begun yet";
+    desk.execute(named("stop", stop("navigation")));
+    work();
+    EXPECT_EQ(desk.result_of("stop"), "OK");
+}
+
 }  // namespace rois::choosing::test
