@@ -1,6 +1,7 @@
 // Logical components, which stand for components of several units (7.2; decision 44).
 #include <algorithm>
 #include <future>
+#include <thread>
 
 #include "conformance/context.hpp"
 
@@ -9,6 +10,9 @@ namespace rois::conformance {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+// A member is BUSY a little earlier: while it is asked whether it can carry out the command.
+constexpr std::chrono::milliseconds until_it_has_begun{500};
 
 // The components of units with the same name: "robot1.navigation" for "navigation". They are seen only by those who ask for
 // units.
@@ -135,6 +139,8 @@ struct DisturbedSpeech {
         client.bind_or_skip(*component);
         require_ok(client.ask("bind", kit::component_ref(component->ref), {{"switching", switching}}));
         id = client.execute_one(long_speech(*component, unique_name()));
+        acting_members(context, client, members);
+        std::this_thread::sleep_for(until_it_has_begun);
         failed = acting_members(context, client, members).front();
         disturbance = context.disturb(failed);
     }
