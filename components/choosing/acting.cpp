@@ -79,13 +79,17 @@ std::optional<ParameterList> Acting::arguments_for(ParameterList const& paramete
     return arguments;
 }
 
-// In a parallel unit the commands of other components begin before this one has chosen again. A member that has failed is not
-// needed any more: a `stop` does not wait for it, because a lost one cannot confirm anything.
+// When another member is chosen, one that has failed is not needed any more: a `stop` does not wait for it, because a lost one
+// cannot confirm anything.
+void Acting::could_not_bind(std::string const& ref) {
+    if (ref != current_ || acts(ref)) return;
+    current_.clear();
+    release_unused(ref);
+}
+
+// In a parallel unit the commands of other components begin before this one has chosen again.
 void Acting::planned(std::string const& ref) {
-    if (auto const* current = roster().find(current_); current != nullptr && !current->can_act() && !acts(current_)) {
-        current_.clear();
-        release_unused(current->ref);
-    }
+    if (auto const* current = roster().find(current_); current != nullptr && !current->can_act()) could_not_bind(current->ref);
     if (description().moves) roster().note_plan(name(), binding().session, roster().find(ref)->engine, sightings_->now());
 }
 

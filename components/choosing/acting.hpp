@@ -62,6 +62,7 @@ private:
     void abort_commands() override;
     void members_released() override { use_none(); }
     void use_none();
+    void could_not_bind(std::string const& ref) override;
     void planned(std::string const& ref) override;
     void happened(ReceiveEvent const&, Member const&, Instant now) override;
     void changed(Member const&) override;

@@ -129,7 +129,10 @@ void Logical::choose(std::vector<std::string> refs, std::string const& type, Par
         choose(refs, type, parameters, chosen, counts ? Outcome{outcome.return_code, ref + ": " + outcome.reason} : why_not);
     };
     bind_member(ref, [this, ref, type, parameters, judge](Outcome const& bound) {
-        if (bound.return_code != ReturnCode::ok) return judge(bound);
+        if (bound.return_code != ReturnCode::ok) {
+            could_not_bind(ref);
+            return judge(bound);
+        }
         auto const arguments = arguments_for(parameters, *roster_->find(ref));
         if (!arguments) return judge({ReturnCode::error, "it does not sense the target now"});
         ask(execution(ref, type, *arguments, true), judge);

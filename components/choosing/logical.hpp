@@ -58,6 +58,8 @@ protected:
     virtual void forget_commands() = 0;
     // Completes all commands with ABORT.
     virtual void abort_commands() = 0;
+    // The engine of this member does not let it be bound, or is lost.
+    virtual void could_not_bind(std::string const& /*ref*/) {}
     // Called when this member will probably carry out a command, which has not begun yet.
     virtual void planned(std::string const& /*ref*/) {}
     // Called when the application has released the component: no member is used any more.

@@ -103,6 +103,7 @@ private:
     // Sessions of logical components (own_sessions.cpp)
     Session& own_session(RegisteredComponent&, Instant now);
     void free_members(RegisteredComponent const&, Instant now);
+    void notify_owners(RegisteredComponent const& member, Instant now);
     void perform(RegisteredComponent&, OperationAsked&&, Instant now);
     void call_owners(Instant now);
     void publish(RegisteredComponent const&, MemberSwitched&&);

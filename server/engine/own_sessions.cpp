@@ -70,6 +70,16 @@ void Engine::Core::perform(RegisteredComponent& component, OperationAsked&& aske
     take(std::make_shared<OwnOperation>(session, std::move(asked)), now);
 }
 
+// Logical components learn a new status at once, so that the next command does not choose a member that is lost.
+void Engine::Core::notify_owners(RegisteredComponent const& member, Instant now) {
+    for (auto* logical : registry_.logical()) {
+        auto const& refs = logical->members();
+        auto* session = logical->own_session;
+        bool const is_concerned = std::ranges::find(refs, member.ref().code) != refs.end();
+        if (is_concerned && session != nullptr && !session->ending) notify_of_state(*session, member, now);
+    }
+}
+
 // Calls the logical components with the notifications of their sessions.
 void Engine::Core::call_owners(Instant now) {
     constexpr std::size_t most = 1'000;

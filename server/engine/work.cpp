@@ -134,7 +134,11 @@ void Engine::Core::handle(InboxEntry& entry, Instant now, Attempts& deliveries) 
             // A halt that fails is repeated, and fails for the same reason.
             component.report(report.type, report.text, component.has_failed_to_halt() ? Report::once : report.report);
         }
-        void operator()(StateChanged const& state) { component.accept(*state); }
+        void operator()(StateChanged const& state) {
+            auto const before = component.status_for(component.bound_to);
+            component.accept(*state);
+            if (component.is_member && component.status_for(component.bound_to) != before) core.notify_owners(component, now);
+        }
         void operator()(OperationAsked& report) { core.perform(component, std::move(report), now); }
         void operator()(MemberSwitched& report) { core.publish(component, std::move(report)); }
         void operator()(Answered& report) {

@@ -86,7 +86,25 @@ protected:
         EXPECT_EQ(desk.bind("navigation"), ReturnCode::ok);
     }
     auto& robot() { return *members.front(); }
-    auto begin(std::vector<CommandUnit> units, bool check_only = false) {
+    // A command begins on the robot, and is aborted. Then there is another robot.
+    void lose(SlowComponent& lost) {
+        begin({drive_to("go", {"1000, 0, 0"})});
+        let_all();
+        lost.answers_halts = false;
+        come(Team::driving("robot2"));
+        lost.port().completed(lost.begun.back(), CompletedStatus::abort, {}, Afterwards::as_before, "lost");
+        work();
+        EXPECT_EQ(desk.result_of("go"), "ABORT");
+    }
+    void accept_and_stop(std::shared_ptr<TestedOperation> const& asked) {
+        answer(*members[1], "bind", Done{});
+        let_prepare(*members[1]);
+        ASSERT_TRUE(asked->said) << "accepted, and not begun yet";
+        desk.execute(named("stop", stop("navigation")));
+        work();
+        EXPECT_EQ(desk.result_of("stop"), "OK");
+    }
+    std::shared_ptr<TestedOperation> begin(std::vector<CommandUnit> units, bool check_only = false) {
         auto asked = world.begin_to_say(desk.session, Execute{{std::move(units)}, check_only});
         work();
         return asked;
@@ -145,24 +163,18 @@ TEST_F(LateRobot, IsFreeAgainIfTheApplicationLeavesBeforeItHasStarted) {
 
 // A lost engine cannot confirm that its robot stands still. Its own engine stops it.
 TEST_F(LateRobot, StopsWhileItIsChosenInsteadOfOneThatIsLost) {
-    come(Team::driving("robot2"));
-    auto& lost = *members[0];
-    begin({drive_to("go", {"1000, 0, 0"})});
-    let_all();
-    ASSERT_EQ(lost.begun.size(), 1U);
-    lost.answers_halts = false;
-    lost.port().completed(lost.begun.back(), CompletedStatus::abort, {}, Afterwards::as_before, "lost");
-    lost.port().changed({.status = ComponentStatus::error, .location = {}, .parameters = {}});
-    work();
-    EXPECT_EQ(desk.result_of("go"), "ABORT");
+    lose(robot());
+    robot().port().changed({.status = ComponentStatus::error, .location = {}, .parameters = {}});
+    world.engine->and_work([] {}, world.now);
+    auto const again = world.begin_to_say(desk.session, Execute{{{drive_to("again", {"1000, 0, 0"})}}});
+    accept_and_stop(again);
+}
+
+TEST_F(LateRobot, StopsWhileItIsChosenInsteadOfOneThatCannotBeBoundAgain) {
+    lose(robot());
     auto const again = begin({drive_to("again", {"1000, 0, 0"})});
-    auto& other = *members[1];
-    answer(other, "bind", Done{});
-    let_prepare(other);
-    ASSERT_TRUE(again->said) << "accepted, and not begun yet";
-    desk.execute(named("stop", stop("navigation")));
-    work();
-    EXPECT_EQ(desk.result_of("stop"), "OK");
+    answer(robot(), "bind", Failed{"its engine is lost"});
+    accept_and_stop(again);
 }
 
 }  // namespace rois::choosing::test
