@@ -15,7 +15,7 @@ namespace rois::command {
 namespace {
 
 // The configuration keys of rois-gateway (server/main/keys.cpp) as variables.
-constexpr std::array<std::string_view, 58> keys{"ROIS_ALLOWED_ORIGINS",
+constexpr std::array<std::string_view, 63> keys{"ROIS_ALLOWED_ORIGINS",
                                                 "ROIS_COMMAND_RESULTS",
                                                 "ROIS_CONNECT_TIMEOUT",
                                                 "ROIS_ENGINES",
@@ -23,6 +23,7 @@ constexpr std::array<std::string_view, 58> keys{"ROIS_ALLOWED_ORIGINS",
                                                 "ROIS_ERROR_DETAILS",
                                                 "ROIS_EVENT_DETAILS",
                                                 "ROIS_FLOOR_PLAN",
+                                                "ROIS_HANDSHAKE_TIMEOUT",
                                                 "ROIS_HOSTS",
                                                 "ROIS_IDLE_TIMEOUT",
                                                 "ROIS_JOIN",
@@ -71,6 +72,10 @@ constexpr std::array<std::string_view, 58> keys{"ROIS_ALLOWED_ORIGINS",
                                                 "ROIS_START_TIMEOUT",
                                                 "ROIS_STEERING",
                                                 "ROIS_THREADS",
+                                                "ROIS_TLS_CERTIFICATE",
+                                                "ROIS_TLS_CLIENTS",
+                                                "ROIS_TLS_CLIENT_CA",
+                                                "ROIS_TLS_KEY",
                                                 "ROIS_VALIDATION",
                                                 "ROIS_WRITE_TIMEOUT"};
 

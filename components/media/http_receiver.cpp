@@ -4,8 +4,10 @@
 #include <array>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
+#include <boost/asio/ssl/stream.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/basic_stream.hpp>
+#include <boost/beast/core/detect_ssl.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/error.hpp>
@@ -17,6 +19,7 @@
 #include <utility>
 
 #include "media/feed.hpp"
+#include "wire/credentials.hpp"
 
 namespace rois::media {
 
@@ -57,6 +60,8 @@ struct Connection : std::enable_shared_from_this<Connection> {
         : stream{std::move(socket)}, directory{known}, settings{how} {}
 
     Stream stream;
+    std::shared_ptr<asio::ssl::context> context{};    // null: no TLS
+    std::optional<asio::ssl::stream<Stream&>> tls{};  // after the handshake
     Directory const& directory;
     Settings const& settings;
     beast::flat_buffer received;
@@ -73,7 +78,10 @@ Task<> watch(SharedConnection connection) {
     Error error;
     while (!error) {
         connection->stream.expires_never();
-        co_await connection->stream.async_read_some(asio::buffer(ignored), into(error));
+        if (connection->tls)
+            co_await connection->tls->async_read_some(asio::buffer(ignored), into(error));
+        else
+            co_await connection->stream.async_read_some(asio::buffer(ignored), into(error));
     }
     connection->gone = true;
 }
@@ -87,7 +95,10 @@ void begin_to_watch(Connection& connection) {
 Task<bool> write(Connection& connection, std::string_view text) {
     Error error;
     connection.stream.expires_after(connection.settings.write_timeout);
-    co_await asio::async_write(connection.stream, asio::buffer(text), into(error));
+    if (connection.tls)
+        co_await asio::async_write(*connection.tls, asio::buffer(text), into(error));
+    else
+        co_await asio::async_write(connection.stream, asio::buffer(text), into(error));
     co_return !error;
 }
 
@@ -213,15 +224,51 @@ std::string parse_refusal(Error const& error) {
     return refusal("400 Bad Request", "invalid HTTP request: " + error.message());
 }
 
+// Returns whether a request may follow. A receiver that does not begin TLS on a port with TLS is told so in HTTP.
+Task<bool> secure(Connection& connection) {
+    auto const& settings = connection.settings;
+    if (!settings.credentials) co_return true;
+    Error error;
+    connection.stream.expires_after(settings.handshake_timeout);
+    auto const is_tls = co_await beast::async_detect_ssl(connection.stream, connection.received, into(error));
+    if (!error && !is_tls) co_await write(connection, refusal("400 Bad Request", tls::expects_tls));
+    if (error || !is_tls) co_return false;
+    connection.context = settings.credentials->context();
+    connection.tls.emplace(connection.stream, *connection.context);
+    auto const used =
+        co_await connection.tls->async_handshake(asio::ssl::stream_base::server, connection.received.data(), into(error));
+    connection.received.consume(used);
+    if (error) connection.tls.reset();
+    co_return !error;
+}
+
 // Gives the receiver time to read the whole response before the connection closes.
 Task<> linger(Connection& connection) {
     Error error;
+    connection.stream.expires_after(longest_parting);
+    if (connection.tls) co_await connection.tls->async_shutdown(into(error));
     connection.stream.socket().shutdown(asio::socket_base::shutdown_send, error);
     begin_to_watch(connection);
     Timer timer{connection.executor()};
     for (auto const end = Clock::now() + longest_parting; !connection.gone && Clock::now() < end;) {
         timer.expires_after(between_looks / 10);
         co_await timer.async_wait(into(error));
+    }
+}
+
+Task<> serve_request(SharedConnection connection) {
+    Error error;
+    http::request_parser<http::empty_body> parser;
+    parser.header_limit(static_cast<std::uint32_t>(connection->settings.max_header));
+    connection->stream.expires_after(connection->settings.request_timeout);
+    if (connection->tls)
+        co_await http::async_read_header(*connection->tls, connection->received, parser, into(error));
+    else
+        co_await http::async_read_header(connection->stream, connection->received, parser, into(error));
+    if (!error) {
+        co_await answer(connection, parser.release());
+    } else if (auto const text = parse_refusal(error); !text.empty()) {
+        co_await write(*connection, text);
     }
 }
 
@@ -232,15 +279,8 @@ Task<> serve_receiver(Socket socket, Directory const& directory, Settings const&
     Error error;
     connection->stream.socket().set_option(asio::ip::tcp::no_delay{true}, error);
     connection->stream.socket().set_option(asio::socket_base::keep_alive{true}, error);
-    http::request_parser<http::empty_body> parser;
-    parser.header_limit(static_cast<std::uint32_t>(settings.max_header));
-    connection->stream.expires_after(settings.request_timeout);
-    co_await http::async_read_header(connection->stream, connection->received, parser, into(error));
-    if (!error) {
-        co_await answer(connection, parser.release());
-    } else if (auto const text = parse_refusal(error); !text.empty()) {
-        co_await write(*connection, text);
-    }
+    auto const may_ask = co_await secure(*connection);
+    if (may_ask) co_await serve_request(connection);
     co_await linger(*connection);
     connection->stream.close();
 }

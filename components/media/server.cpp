@@ -125,7 +125,8 @@ private:
             acceptor_.bind(endpoint);
             acceptor_.listen();
             auto const port = acceptor_.local_endpoint().port();
-            url_ = settings_.url.empty() ? "http://" + text_of(reachable(settings_.host), port) : settings_.url;
+            auto const* const scheme = settings_.credentials ? "https://" : "http://";
+            url_ = settings_.url.empty() ? scheme + text_of(reachable(settings_.host), port) : settings_.url;
             while (url_.ends_with('/')) url_.pop_back();
         } catch (boost::system::system_error const& error) {
             throw std::runtime_error{"cannot serve media on " + text_of(settings_.host, settings_.port) + ": " +

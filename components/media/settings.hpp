@@ -5,8 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
+
+namespace rois::tls {
+class Credentials;
+}
 
 namespace rois::media {
 
@@ -16,13 +21,15 @@ enum class RtpTargets : std::uint8_t { loopback, any };
 struct Settings {
     std::string host = "127.0.0.1";
     std::uint16_t port = 0;  // 0: any free port
-    std::string url;         // public URL, "https://robots.example/m"; empty: http://HOST:PORT
+    std::string url;         // public URL, "https://robots.example/m"; empty: http(s)://HOST:PORT
     // Return whether a request with this Host or Origin header is accepted. Null: accept all. Called on the server's own thread.
     std::function<bool(std::string_view host)> is_own_host;
     std::function<bool(std::string_view origin, std::string_view host)> is_allowed_origin;
     RtpTargets rtp_targets = RtpTargets::loopback;
+    std::shared_ptr<tls::Credentials> credentials{};  // null: no TLS
     std::size_t max_connections = 64;
-    std::size_t max_header = 8 * 1024;  // bytes
+    std::size_t max_header = 8 * 1024;                                      // bytes
+    std::chrono::milliseconds handshake_timeout = std::chrono::seconds{5};  // of TLS
     std::chrono::milliseconds request_timeout = std::chrono::seconds{10};
     std::chrono::milliseconds write_timeout = std::chrono::seconds{10};  // of one piece to a receiver
     // How long a request for a single picture counts as a receiver.

@@ -11,8 +11,8 @@ namespace rois::remote {
 // One of the two links. If one fails, both end.
 class Joiner::Side : public client::Link::Listener {
 public:
-    Side(Joiner& of, client::Target const& target)
-        : of_{of}, link_{client::websocket_link(of.loop_, target, of.settings_, *this)} {}
+    using Listener = client::Link::Listener;
+    Side(Joiner& of, std::function<std::shared_ptr<client::Link>(Listener&)> const& link) : of_{of}, link_{link(*this)} {}
     virtual ~Side() = default;
 
     void open() { link_->open(); }
@@ -32,10 +32,14 @@ private:
 
 class Joiner::MainEngineLink final : public Side {
 public:
-    explicit MainEngineLink(Joiner& of) : Side{of, target(of.joining_.url)} {}
+    explicit MainEngineLink(Joiner& of)
+        : Side{of, [&](Listener& listener) {
+                   auto const target = target_of(of.joining_.url);
+                   return client::websocket_link(of.loop_, target, of.settings_, listener);
+               }} {}
 
 private:
-    static client::Target target(std::string const& url) {
+    static client::Target target_of(std::string const& url) {
         auto target = client::read_url(url);
         target.path += "/engines";
         return target;
@@ -57,7 +61,11 @@ private:
 
 class Joiner::OwnGatewayLink final : public Side {
 public:
-    explicit OwnGatewayLink(Joiner& of) : Side{of, client::read_url(of.joining_.own_url)} {}
+    explicit OwnGatewayLink(Joiner& of)
+        : Side{of, [&](Listener& listener) {
+                   auto socket = of.joining_.own_gateway();
+                   return client::link_on(of.loop_, std::move(socket), of.settings_, listener);
+               }} {}
 
 private:
     void connected() override {

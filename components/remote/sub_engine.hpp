@@ -4,9 +4,12 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "types/unique_descriptor.hpp"
 
 namespace rois::remote {
 
@@ -49,8 +52,9 @@ struct SubEngine {
 // Another engine, which this engine joins as a sub engine.
 struct Joining {
     std::string url;
-    std::string name;     // of this engine in the other one
-    std::string own_url;  // of this engine's own gateway
+    std::string name;  // of this engine in the other one
+    // Returns a socket that is connected to this engine's own gateway. Called on the thread of the links.
+    std::function<UniqueDescriptor()> own_gateway;
 };
 
 }  // namespace rois::remote

@@ -86,6 +86,16 @@ void check_ports(GatewaySettings const& settings) {
                           "; choose another port for media"};
 }
 
+void check_tls(tls::Files const& files) {
+    auto const require = [](bool is_there, std::string const& key, std::string const& other) {
+        if (!is_there) throw BadSettings{other + " needs " + key + ": expected the name of a file"};
+    };
+    require(files.key.empty() || !files.certificate.empty(), "tls_certificate", "tls_key");
+    require(files.certificate.empty() || !files.key.empty(), "tls_key", "tls_certificate");
+    require(files.client_ca.empty() || !files.certificate.empty(), "tls_certificate", "tls_client_ca");
+    require(!files.client_must || !files.client_ca.empty(), "tls_client_ca", "tls_clients = required");
+}
+
 GatewaySettings gather(CLI::App const& app, Flags const& flags) {
     GatewaySettings settings;
     bool const named = app.count("--config") > 0;
@@ -100,6 +110,7 @@ GatewaySettings gather(CLI::App const& app, Flags const& flags) {
         }
     }
     check_ports(settings);
+    check_tls(settings.tls);
     return settings;
 }
 

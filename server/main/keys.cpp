@@ -290,11 +290,29 @@ std::vector<Key> general_keys() {
     };
 }
 
+std::vector<Key> tls_keys() {
+    return {
+        file(
+            "tls_certificate", "the gateway's certificate and those that signed it, read again after SIGHUP; empty: no TLS",
+            [](GatewaySettings & s) -> auto& { return s.tls.certificate; }),
+        file(
+            "tls_key", "key of the certificate, read again after SIGHUP", [](GatewaySettings & s) -> auto& { return s.tls.key; }),
+        file(
+            "tls_client_ca", "certificates that sign those of clients, read again after SIGHUP; empty: clients need none",
+            [](GatewaySettings & s) -> auto& { return s.tls.client_ca; }),
+        choice<bool>("tls_clients", "whether a client without a certificate is accepted, with tls_client_ca",
+                     [](GatewaySettings & s) -> auto& { return s.tls.client_must; }, {{"optional", false}, {"required", true}}),
+        seconds(
+            "handshake_timeout", "longest time for a TLS handshake",
+            [](GatewaySettings & s) -> auto& { return s.net.handshake_timeout; }),
+    };
+}
+
 std::vector<Key> media_keys() {
     return {
         {"media", "address and port that serve media streams; port 0: any free port; empty: no streams", "HOST:PORT",
          "HOST:PORT, such as 127.0.0.1:8081, or empty", Key::Kind::text, set_media, show_media},
-        {"media_url", "URL at which applications reach the media server; empty: http://HOST:PORT of media", "URL",
+        {"media_url", "URL at which applications reach the media server; empty: http(s)://HOST:PORT of media", "URL",
          "a URL such as https://robots.example/media", Key::Kind::text, set_media_url,
          [](GatewaySettings const& s) { return s.media.url; }},
         choice<media::RtpTargets>("media_rtp", "RTP targets that applications may name",
@@ -445,7 +463,7 @@ GatewaySettings::GatewaySettings() {
 std::vector<Key> const& keys() {
     static auto const all = [] {
         std::vector<Key> together;
-        for (auto const& part : {general_keys(), media_keys(), session_keys(), network_keys()}) {
+        for (auto const& part : {general_keys(), tls_keys(), media_keys(), session_keys(), network_keys()}) {
             together.insert(together.end(), part.begin(), part.end());
         }
         return together;

@@ -38,6 +38,7 @@
 #include "simulation/plan/floor_plan_file.hpp"
 #include "simulation/scenario/scenario_file.hpp"
 #include "simulation/world/simulation.hpp"
+#include "wire/credentials.hpp"
 #include "xml/codec/codec.hpp"
 #include "xml/profiles/profile_document.hpp"
 #include "xml/validation/schemas.hpp"
@@ -142,6 +143,8 @@ void make_room_for_connections(net::Settings& net, media::Settings const& media)
 // Returns null if no streams are served.
 std::shared_ptr<media::Server> make_media(media::Settings settings, net::Settings const& net) {
     if (settings.host.empty()) return nullptr;
+    settings.credentials = net.credentials;
+    settings.handshake_timeout = net.handshake_timeout;
     settings.is_own_host = [hosts = net.hosts](std::string_view host) { return is_own_host(host, hosts); };
     settings.is_allowed_origin = [allowed = net.allowed_origins](std::string_view origin, std::string_view host) {
         return is_allowed_origin(origin, host, allowed);
@@ -223,6 +226,21 @@ void read_again(UserComponents& components, Gateway& gateway) {
     }
 }
 
+// Returns null without TLS.
+std::shared_ptr<tls::Credentials> credentials_of(tls::Files const& files) {
+    return files.certificate.empty() ? nullptr : std::make_shared<tls::Credentials>(files);
+}
+
+// Reads certificate and key again. If that fails, logs why and changes nothing.
+void read_again(tls::Credentials& credentials) {
+    try {
+        credentials.read_again();
+        spdlog::info("TLS: new connections get the certificate that was read after SIGHUP");
+    } catch (std::exception const& error) {
+        spdlog::warn("TLS: the certificate was not changed: {}", error.what());
+    }
+}
+
 // Makes all parts in the order of their dependencies, and serves until a signal arrives.
 int serve(CommandLine const& command) {
     auto const& settings = command.settings;
@@ -233,6 +251,7 @@ int serve(CommandLine const& command) {
     auto const sub_engines =
         settings.engines.empty() ? std::vector<remote::SubEngine>{} : read_engines_file(settings.engines, taken);
     auto const choosing_settings = settings.engines.empty() ? choosing::Settings{} : read_choosing(settings.engines, sub_engines);
+    auto const credentials = credentials_of(settings.tls);
     if (command.wish == CommandLine::Wish::check_config) {
         for (auto const& warning : command.warnings) std::fprintf(stderr, "rois-gateway: warning: %s\n", warning.c_str());
         std::puts("configuration ok");
@@ -242,6 +261,7 @@ int serve(CommandLine const& command) {
     LogFlush const flush;
     release_large_blocks_at_once();
     auto net_settings = with_all_hosts(settings);
+    net_settings.credentials = credentials;
     make_room_for_connections(net_settings, settings.media);
     for (auto const& warning : command.warnings) spdlog::warn("{}", warning);
     auto const media = make_media(settings.media, net_settings);
@@ -295,15 +315,17 @@ int serve(CommandLine const& command) {
             remote_engines->accept(std::move(socket), std::move(head));
         };
     net::Server server{net_settings, gateway, telemetry, documents, schemas};
-    if (!settings.profiles.empty() || !settings.engines.empty())
-        server.on_hang_up([&] {
-            if (!settings.profiles.empty()) read_again(user_components, gateway);
-            if (!settings.engines.empty()) read_again(settings.engines, taken, choosing_settings, *remote_engines, server.url());
-        });
+    server.on_hang_up([&] {
+        if (!credentials && settings.profiles.empty() && settings.engines.empty())
+            spdlog::info("SIGHUP: there is no certificate, folder of profiles or file of engines to read again");
+        if (credentials) read_again(*credentials);
+        if (!settings.profiles.empty()) read_again(user_components, gateway);
+        if (!settings.engines.empty()) read_again(settings.engines, taken, choosing_settings, *remote_engines, server.url());
+    });
     if (!settings.engines.empty()) remote_engines->set(sub_engines, server.url());
     if (!settings.join.empty()) {
         auto const& name = settings.join_as.empty() ? settings.engine_name : settings.join_as;
-        remote_engines->join({.url = settings.join, .name = name, .own_url = server.url()});
+        remote_engines->join({.url = settings.join, .name = name, .own_gateway = [&server] { return server.connect(); }});
     }
     if (media) spdlog::info("media are served under {}", media->url());
     spdlog::info("listening on {}", server.url());
@@ -313,7 +335,7 @@ int serve(CommandLine const& command) {
 }
 
 int check_health(GatewaySettings const& settings) {
-    auto const trouble = rois::check_health(settings.net.host, settings.net.port);
+    auto const trouble = rois::check_health(settings.net.host, settings.net.port, settings.tls);
     if (trouble.empty()) return done;
     std::fprintf(stderr, "rois-gateway: not healthy: %s\n", trouble.c_str());
     return could_not_start;

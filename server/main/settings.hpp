@@ -8,6 +8,7 @@
 #include "engine/settings.hpp"
 #include "media/settings.hpp"
 #include "net/settings.hpp"
+#include "wire/tls_files.hpp"
 
 namespace rois {
 
@@ -24,6 +25,7 @@ struct GatewaySettings {
     net::Settings net;
     EngineSettings engine;
     media::Settings media;  // without a host, no streams are served
+    tls::Files tls;         // without a certificate, both serve without TLS
     std::string engine_name = "reception";
     double sim_speed = 1;  // 0: simulated time stands still, and there is steering
     Steering steering = Steering::off;

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "gateway/access/admission.hpp"
-#include "net/asio.hpp"
+#include "wire/asio.hpp"
 
 namespace rois::net {
 

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "gateway/gateway.hpp"
-#include "net/asio.hpp"
+#include "wire/asio.hpp"
 #include "xml/codec/codec.hpp"
 
 namespace rois::net {

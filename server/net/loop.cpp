@@ -84,8 +84,8 @@ void Loop::run() {
     }
 }
 
-void Loop::serve(Socket socket, Admission::Place place) {
-    auto const connection = std::make_shared<Connection>(*this, std::move(socket), std::move(place));
+void Loop::serve(Socket socket, Admission::Place place, From from) {
+    auto const connection = std::make_shared<Connection>(*this, std::move(socket), std::move(place), from);
     asio::co_spawn(io_, connection->run(), [this, connection](std::exception_ptr const& broken) {
         if (broken) shared_.troubles.report(Troubles::Where::connection, broken, std::chrono::steady_clock::now());
     });

@@ -11,7 +11,7 @@
 #include "gateway/process/telemetry.hpp"
 #include "gateway/process/troubles.hpp"
 #include "gateway/wakes.hpp"
-#include "net/asio.hpp"
+#include "wire/asio.hpp"
 #include "net/http/documents.hpp"
 #include "net/long_documents.hpp"
 #include "net/settings.hpp"
@@ -46,7 +46,8 @@ public:
     void shut_down(std::chrono::milliseconds within);
 
     // The loop's own thread calls the functions below.
-    void serve(Socket, Admission::Place);
+    enum class From : std::uint8_t { network, this_process };
+    void serve(Socket, Admission::Place, From = From::network);
     // Cuts the connection that has been idle for longest. Returns false if none has been idle for 0.1 s.
     bool cut_longest_idle();
     bool draining() const { return last_moment_ != Steady::max(); }

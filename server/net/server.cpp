@@ -1,9 +1,10 @@
 #include "net/server.hpp"
 
-#include "net/asio.hpp"
+#include "wire/asio.hpp"
 
 #include <spdlog/spdlog.h>
 
+#include <boost/asio/post.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <csignal>
 #include <deque>
@@ -15,6 +16,7 @@
 #include "gateway/shutdown.hpp"
 #include "net/listener.hpp"
 #include "net/loop.hpp"
+#include "wire/relay.hpp"
 #include "types/text/address.hpp"
 
 namespace rois::net {
@@ -44,7 +46,22 @@ public:
         signals_.add(SIGINT);
     }
 
-    std::string url() const { return "http://" + host_and_port(shared_.settings.host, port_); }
+    std::string url() const {
+        return (shared_.settings.credentials ? "https://" : "http://") + host_and_port(shared_.settings.host, port_);
+    }
+
+    UniqueDescriptor connect() {
+        auto entered = admission_.enter(read_address("127.0.0.1").value(), Limits::of_connection);
+        auto* const place = std::get_if<Admission::Place>(&entered);
+        if (place == nullptr) throw std::runtime_error{"too many connections are open"};
+        LocalSocket inside{first_.executor()}, outside{first_.executor()};
+        asio::local::connect_pair(inside, outside);
+        asio::post(first_.executor(), [this, place = std::move(*place), socket = UniqueDescriptor{inside.release()}]() mutable {
+            Socket inner{first_.executor(), asio::ip::tcp::v4(), socket.release()};
+            first_.serve(std::move(inner), std::move(place), Loop::From::this_process);
+        });
+        return UniqueDescriptor{outside.release()};
+    }
 
     void on_hang_up(std::function<void()> what) {
         on_hang_up_ = std::move(what);
@@ -134,6 +151,8 @@ Server::Server(Settings settings, Gateway& gateway, Telemetry& telemetry, Docume
 Server::~Server() = default;
 
 std::string Server::url() const { return running_->url(); }
+
+UniqueDescriptor Server::connect() { return running_->connect(); }
 
 void Server::on_hang_up(std::function<void()> what) { running_->on_hang_up(std::move(what)); }
 

@@ -12,8 +12,8 @@
 
 namespace rois::net {
 
-// Not thread-safe, except `url`: call all other functions on the thread that made the server. `run` blocks that thread, which is
-// then the first I/O thread; the server owns the others.
+// Not thread-safe, except `url` and `connect`: call all other functions on the thread that made the server. `run` blocks that
+// thread, which is then the first I/O thread; the server owns the others.
 class Server {
 public:
     // Starts to listen. Throws std::runtime_error with a message for the user if the port is not free. All arguments must outlive
@@ -23,8 +23,12 @@ public:
     Server(Server const&) = delete;
     Server& operator=(Server const&) = delete;
 
-    // "http://127.0.0.1:8080"
+    // "http://127.0.0.1:8080", or with https
     std::string url() const;
+
+    // Returns a socket that is connected to this server, without TLS and from within the process. Thread-safe. Throws
+    // std::runtime_error if there are too many connections.
+    UniqueDescriptor connect();
 
     // Sets the function to call after each SIGHUP, on an I/O thread. It must not throw. If none is set, SIGHUP ends the process.
     // Call this before `run`.

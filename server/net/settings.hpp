@@ -5,12 +5,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "gateway/access/addresses.hpp"
 #include "types/unique_descriptor.hpp"
 #include "xml/codec/codec.hpp"
+
+namespace rois::tls {
+class Credentials;
+}
 
 namespace rois::net {
 
@@ -40,13 +45,16 @@ struct Settings {
     // Takes the socket of an engine that joins, and the bytes received on it. Called on an I/O thread. Empty: none may join.
     std::function<void(UniqueDescriptor socket, std::string head)> join;
 
-    std::chrono::milliseconds request_timeout = std::chrono::seconds{30};  // for a request to arrive completely
-    std::chrono::milliseconds connect_timeout = std::chrono::seconds{10};  // for a WebSocket to open a session
-    std::chrono::milliseconds idle_timeout = std::chrono::seconds{75};     // of an HTTP connection between two requests
-    std::chrono::milliseconds write_timeout = std::chrono::seconds{30};    // for a peer to read the sent data
-    std::chrono::milliseconds ping_interval = std::chrono::seconds{20};    // of WebSockets and event streams
-    std::chrono::milliseconds shutdown_timeout = std::chrono::seconds{5};  // for clients to read their last notifications
-    std::chrono::milliseconds tick = std::chrono::milliseconds{10};        // of the engine
+    std::shared_ptr<tls::Credentials> credentials;  // null: no TLS
+
+    std::chrono::milliseconds handshake_timeout = std::chrono::seconds{5};  // of TLS
+    std::chrono::milliseconds request_timeout = std::chrono::seconds{30};   // for a request to arrive completely
+    std::chrono::milliseconds connect_timeout = std::chrono::seconds{10};   // for a WebSocket to open a session
+    std::chrono::milliseconds idle_timeout = std::chrono::seconds{75};      // of an HTTP connection between two requests
+    std::chrono::milliseconds write_timeout = std::chrono::seconds{30};     // for a peer to read the sent data
+    std::chrono::milliseconds ping_interval = std::chrono::seconds{20};     // of WebSockets and event streams
+    std::chrono::milliseconds shutdown_timeout = std::chrono::seconds{5};   // for clients to read their last notifications
+    std::chrono::milliseconds tick = std::chrono::milliseconds{10};         // of the engine
 };
 
 }  // namespace rois::net

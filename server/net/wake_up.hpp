@@ -5,7 +5,7 @@
 
 #include "gateway/readers.hpp"
 #include "gateway/wakes.hpp"
-#include "net/asio.hpp"
+#include "wire/asio.hpp"
 #include "types/instant.hpp"
 
 namespace rois::net {

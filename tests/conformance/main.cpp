@@ -22,12 +22,13 @@ constexpr int no_rule_broken = 0, rule_broken = 1, not_checked = 2;
 
 constexpr auto usage =
     "Usage: rois-conformance URL [OPTION...]\n"
-    "Checks the gateway at URL (http://HOST:PORT) from outside against the rules of RoIS, and prints a report.\n"
+    "Checks the gateway at URL (http://HOST:PORT, or https) from outside against the rules of RoIS, and prints a report.\n"
     "It starts every component that no other application uses. Robots speak, gesture and move: keep their surroundings free.\n\n"
     "  --report FILE        also write the report to FILE as JUnit XML\n"
     "  --over TRANSPORT     use only http or websocket [both]\n"
     "  --only TEXT          run only checks whose name contains TEXT\n"
     "  --token TOKEN        bearer token for the gateway\n"
+    "  --ca-file FILE       certificates to trust instead of the system's, in PEM\n"
     "  --patience SECONDS   longest wait for one answer, notification or motion [10]\n"
     "  --room MILLIMETRES   greatest distance of a robot from its starting point; 0 forbids motion [300]\n"
     "  --disturb COMMAND    a shell command that makes the component $COMPONENT fail for some seconds: checks switching\n"
@@ -48,13 +49,17 @@ unsigned whole_number(std::string_view name, std::string_view text, unsigned mos
     return number;
 }
 
-// Reads http://HOST[:PORT][/]. HOST may be an IPv6 address in brackets.
+// Reads http://HOST[:PORT][/], or https. HOST may be an IPv6 address in brackets.
 void read_url(RunOptions& options, std::string_view url) {
-    constexpr std::string_view scheme = "http://";
     options.url = url;
-    if (!rois::equal_ignoring_case(url.substr(0, scheme.size()), scheme))
-        throw BadUsage{"'" + options.url + "' is not a valid URL: expected http://HOST:PORT"};
-    url.remove_prefix(scheme.size());
+    auto const begins_with = [&](std::string_view scheme) {
+        bool const begins = rois::equal_ignoring_case(url.substr(0, scheme.size()), scheme);
+        if (begins) url.remove_prefix(scheme.size());
+        return begins;
+    };
+    options.address.tls = begins_with("https://");
+    if (!options.address.tls && !begins_with("http://"))
+        throw BadUsage{"'" + options.url + "' is not a valid URL: expected http://HOST:PORT or https://HOST:PORT"};
     if (url.ends_with('/')) url.remove_suffix(1);
     options.address.authority = url;
     auto const colon = url.rfind(':');
@@ -64,7 +69,9 @@ void read_url(RunOptions& options, std::string_view url) {
     if (host.empty() || host.find('/') != host.npos)
         throw BadUsage{"'" + options.url + "' is not a valid URL: expected http://HOST:PORT"};
     options.address.host = host;
-    options.address.port = static_cast<std::uint16_t>(has_port ? whole_number("the port", url.substr(colon + 1), 65'535) : 80);
+    options.address.port = static_cast<std::uint16_t>(has_port ? whole_number("the port", url.substr(colon + 1), 65'535)
+                                                      : options.address.tls ? 443
+                                                                            : 80);
 }
 
 struct CommandLine {
@@ -96,6 +103,8 @@ std::optional<CommandLine> read_command_line(std::span<char* const> arguments) {
             line.options.only = value;
         } else if (name == "--token") {
             line.options.address.token = value;
+        } else if (name == "--ca-file") {
+            line.options.address.ca_file = value;
         } else if (name == "--patience") {
             line.options.address.patience = std::chrono::seconds{whole_number(name, value, 3'600)};
         } else if (name == "--room") {

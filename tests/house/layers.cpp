@@ -17,8 +17,8 @@ Headers const xerces{"xercesc/"};
 Headers const pugixml{"pugixml.hpp", "pugiconfig.hpp"};
 Headers const boost{"boost/"};
 Headers const boost_geometry{"boost/geometry/"};
-Headers const boost_address{"boost/asio/ip/address.hpp"};  // a value, no socket
-Headers const boost_tcp{"boost/asio/ip/tcp.hpp"};          // for the health check
+Headers const boost_address{"boost/asio/ip/address.hpp"};    // a value, no socket
+Headers const boost_streams{"boost/asio/", "boost/beast/"};  // for the health check
 Headers const openssl{"openssl/"};
 Headers const prometheus{"prometheus/"};
 Headers const spdlog{"spdlog/"};
@@ -52,13 +52,15 @@ std::vector<Layer> const layers{
      {"gateway/", "engine/", "xml/", "types/"},
      {boost_address, openssl, prometheus, spdlog, posix},
      Time::read},
-    {"server/net/", {"net/", "gateway/", "engine/", "xml/", "types/"}, {boost, spdlog, posix}, Time::read},
+    {"server/wire/", {"wire/", "gateway/process/telemetry.hpp", "types/"}, {boost, openssl, spdlog, posix}, Time::read},
+    {"server/net/", {"net/", "wire/", "gateway/", "engine/", "xml/", "types/"}, {boost, spdlog, posix}, Time::read},
     {"server/main/",
-     {"main/", "net/", "gateway/", "engine/", "xml/", "types/", "files/", "basic/", "simulation/", "choosing/choosing.hpp",
-      "choosing/settings.hpp", "media/server.hpp", "media/settings.hpp", "remote/remote_engines.hpp", "remote/sub_engine.hpp"},
-     {boost_tcp, cli11, json, spdlog, posix},
+     {"main/", "net/", "wire/", "gateway/", "engine/", "xml/", "types/", "files/", "basic/", "simulation/",
+      "choosing/choosing.hpp", "choosing/settings.hpp", "media/server.hpp", "media/settings.hpp", "remote/remote_engines.hpp",
+      "remote/sub_engine.hpp"},
+     {boost_streams, cli11, json, spdlog, posix},
      Time::read},
-    {"components/media/", {"media/"}, {boost, jpeg}, Time::read},
+    {"components/media/", {"media/", "wire/credentials.hpp"}, {boost, jpeg}, Time::read},
     {"components/basic/",
      {"basic/", "engine/local_component.hpp", "types/", "media/media.hpp", "xml/profiles/document.hpp",
       "xml/validation/schemas.hpp"},

@@ -1,7 +1,10 @@
-// A TCP connection on which a test can send any bytes, valid or not.
+// A TCP or TLS connection on which a test can send any bytes, valid or not.
 #pragma once
 
+#include <openssl/types.h>
+
 #include <chrono>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -18,7 +21,7 @@ public:
 
 class Line {
 public:
-    // Connects. Throws LineEnded if no server accepts the connection.
+    // Connects. Throws LineEnded if no server accepts the connection, or its certificate is not trusted.
     explicit Line(Address const&);
     ~Line();
     Line(Line const&) = delete;
@@ -26,7 +29,7 @@ public:
 
     // Sends all bytes; stops silently if the peer has closed.
     void send(std::string_view bytes);
-    // Sends without waiting. Returns the number of bytes sent.
+    // Sends without waiting. Returns the number of bytes sent. Only without TLS.
     std::size_t send_now(std::string_view bytes);
     void finish();  // closes the sending direction
 
@@ -45,10 +48,16 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    struct Free {
+        void operator()(SSL*) const;
+    };
+
+    void secure(Address const&);
     bool receive(Clock::time_point deadline);
     Clock::time_point deadline() const { return Clock::now() + patience_; }
 
     int socket_ = -1;
+    std::unique_ptr<SSL, Free> tls_;  // null: no TLS
     std::chrono::milliseconds patience_;
     std::string received_;
 };

@@ -6,8 +6,7 @@
 
 namespace rois::test {
 
-Application::Application(Transport transport, GatewayProcess const& gateway)
-    : kit::Application{connection_over(gateway.address(), transport)} {}
+Application::Application(Transport transport, Address const& address) : kit::Application{connection_over(address, transport)} {}
 
 Application::~Application() {
     try {

@@ -12,7 +12,8 @@ using namespace kit;
 class Application : public kit::Application {
 public:
     // Not connected yet.
-    explicit Application(Transport, GatewayProcess const&);
+    explicit Application(Transport transport, GatewayProcess const& gateway) : Application{transport, gateway.address()} {}
+    explicit Application(Transport, Address const&);
     ~Application() override;  // disconnects
 
 private:

@@ -83,6 +83,8 @@ protected:
 inline Link::Document document_of(Request const& request) { return std::make_shared<std::string const>(xml::encode(request)); }
 
 std::shared_ptr<Link> websocket_link(Loop&, Target const&, Settings const&, Link::Listener&);
+// A WebSocket on a socket that is connected to a gateway. Returns null if the socket cannot be used.
+std::shared_ptr<Link> link_on(Loop&, UniqueDescriptor socket, Settings const&, Link::Listener&);
 // A WebSocket that a client opens here. `socket`: a connected socket. `head`: the bytes received on it,
 // with the request for the upgrade. Returns null if the socket cannot be used.
 std::shared_ptr<Link> accepted_link(Loop&, UniqueDescriptor socket, std::string head, Settings const&, Link::Listener&);

@@ -42,8 +42,9 @@ public:
             asio::detached);
     }
 
-    // Makes this the server's side of an accepted WebSocket. Returns false if the socket cannot be used. Only for Socket.
-    bool accept(UniqueDescriptor socket, std::string head) {
+    // Uses a connected socket. Makes this the server's side of an accepted WebSocket if there is a `head`. Returns false if the
+    // socket cannot be used. Only for Socket.
+    bool use(UniqueDescriptor socket, std::string head = {}) {
         error_code error;
         beast::get_lowest_layer(stream_).assign(asio::ip::tcp::v4(), socket.get(), error);
         if (error) return false;
@@ -95,7 +96,9 @@ private:
     }
 
     Opening run() {
-        auto problem = co_await connect(stream_.next_layer(), beast::get_lowest_layer(stream_), resolver_, target_);
+        auto& lowest = beast::get_lowest_layer(stream_);
+        std::string problem;
+        if (!lowest.is_open()) problem = co_await connect(stream_.next_layer(), lowest, resolver_, target_);
         if (!problem.empty()) {
             fail(problem, Failure::passing);
             co_return;

@@ -84,7 +84,7 @@ bool serve(std::string const& url, std::string const& name, Make const& make) {
     net::Settings settings;
     settings.port = 0;
     net::Server server{settings, gateway, telemetry, documents, schemas()};
-    engines.join({.url = url, .name = name, .own_url = server.url()});
+    engines.join({.url = url, .name = name, .own_gateway = [&server] { return server.connect(); }});
     return server.run();
 }
 

@@ -168,6 +168,8 @@ public:
         counter("rois_connections_accepted_total", "Connections accepted.", static_cast<double>(t.accepted_));
         counter("rois_connections_cut_total", "Connections closed because their reader was too slow.",
                 static_cast<double>(t.cut_));
+        counter("rois_handshakes_failed_total", "TLS handshakes that failed or took too long.",
+                static_cast<double>(t.handshakes_failed_));
         counter("rois_notifications_delivered_total", "Notifications written to connections.", static_cast<double>(t.delivered_));
         begin("rois_faults_total", "Messages that could not be read or were not allowed.", MetricType::Counter);
         for (std::size_t i = 0; i < Telemetry::fault_codes; ++i) {

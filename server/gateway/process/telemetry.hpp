@@ -48,7 +48,8 @@ public:
     void checked(xml::Validation way) { ++checked_[static_cast<std::size_t>(way)]; }  // a request document
     void faulted(FaultCode code) { ++faults_[static_cast<std::size_t>(code)]; }
     void delivered(std::size_t notifications) { delivered_ += notifications; }
-    void cut() { ++cut_; }  // a connection that was closed because its peer read too slowly
+    void handshake_failed() { ++handshakes_failed_; }  // of TLS
+    void cut() { ++cut_; }                             // a connection that was closed because its peer read too slowly
     // Limits of the network layer: their values, and how often each was reached.
     enum class Limit : std::uint8_t {
         connections,  // reached: no connection was accepted until another one closed
@@ -92,6 +93,7 @@ private:
     std::atomic<std::uint64_t> nanoseconds_ = 0;
     std::array<std::atomic<std::uint64_t>, 3> open_{};
     std::atomic<std::uint64_t> accepted_ = 0;
+    std::atomic<std::uint64_t> handshakes_failed_ = 0;
     std::atomic<std::uint64_t> delivered_ = 0;
     std::atomic<std::uint64_t> cut_ = 0;
     std::array<std::atomic<std::uint64_t>, 6> survived_{};

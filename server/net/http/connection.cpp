@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "net/http/event_stream.hpp"
+#include "wire/relay.hpp"
 #include "net/websocket/upgrade.hpp"
+#include "wire/credentials.hpp"
 #include "types/identifier_length.hpp"
 
 namespace rois::net {
@@ -36,8 +38,9 @@ private:
     std::weak_ptr<Connection> of_;
 };
 
-Connection::Connection(Loop& loop, Socket socket, Admission::Place place)
+Connection::Connection(Loop& loop, Socket socket, Admission::Place place, Loop::From from)
     : loop_{loop},
+      from_{from},
       place_{std::move(place)},
       opener_{std::make_shared<Opener>(place_.address(), place_.limits(), 0U)},
       wire_{std::move(socket), loop.shared().settings.write_timeout, loop.shared().telemetry},
@@ -50,20 +53,30 @@ Connection::~Connection() { loop_.remove(*this); }
 
 Task<> Connection::run() {
     auto then = Then::end;
-    if (!loop_.draining()) then = co_await serve();
+    if (!loop_.draining()) then = co_await secure();
+    if (then == Then::next) then = co_await serve();
     if (then == Then::websocket) co_await serve_websocket();
-    if (then == Then::engine) {
-        co_await flush();
-        std::ostringstream head;
-        head << head_.message << wire_.text();
-        loop_.shared().settings.join(wire_.release(), head.str());
-    }
+    if (then == Then::engine) co_await hand_over();
     if (then == Then::linger) {
         co_await await_answers();
         co_await flush();
         co_await wire_.linger(std::chrono::steady_clock::now() + longest_linger);
     }
     wire_.cut();
+}
+
+// The WebSocket of an engine that joins goes to the layer that asks this engine.
+Task<> Connection::hand_over() {
+    co_await flush();
+    std::ostringstream head;
+    head << head_.message << wire_.text();
+    auto const& join = loop_.shared().settings.join;
+    if (!wire_.is_secure()) co_return join(wire_.release(), head.str());
+    wire_.use(wire_.text().size());
+    LocalSocket inside{loop_.executor()}, outside{loop_.executor()};
+    asio::local::connect_pair(inside, outside);
+    join(UniqueDescriptor{outside.release()}, head.str());
+    co_await relay(wire_, inside);
 }
 
 void Connection::sweep(Steady at) {
@@ -89,6 +102,25 @@ bool Connection::waits_since(Steady then) const {
 void Connection::shut_down() {
     if (auto const websocket = websocket_.lock()) websocket->shut_down();
     if (idle_) wire_.stop_waiting();
+}
+
+// A peer that speaks HTTP to a port with TLS is told so in HTTP.
+Task<Connection::Then> Connection::secure() {
+    auto const& settings = loop_.shared().settings;
+    if (!settings.credentials || from_ == Loop::From::this_process) co_return Then::next;
+    idle_ = true;
+    idle_due_ = std::chrono::steady_clock::now() + settings.idle_timeout;
+    auto const due = std::chrono::steady_clock::now() + settings.handshake_timeout;
+    auto const outcome = co_await wire_.secure(settings.credentials->context(), due);
+    idle_ = false;
+    if (outcome != Wire::Outcome::done) {
+        loop_.shared().telemetry.handshake_failed();
+        spdlog::debug("no TLS with {}: {}", wire_.peer(),
+                      outcome == Wire::Outcome::late ? "too slow (handshake_timeout)" : "refused");
+        co_return Then::end;
+    }
+    if (wire_.is_secure()) co_return Then::next;
+    co_return refuse({FaultCode::not_well_formed, std::string{tls::expects_tls}});
 }
 
 Task<Connection::Then> Connection::serve() {

@@ -14,14 +14,14 @@
 #include "net/http/routes.hpp"
 #include "net/loop.hpp"
 #include "net/websocket/websocket.hpp"
-#include "net/wire.hpp"
+#include "wire/wire.hpp"
 
 namespace rois::net {
 
 // Always held by a shared_ptr. Belongs to the thread of its loop, except for the constructor. The loop must outlive it.
 class Connection : public std::enable_shared_from_this<Connection> {
 public:
-    Connection(Loop&, Socket, Admission::Place);
+    Connection(Loop&, Socket, Admission::Place, Loop::From);
     ~Connection();
 
     // Runs until the connection ends.
@@ -39,6 +39,7 @@ private:
     // The next step of the connection. `receive`: the request is incomplete. `linger`: close after the last answer.
     enum class Then : std::uint8_t { next, receive, websocket, engine, linger, end };
 
+    Task<Then> secure();
     Task<Then> serve();
     Then take_request();
     Then take_head();
@@ -47,6 +48,7 @@ private:
     Task<Then> serve_other();
     Then serve_upgrade();
     Task<> serve_websocket();
+    Task<> hand_over();
     Task<Then> serve_notifications();
 
     // These functions queue the answer, and `flush` sends it. `last`: the connection ends behind it.
@@ -70,6 +72,7 @@ private:
 
     Loop& loop_;
     std::size_t index_ = 0;  // index among the loop's connections; only the loop uses it
+    Loop::From const from_;
     Admission::Place place_;
     std::shared_ptr<Opener> opener_;
     Wire wire_;

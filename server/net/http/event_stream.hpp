@@ -7,7 +7,7 @@
 #include "gateway/gateway.hpp"
 #include "net/http/http_answer.hpp"
 #include "net/http/http_head.hpp"
-#include "net/wire.hpp"
+#include "wire/wire.hpp"
 
 namespace rois::net {
 

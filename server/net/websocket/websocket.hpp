@@ -10,7 +10,7 @@
 #include "gateway/gateway.hpp"
 #include "net/wake_up.hpp"
 #include "net/websocket/websocket_frames.hpp"
-#include "net/wire.hpp"
+#include "wire/wire.hpp"
 
 namespace rois::net {
 

@@ -1,6 +1,7 @@
-#include "net/wire.hpp"
+#include "wire/wire.hpp"
 
 #include <netinet/tcp.h>
+#include <poll.h>
 #include <spdlog/spdlog.h>
 #include <sys/socket.h>
 
@@ -18,6 +19,7 @@ constexpr std::size_t smallest_read = 1024;
 constexpr std::size_t largest_kept = 4 * 1024;    // bytes of memory of an empty input buffer
 constexpr std::size_t largest_read = 16 * 1024;   // a turn: with larger ones, a thousand long bodies keep `stop` waiting
 constexpr std::size_t most_promised = 16 * 1024;  // bytes of memory for announced input
+constexpr char first_byte_of_tls = 0x16;          // the type of the record of a handshake (RFC 8446, 5.1)
 
 }  // namespace
 
@@ -32,6 +34,7 @@ std::string Wire::peer() const {
     boost::system::error_code error;
     auto const endpoint = socket_.remote_endpoint(error);
     if (error) return "a closed connection";
+    if (endpoint.data()->sa_family == AF_UNIX) return "this gateway";
     return host_and_port(endpoint.address().to_string(), endpoint.port());
 }
 
@@ -42,6 +45,27 @@ void Wire::use(std::size_t bytes) {
     used_ = 0;
 }
 
+Task<Wire::Outcome> Wire::secure(std::shared_ptr<asio::ssl::context> context, Steady until) {
+    auto const received = co_await receive(until);
+    if (received != Outcome::done || input_.front() != first_byte_of_tls) co_return received;
+    tls_ = std::make_unique<Tls>(std::move(context), socket_);
+    input_due_ = until;
+    boost::system::error_code error;
+    auto const read = co_await tls_->stream.async_handshake(asio::ssl::stream_base::server, asio::buffer(input_), into(error));
+    use(read);
+    // Otherwise a client whose system waits for this acknowledgement (Nagle's algorithm) sends its request 40 ms later.
+    int const on = 1;
+    ::setsockopt(socket_.native_handle(), IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
+    co_return input_ended(error);
+}
+
+Wire::Outcome Wire::input_ended(boost::system::error_code error) {
+    input_due_ = Steady::max();
+    bool const interrupted = std::exchange(interrupted_, false), late = std::exchange(input_late_, false);
+    if (!error || interrupted) return Outcome::done;
+    return late ? Outcome::late : Outcome::closed;
+}
+
 // Uses a small buffer while no input waits: there may be many idle connections.
 Task<Wire::Outcome> Wire::receive(Steady until, std::size_t expected) {
     input_.erase(0, std::exchange(used_, 0));
@@ -50,12 +74,14 @@ Task<Wire::Outcome> Wire::receive(Steady until, std::size_t expected) {
     input_.resize(before + std::clamp(std::max(before, std::min(expected, most_promised)), smallest_read, largest_read));
     input_due_ = until;
     boost::system::error_code error;
-    auto const size = co_await socket_.async_read_some(asio::buffer(input_.data() + before, input_.size() - before), into(error));
-    input_due_ = Steady::max();
+    auto const room = asio::buffer(input_.data() + before, input_.size() - before);
+    std::size_t size = 0;
+    if (tls_)
+        size = co_await tls_->stream.async_read_some(room, into(error));
+    else
+        size = co_await socket_.async_read_some(room, into(error));
     input_.resize(before + size);
-    bool const interrupted = std::exchange(interrupted_, false), late = std::exchange(input_late_, false);
-    if (!error || interrupted) co_return Outcome::done;
-    co_return late ? Outcome::late : Outcome::closed;
+    co_return input_ended(error);
 }
 
 void Wire::interrupt() {
@@ -68,7 +94,7 @@ void Wire::interrupt() {
 std::size_t Wire::send_now(std::string_view text) {
     std::size_t sent = 0;
     boost::system::error_code error;
-    while (sent < text.size() && !error) sent += socket_.write_some(asio::buffer(text.substr(sent)), error);
+    while (!tls_ && sent < text.size() && !error) sent += socket_.write_some(asio::buffer(text.substr(sent)), error);
     return sent;
 }
 
@@ -77,38 +103,25 @@ Task<Wire::Outcome> Wire::send(std::string_view text) {
     if (text.empty()) co_return Outcome::done;
     output_due_ = std::chrono::steady_clock::now() + write_timeout_;
     boost::system::error_code error;
-    co_await asio::async_write(socket_, asio::buffer(text), into(error));
+    if (tls_)
+        co_await asio::async_write(tls_->stream, asio::buffer(text), into(error));
+    else
+        co_await asio::async_write(socket_, asio::buffer(text), into(error));
     output_due_ = Steady::max();
     co_return error ? Outcome::closed : Outcome::done;
 }
 
 Wire::Watch Wire::watch(std::function<void()> closed, std::function<bool(Steady now)> is_proof) {
-    watching_ = std::make_shared<Watching>(Watching{std::move(closed), std::move(is_proof)});
-    await_close();
+    watching_.emplace(Watching{std::move(closed), std::move(is_proof)});
     return Watch{*this};
 }
 
-void Wire::await_close() {
-    socket_.async_wait(Socket::wait_read, [this, watched = std::weak_ptr{watching_}](boost::system::error_code error) {
-        if (!error && watched.lock()) check_for_close();
-    });
-}
-
-// No other operation waits for the socket, so this cancels only the watch.
-Wire::Watch::~Watch() {
-    wire_.watching_.reset();
-    boost::system::error_code ignored;
-    wire_.socket_.cancel(ignored);
-}
-
+// Not by reading: input may be a part of the next request, or a record of TLS.
 void Wire::check_for_close() {
-    char byte = 0;
-    boost::system::error_code error;
-    socket_.receive(asio::buffer(&byte, 1), asio::socket_base::message_peek, error);
-    if (!error) return;
-    if (error == asio::error::would_block) return await_close();  // the system woke us without a reason
-    watching_->gone = true;
-    watching_->closed();
+    if (watching_->gone || !socket_.is_open()) return;
+    pollfd state{.fd = socket_.native_handle(), .events = POLLRDHUP, .revents = 0};
+    watching_->gone = ::poll(&state, 1, 0) > 0;
+    if (watching_->gone) watching_->closed();
 }
 
 // The system sends a probe after each second of silence. The connection breaks when the second probe is due and the first one has
@@ -130,7 +143,15 @@ void Wire::finish() {
     socket_.shutdown(Socket::shutdown_send, ignored);
 }
 
+// With TLS, says first that nothing follows. Then what is still on its way is discarded unread, for which TLS is not needed.
 Task<> Wire::linger(Steady until) {
+    if (tls_) {
+        input_due_ = until;
+        boost::system::error_code error;
+        co_await tls_->stream.async_shutdown(into(error));
+        input_ended(error);
+        tls_.reset();
+    }
     finish();
     auto outcome = Outcome::done;
     while (outcome == Outcome::done) {
@@ -141,6 +162,7 @@ Task<> Wire::linger(Steady until) {
 
 void Wire::sweep(Steady now) {
     probe(watching_ && watching_->is_proof(now));
+    if (watching_) check_for_close();
     if (now >= output_due_) {
         spdlog::warn("the connection of {} was cut: the client has not read for {} s (write_timeout)", peer(),
                      std::chrono::duration<double>(write_timeout_).count());

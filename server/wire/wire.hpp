@@ -1,19 +1,19 @@
-// The socket of a connection, with its unread input. Belongs to one thread. All input and output of a connection goes through it:
-// for TLS, an ssl::stream takes the place of the socket in `receive` and `send`. `send_now` then writes nothing, because
-// an ssl::stream cannot write without waiting. `watch` and `probe` use the socket below it; `release` is only for connections
-// without TLS.
+// The socket of a connection, with its unread input, and with TLS if the port has it. Belongs to one thread. All input and output
+// of a connection goes through it.
 #pragma once
 
+#include <boost/asio/ssl/stream.hpp>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "gateway/process/telemetry.hpp"
-#include "net/asio.hpp"
 #include "types/instant.hpp"
 #include "types/unique_descriptor.hpp"
+#include "wire/asio.hpp"
 
 namespace rois::net {
 
@@ -35,6 +35,11 @@ public:
 
     enum class Outcome : std::uint8_t { done, closed, late };
 
+    // The opening handshake of TLS, before anything else. Returns `done` also if the peer does not begin it: then `is_secure` is
+    // false, and the wire has received something else.
+    Task<Outcome> secure(std::shared_ptr<asio::ssl::context>, Steady until);
+    bool is_secure() const { return tls_ != nullptr; }
+
     // Waits for input, and reads once. `expected`: the number of bytes that the peer will send, if it is known. Returns `late`
     // after `until`, when `sweep` is called.
     Task<Outcome> receive(Steady until, std::size_t expected = 0);
@@ -44,18 +49,17 @@ public:
     // Ends a waiting receive that has an end (`until`). It returns `done` without new input.
     void interrupt();
 
-    // Writes without waiting. Returns the number of written bytes. After an error, the next send fails.
+    // Writes without waiting. Returns the number of written bytes: with TLS always 0. After an error, the next send fails.
     std::size_t send_now(std::string_view);
     // Writes everything. The connection is cut if that takes longer than the write timeout.
     Task<Outcome> send(std::string_view);
 
-    // While nothing else receives: calls `closed` when the peer closes the connection. Watching ends if the peer sends something.
-    // While `is_proof` returns true, the system probes the peer: without an answer for two seconds the connection counts as
-    // closed (decision 33).
+    // Calls `closed` when a sweep finds that the peer has closed the connection. While `is_proof` returns true, the system probes
+    // the peer: without an answer for two seconds the connection counts as closed (decision 33).
     class Watch {
     public:
         explicit Watch(Wire& wire) : wire_{wire} {}
-        ~Watch();
+        ~Watch() { wire_.watching_.reset(); }
         Watch(Watch const&) = delete;
         Watch& operator=(Watch const&) = delete;
         // Returns whether the peer has closed the connection.
@@ -75,11 +79,12 @@ public:
     // answer.
     Task<> linger(Steady until);
 
-    // Cuts the connection if a write is overdue, and ends an overdue receive. Call it regularly.
+    // Cuts the connection if a write is overdue, ends an overdue receive, and looks whether a watched peer is gone. Call it
+    // regularly.
     void sweep(Steady now);
     // Closes the socket.
     void cut();
-    // Gives the socket to the caller.
+    // Gives the socket to the caller. Only without TLS.
     UniqueDescriptor release();
 
 private:
@@ -89,11 +94,19 @@ private:
         bool gone = false;
     };
 
-    void await_close();
+    struct Tls {
+        Tls(std::shared_ptr<asio::ssl::context> with, Socket& on) : context{std::move(with)}, stream{on, *context} {}
+
+        std::shared_ptr<asio::ssl::context> context;
+        asio::ssl::stream<Socket&> stream;
+    };
+
+    Outcome input_ended(boost::system::error_code);
     void check_for_close();
     void probe(bool on);
 
     Socket socket_;
+    std::unique_ptr<Tls> tls_;  // null: no TLS
     std::chrono::milliseconds write_timeout_;
     Telemetry& telemetry_;
     std::string input_;
@@ -102,8 +115,8 @@ private:
     Steady output_due_ = Steady::max();
     bool input_late_ = false;
     bool interrupted_ = false;
-    bool probed_ = false;                 // the system probes the peer
-    std::shared_ptr<Watching> watching_;  // null: there is no watch
+    bool probed_ = false;  // the system probes the peer
+    std::optional<Watching> watching_;
 };
 
 }  // namespace rois::net

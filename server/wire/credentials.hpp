@@ -1,0 +1,36 @@
+// The certificate and the key by which clients know this gateway (TLS), on all its ports.
+#pragma once
+
+#include <boost/asio/ssl/context.hpp>
+#include <memory>
+#include <mutex>
+#include <string_view>
+
+#include "wire/tls_files.hpp"
+
+namespace rois::tls {
+
+// The answer to a request without TLS.
+inline constexpr std::string_view expects_tls = "this port expects TLS: use https:// or wss://";
+
+// Thread-safe.
+class Credentials {
+public:
+    // Reads the files. Throws std::runtime_error that names the file and the problem.
+    explicit Credentials(Files);
+
+    // Reads the files again, for the next connections. Throws as the constructor, and changes nothing then.
+    void read_again();
+
+    std::shared_ptr<boost::asio::ssl::context> context() const {
+        std::lock_guard const lock{mutex_};
+        return context_;
+    }
+
+private:
+    Files const files_;
+    mutable std::mutex mutex_;
+    std::shared_ptr<boost::asio::ssl::context> context_;
+};
+
+}  // namespace rois::tls

@@ -1,0 +1,226 @@
+// TLS on the ports of the gateway.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "server/application.hpp"
+#include "server/certificates.hpp"
+#include "server/websocket_client.hpp"
+
+namespace rois::test {
+
+namespace {
+
+using testing::HasSubstr;
+
+struct Tls : testing::Test {
+    Certificates certificates;
+    Tls() { certificates.make("own"); }
+
+    std::vector<std::string> with(std::vector<std::string> const& more) const { return certificates.of_gateway("own", more); }
+    // What the program openssl says when it connects with these options.
+    static Ended connect_with(std::string const& options, GatewayProcess const& gateway) {
+        return run_shell("openssl s_client -connect 127.0.0.1:" + std::to_string(gateway.port()) + " " + options + " </dev/null");
+    }
+    std::string trusted() const { return "--cacert " + certificates.certificate("own"); }
+};
+
+}  // namespace
+
+TEST_F(Tls, CarriesRequestsAndNotificationsOverBothTransports) {
+    GatewayProcess const gateway{with({"--sim-speed", "20"})};
+    for (auto const transport : all_transports) {
+        Application desk{transport, certificates.trusting("own", gateway)};
+        EXPECT_EQ(desk.connect().return_code(), "OK");
+        EXPECT_EQ(desk.bind("speech_synthesis").return_code(), "OK");
+        Command const speech{.component = "speech_synthesis",
+                             .type = "start",
+                             .id = "speech",
+                             .arguments = {{"speech_text", "string", {"Welcome"}}}};
+        EXPECT_EQ(desk.execute(speech).return_code(), "OK");
+        EXPECT_EQ(desk.status_of("speech"), "OK") << transport;
+        EXPECT_EQ(desk.disconnect().return_code(), "OK");
+    }
+}
+
+TEST_F(Tls, CarriesLongDocuments) {
+    GatewayProcess const gateway{with({})};
+    kit::HttpClient client{certificates.trusting("own", gateway)};
+    auto const schema = client.get("/rois/schemas/messages.xsd");
+    EXPECT_EQ(schema.status, 200);
+    EXPECT_GT(schema.body.size(), 16'384U) << "more than one record";
+    EXPECT_EQ(client.post("<connect>" + std::string(500'000, ' ')).status, 400);
+}
+
+TEST_F(Tls, IsTheOnlyLanguageOfThePort) {
+    GatewayProcess const gateway{with({})};
+    HttpClient client{gateway};
+    auto const reply = client.get("/healthz");
+    EXPECT_EQ(reply.status, 400);
+    EXPECT_THAT(reply.body, HasSubstr("this port expects TLS: use https:// or wss://"));
+    EXPECT_TRUE(client.line().ends());
+}
+
+TEST_F(Tls, HasVersions12And13) {
+    GatewayProcess const gateway{with({})};
+    EXPECT_THAT(connect_with("-tls1_3", gateway).out, HasSubstr("New, TLSv1.3, Cipher is"));
+    EXPECT_THAT(connect_with("-tls1_2", gateway).out, HasSubstr("New, TLSv1.2, Cipher is"));
+    EXPECT_NE(connect_with("-tls1_1 -cipher DEFAULT:@SECLEVEL=0", gateway).exit_code, 0);
+    EXPECT_NE(connect_with("-tls1_2 -cipher ECDHE+AES+SHA:AES128-GCM-SHA256", gateway).exit_code, 0)
+        << "only ciphers that authenticate, and with forward secrecy";
+}
+
+TEST_F(Tls, EndsAHandshakeThatTakesTooLong) {
+    GatewayProcess const gateway{with({"--handshake-timeout", "0.2"})};
+    HttpClient silent{gateway}, slow{gateway};
+    slow.line().send("\x16\x03\x01");
+    EXPECT_TRUE(silent.line().ends());
+    EXPECT_TRUE(slow.line().ends());
+    kit::HttpClient client{certificates.trusting("own", gateway)};
+    EXPECT_THAT(client.get("/metrics").body, HasSubstr("\nrois_handshakes_failed_total 2\n"));
+}
+
+TEST_F(Tls, SaysThatNothingFollows) {
+    GatewayProcess const gateway{with({})};
+    auto const url = " https://127.0.0.1:" + std::to_string(gateway.port());
+    EXPECT_EQ(run_shell("curl -sSf --http1.0 " + trusted() + url + "/healthz").error, "");
+    auto const last = run_shell(
+        "printf 'GET /healthz HTTP/1.1\\r\\nHost: localhost\\r\\nConnection: close\\r\\n\\r\\n' | openssl s_client "
+        "-quiet -verify_return_error -CAfile " +
+        certificates.certificate("own") + " -connect 127.0.0.1:" + std::to_string(gateway.port()));
+    EXPECT_THAT(last.out, HasSubstr("200 OK"));
+    EXPECT_THAT(last.error, Not(HasSubstr("unexpected eof")));
+}
+
+TEST_F(Tls, ShowsTheCertificateThatWasReadLast) {
+    certificates.make("next");
+    GatewayProcess gateway{with({})};
+    kit::HttpClient before{certificates.trusting("own", gateway)};
+    EXPECT_EQ(before.get("/healthz").status, 200);
+    for (auto const* file : {"/own.pem", "/own.key"})
+        std::filesystem::copy_file(certificates.folder() + "/next" + std::string{file}.substr(4), certificates.folder() + file,
+                                   std::filesystem::copy_options::overwrite_existing);
+    gateway.signal(SIGHUP);
+    gateway.log_with("new connections get the certificate");
+    EXPECT_EQ(before.get("/healthz").status, 200) << "an open connection goes on";
+    kit::HttpClient after{certificates.trusting("next", gateway)};
+    EXPECT_EQ(after.get("/healthz").status, 200);
+}
+
+TEST_F(Tls, KeepsItsCertificateIfTheNextOneIsUnusable) {
+    GatewayProcess gateway{with({})};
+    auto const trusting = certificates.trusting("own", gateway);
+    auto const copy = certificates.folder() + "/copy.pem";
+    std::filesystem::copy_file(trusting.ca_file, copy);
+    certificates.put("own.pem", "nothing\n");
+    gateway.signal(SIGHUP);
+    EXPECT_THAT(gateway.log_with("was not changed"), HasSubstr("tls_certificate: cannot use '" + trusting.ca_file + "': "));
+    auto address = trusting;
+    address.ca_file = copy;
+    kit::HttpClient after{address};
+    EXPECT_EQ(after.get("/healthz").status, 200);
+}
+
+TEST_F(Tls, AsksClientsForTheirCertificates) {
+    certificates.make("client");
+    certificates.make("stranger");
+    auto const asking = [&](std::string const& how) {
+        return with({"--tls-client-ca", certificates.certificate("client"), "--tls-clients", how});
+    };
+    auto const status = [&](GatewayProcess const& gateway, std::string const& own) {
+        auto address = certificates.trusting("own", gateway);
+        if (!own.empty()) address.certificate = certificates.certificate(own), address.key = certificates.key(own);
+        try {
+            return kit::HttpClient{address}.get("/healthz").status;
+        } catch (LineEnded const&) {
+            return 0;
+        }
+    };
+    GatewayProcess const optional{asking("optional")}, required{asking("required")};
+    EXPECT_EQ(status(optional, "client"), 200);
+    EXPECT_EQ(status(optional, ""), 200);
+    EXPECT_EQ(status(optional, "stranger"), 0);
+    EXPECT_EQ(status(required, "client"), 200);
+    EXPECT_EQ(status(required, ""), 0);
+    EXPECT_EQ(status(required, "stranger"), 0);
+}
+
+TEST_F(Tls, NoticesThatTheReaderOfAStreamHasGone) {
+    GatewayProcess gateway{with({"--session-timeout", "0.3", "--resume-window", "0.3"})};
+    auto const address = certificates.trusting("own", gateway);
+    Application desk{Transport::http, address};
+    desk.connect();
+    {
+        kit::HttpClient stream{address};
+        stream.line().send("GET /rois/notifications HTTP/1.1\r\nHost: localhost\r\nAccept: text/event-stream\r\nRoIS-Session: " +
+                           desk.session() + "\r\n\r\n");
+        EXPECT_THAT(stream.line().take_until("\r\n\r\n"), HasSubstr("200 OK"));
+    }
+    EXPECT_THAT(gateway.log_with("ended"), HasSubstr("its link was lost"));
+}
+
+TEST_F(Tls, IsSpokenWithSubEngines) {
+    GatewayProcess const hall{with({})};
+    certificates.put("engines.json",
+                     R"({"engines": [{"name": "hall", "url": "https://localhost:)" + std::to_string(hall.port()) + R"("}]})");
+    GatewayProcess main{{"--robots", "none", "--engines", certificates.folder() + "/engines.json"},
+                        {{"SSL_CERT_FILE", certificates.certificate("own")}}};
+    EXPECT_THAT(main.log_with("present with"), HasSubstr("present with 15"));
+}
+
+TEST_F(Tls, IsSpokenByEnginesThatJoin) {
+    certificates.put("engines.json", R"({"engines": [{"name": "hall", "joins": "hall"}]})");
+    GatewayProcess main{with({"--robots", "none", "--engines", certificates.folder() + "/engines.json"})};
+    auto const url = "wss://localhost:" + std::to_string(main.port());
+    GatewayProcess const hall{with({"--join", url, "--join-as", "hall"}), {{"SSL_CERT_FILE", certificates.certificate("own")}}};
+    EXPECT_THAT(main.log_with("present with"), HasSubstr("present with 15"));
+    Application desk{Transport::websocket, certificates.trusting("own", main)};
+    desk.connect();
+    EXPECT_EQ(desk.bind("hall.speech_synthesis").return_code(), "OK");
+    desk.disconnect();
+}
+
+TEST_F(Tls, IsSpokenByTheMediaServer) {
+    GatewayProcess gateway{with({"--media", "127.0.0.1:0"})};
+    auto const log = gateway.log_with("media are served under");
+    auto const begin = log.find("https://127.0.0.1:");
+    ASSERT_NE(begin, log.npos) << log;
+    auto address = certificates.trusting("own", gateway);
+    address.port = static_cast<std::uint16_t>(std::stoi(log.substr(begin + 18)));
+    EXPECT_EQ(kit::HttpClient{address}.get("/unknown").status, 404);
+    address.tls = false;
+    EXPECT_THAT(kit::HttpClient{address}.get("/unknown").body, HasSubstr("this port expects TLS"));
+}
+
+TEST_F(Tls, IsChecked) {
+    GatewayProcess const gateway{with({})};
+    auto arguments = with({"--listen", "127.0.0.1:" + std::to_string(gateway.port()), "--check-health"});
+    EXPECT_EQ(run_gateway(arguments).exit_code, 0);
+    auto const ended = run_gateway({"--listen", "127.0.0.1:" + std::to_string(gateway.port()), "--check-health"});
+    EXPECT_THAT(ended.error, HasSubstr("expected HTTP status 200"));
+}
+
+TEST_F(Tls, NeedsUsableFiles) {
+    certificates.make("other");
+    certificates.make("secret", "-passout pass:secret");
+    auto const own = certificates.certificate("own");
+    auto const error_of = [](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), {"--check-config"});
+        return run_gateway(arguments).error;
+    };
+    EXPECT_THAT(error_of({"--tls-certificate", own}), HasSubstr("tls_certificate needs tls_key"));
+    EXPECT_THAT(error_of({"--tls-key", certificates.key("own")}), HasSubstr("tls_key needs tls_certificate"));
+    EXPECT_THAT(error_of(with({"--tls-clients", "required"})), HasSubstr("tls_clients = required needs tls_client_ca"));
+    EXPECT_THAT(error_of({"--tls-certificate", own, "--tls-key", certificates.key("other")}),
+                HasSubstr("tls_key: cannot use '" + certificates.key("other") + "': key values mismatch"));
+    EXPECT_THAT(error_of({"--tls-certificate", own, "--tls-key", certificates.key("secret")}), HasSubstr("tls_key: cannot use"));
+    EXPECT_THAT(error_of({"--tls-certificate", "nowhere.pem", "--tls-key", certificates.key("own")}),
+                HasSubstr("tls_certificate: cannot use 'nowhere.pem': No such file"));
+    EXPECT_THAT(error_of(with({"--tls-client-ca", certificates.key("own")})), HasSubstr("tls_client_ca: cannot use"));
+}
+
+}  // namespace rois::test
