@@ -79,17 +79,15 @@ std::optional<ParameterList> Acting::arguments_for(ParameterList const& paramete
     return arguments;
 }
 
-// When another member is chosen, one that has failed is not needed any more: a `stop` does not wait for it, because a lost one
-// cannot confirm anything.
-void Acting::could_not_bind(std::string const& ref) {
-    if (ref != current_ || acts(ref)) return;
+void Acting::let_go_of(std::string const& failed) {
+    if (failed != current_ || acts(failed)) return;
     current_.clear();
-    release_unused(ref);
+    release_unused(failed);
 }
 
 // In a parallel unit the commands of other components begin before this one has chosen again.
 void Acting::planned(std::string const& ref) {
-    if (auto const* current = roster().find(current_); current != nullptr && !current->can_act()) could_not_bind(current->ref);
+    if (auto const* current = roster().find(current_); current != nullptr && !current->can_act()) let_go_of(current->ref);
     if (description().moves) roster().note_plan(name(), binding().session, roster().find(ref)->engine, sightings_->now());
 }
 

@@ -48,6 +48,9 @@ private:
     // and the reason.
     void choose_for(SharedAction const&, Chosen const&);
     void note_current(std::string const& ref);
+    // When another member is chosen, one that has failed is not needed any more: a `stop` does not wait for it, because a lost
+    // one cannot confirm anything.
+    void let_go_of(std::string const& failed);
     void carry_out(SharedAction const&, std::string const& ref);
     void note_speech(Action const&, std::string const& engine, bool speaks) const;
     void ended(SharedAction const&, Completed const&);
@@ -62,7 +65,7 @@ private:
     void abort_commands() override;
     void members_released() override { use_none(); }
     void use_none();
-    void could_not_bind(std::string const& ref) override;
+    void could_not_bind(std::string const& ref) override { let_go_of(ref); }
     void planned(std::string const& ref) override;
     void happened(ReceiveEvent const&, Member const&, Instant now) override;
     void changed(Member const&) override;

@@ -224,7 +224,7 @@ std::string parse_refusal(Error const& error) {
     return refusal("400 Bad Request", "invalid HTTP request: " + error.message());
 }
 
-// Returns whether a request may follow. A receiver that does not begin TLS on a port with TLS is told so in HTTP.
+// Returns whether a request may follow. Plain HTTP on a port with TLS gets an answer in plain HTTP.
 Task<bool> secure(Connection& connection) {
     auto const& settings = connection.settings;
     if (!settings.credentials) co_return true;

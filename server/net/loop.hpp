@@ -11,10 +11,10 @@
 #include "gateway/process/telemetry.hpp"
 #include "gateway/process/troubles.hpp"
 #include "gateway/wakes.hpp"
-#include "wire/asio.hpp"
 #include "net/http/documents.hpp"
 #include "net/long_documents.hpp"
 #include "net/settings.hpp"
+#include "wire/asio.hpp"
 
 namespace rois::net {
 

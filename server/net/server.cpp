@@ -16,8 +16,8 @@
 #include "gateway/shutdown.hpp"
 #include "net/listener.hpp"
 #include "net/loop.hpp"
-#include "wire/relay.hpp"
 #include "types/text/address.hpp"
+#include "wire/relay.hpp"
 
 namespace rois::net {
 

@@ -5,8 +5,8 @@
 
 #include "gateway/readers.hpp"
 #include "gateway/wakes.hpp"
-#include "wire/asio.hpp"
 #include "types/instant.hpp"
+#include "wire/asio.hpp"
 
 namespace rois::net {
 

@@ -143,7 +143,7 @@ void Wire::finish() {
     socket_.shutdown(Socket::shutdown_send, ignored);
 }
 
-// With TLS, says first that nothing follows. Then what is still on its way is discarded unread, for which TLS is not needed.
+// With TLS, announces the end first. Bytes that arrive later are discarded without being decrypted.
 Task<> Wire::linger(Steady until) {
     if (tls_) {
         input_due_ = until;

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "net/http/event_stream.hpp"
-#include "wire/relay.hpp"
 #include "net/websocket/upgrade.hpp"
-#include "wire/credentials.hpp"
 #include "types/identifier_length.hpp"
+#include "wire/credentials.hpp"
+#include "wire/relay.hpp"
 
 namespace rois::net {
 
@@ -104,7 +104,7 @@ void Connection::shut_down() {
     if (idle_) wire_.stop_waiting();
 }
 
-// A peer that speaks HTTP to a port with TLS is told so in HTTP.
+// Plain HTTP on a port with TLS gets an answer in plain HTTP.
 Task<Connection::Then> Connection::secure() {
     auto const& settings = loop_.shared().settings;
     if (!settings.credentials || from_ == Loop::From::this_process) co_return Then::next;
