@@ -16,9 +16,9 @@ namespace rois::command {
 
 namespace {
 
-client::Target target_of(std::string const& url) {
+client::Target target_of(HttpServer const& server) {
     try {
-        return client::read_url(url);
+        return client::read_url(server.url, server.token);
     } catch (std::invalid_argument const& problem) {
         throw Trouble{Exit::usage, problem.what()};
     }
@@ -108,10 +108,10 @@ std::string hint_for_url(std::string const& url) {
     return names_rois ? "; leave /rois out of the URL" : "";
 }
 
-void check(HttpServer const& server) { trust_of(target_of(server.url), server); }
+void check(HttpServer const& server) { trust_of(target_of(server), server); }
 
 bool is_same_gateway(std::string const& url, std::string const& other) {
-    auto const one = target_of(url), two = target_of(other);
+    auto const one = target_of({url}), two = target_of({other});
     return lower_case(one.host) == lower_case(two.host) && one.port == two.port && one.path == two.path &&
            one.security == two.security;
 }
@@ -120,7 +120,7 @@ namespace {
 
 HttpAnswer asked(http::verb verb, HttpServer const& server, std::string const& target, std::chrono::milliseconds deadline,
                  std::string const& session) {
-    auto const at = target_of(server.url);
+    auto const at = target_of(server);
     auto const trusted = trust_of(at, server);
     auto request = request_of(verb, at, server, target, session);
     Outcome outcome{.answer = {}, .trouble = "no answer within " + std::to_string(deadline.count()) + " ms"};

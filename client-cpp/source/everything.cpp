@@ -69,7 +69,7 @@ void rethrow(std::exception_ptr const& error) {
 
 // Posts to the path and returns the state that the gateway answers. Throws Error; its text begins with `what`.
 StopState post(Settings const& settings, std::string_view path, std::string const& what) {
-    Asked asked{.target = client::read_url(settings.url)};
+    Asked asked{.target = client::read_url(settings.url, settings.token)};
     asked.request = {http::verb::post, asked.target.path + std::string{path}, 11};
     asked.request.set(http::field::host, asked.target.authority);
     asked.request.set(http::field::connection, "close");

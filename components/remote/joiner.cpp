@@ -81,6 +81,8 @@ private:
 Joiner::Joiner(client::Loop& loop, Joining joining, std::string instance, std::function<void(std::string const&)> report)
     : loop_{loop}, joining_{std::move(joining)}, instance_{std::move(instance)}, report_{std::move(report)} {
     settings_.ping_interval = ping_interval;
+    settings_.token = joining_.token;
+    settings_.ca_file = joining_.ca_file;
 }
 
 void Joiner::attempt() {

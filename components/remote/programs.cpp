@@ -54,8 +54,9 @@ private:
 };
 
 // Without the settings of this gateway: the program may be a gateway, too.
-Words environment(Programs::Wanted const& wanted) {
+Words environment(Programs::Wanted const& wanted, std::string const& token) {
     std::vector<std::string> all{"ROIS_URL=" + wanted.url, "ROIS_NAME=" + wanted.joins};
+    if (!token.empty()) all.push_back("ROIS_TOKEN=" + token);
     for (auto* each = ::environ; *each != nullptr; ++each) {
         std::string_view const text{*each};
         if (!text.starts_with("ROIS_")) all.emplace_back(text);
@@ -170,7 +171,7 @@ private:
     void launch() {
         auto [ours, its] = new_pipe();
         auto [watched, alive] = new_socket_pair();
-        Words const command{wanted_->command}, variables{environment(*wanted_)};
+        Words const command{wanted_->command}, variables{environment(*wanted_, listener_->token(name_))};
         auto const pid = ::fork();
         if (pid == 0) become(wanted_->folder.c_str(), command.data(), variables.data(), its.get(), watched.get());
         if (pid < 0) throw std::system_error{errno, std::system_category(), "a new process"};

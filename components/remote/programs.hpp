@@ -32,6 +32,8 @@ public:
     struct Listener {
         std::function<void(std::string const& name, std::string const& line)> says;
         std::function<void(std::string const& name, std::string const& what)> happens;
+        // Makes a token with which the program joins: its variable ROIS_TOKEN. Called before each start. Empty: it needs none.
+        std::function<std::string(std::string const& name)> token = [](std::string const&) { return std::string{}; };
     };
 
     explicit Programs(Listener, ProgramTimes = {});

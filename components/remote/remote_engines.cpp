@@ -112,9 +112,11 @@ private:
         if (to.url.empty()) return nullptr;
         auto& settings = settings_[to.name];
         settings.url = to.url;
+        settings.token = to.token;
+        settings.ca_file = to.ca_file;
         settings.ping_interval = ping_interval;
         settings.longest_document = largest_document;
-        return client::websocket_link(loop_, client::read_url(to.url), settings, listener);
+        return client::websocket_link(loop_, client::read_url(to.url, to.token), settings, listener);
     }
 
     std::vector<std::string> change(ComponentChange change) override { return host_.change(std::move(change)); }
@@ -204,16 +206,17 @@ RemoteEngines::RemoteEngines(Host const& host)
           {.says = [report = host.report](std::string const& name, std::string const& line) { report("program " + name, line); },
            .happens = [links = links_](
                           std::string const& name,
-                          std::string const& what) { links->post([links, name, what] { links->trouble(name, what); }); }}} {
+                          std::string const& what) { links->post([links, name, what] { links->trouble(name, what); }); },
+           .token = host.token}} {
     links_->start();
 }
 
 RemoteEngines::~RemoteEngines() { links_->stop(); }
 
-void RemoteEngines::set(std::vector<SubEngine> wanted, std::string const& own_url) {
+void RemoteEngines::set(std::vector<SubEngine> wanted, std::string const& url_for_programs) {
     std::vector<Programs::Wanted> programs;
     for (auto const& each : wanted)
-        if (!each.command.empty()) programs.push_back({each.name, each.command, each.folder, own_url, each.joins});
+        if (!each.command.empty()) programs.push_back({each.name, each.command, each.folder, url_for_programs, each.joins});
     programs_.set(std::move(programs));
     links_->post([links = links_, wanted = std::move(wanted)] { links->set(wanted); });
 }
@@ -224,7 +227,7 @@ void RemoteEngines::accept(UniqueDescriptor socket, std::string head) {
 }
 
 void RemoteEngines::join(Joining joining) {
-    client::read_url(joining.url);
+    client::read_url(joining.url, joining.token);
     links_->post([links = links_, joining = std::move(joining)] { links->join(joining); });
 }
 

@@ -27,6 +27,8 @@ public:
         std::shared_ptr<xml::Schemas const> schemas;
         std::function<std::vector<std::string>(ComponentChange)> change;
         std::function<void(std::string const& engine, std::string const& what)> report;
+        // Makes a token for a program of a sub engine that joins here (Programs::Listener). Empty: it needs none.
+        std::function<std::string(std::string const& engine)> token = [](std::string const&) { return std::string{}; };
     };
 
     explicit RemoteEngines(Host const&);
@@ -35,9 +37,9 @@ public:
     RemoteEngines(RemoteEngines const&) = delete;
     RemoteEngines& operator=(RemoteEngines const&) = delete;
 
-    // Sets the sub engines. A sub engine with the same settings as before stays connected. `own_url`: of this engine's gateway,
-    // for its programs.
-    void set(std::vector<SubEngine>, std::string const& own_url);
+    // Sets the sub engines. A sub engine with the same settings as before stays connected. `url_for_programs`:
+    // where the programs of sub engines join.
+    void set(std::vector<SubEngine>, std::string const& url_for_programs);
 
     // Call it when everything is stopped in this engine, and when that stop is cleared. Any thread; returns at once.
     void everything_stopped(bool is_stopped);

@@ -46,13 +46,18 @@ struct SubEngine {
     std::size_t most_components = 1'000;
     std::size_t longest_document = 4'000'000;  // bytes, at most largest_document
 
+    std::string token{};    // sent to the sub engine; empty: none
+    std::string ca_file{};  // certificates that it may have, besides those of the system; empty: none
+
     bool operator==(SubEngine const&) const = default;
 };
 
 // Another engine, which this engine joins as a sub engine.
 struct Joining {
     std::string url;
-    std::string name;  // of this engine in the other one
+    std::string name;       // of this engine in the other one
+    std::string token{};    // sent to the other engine; empty: none
+    std::string ca_file{};  // certificates that it may have, besides those of the system; empty: none
     // Returns a socket that is connected to this engine's own gateway. Called on the thread of the links.
     std::function<UniqueDescriptor()> own_gateway;
 };

@@ -118,8 +118,12 @@ Reply Engine::Core::bind(Session& session, ToBindNow const& wanted, Instant now)
 }
 
 Engine::Core::Later Engine::Core::perform(Session& session, Bind const& bind_, SharedAsked const& asked, Instant now) {
-    auto [component, problem] = registry_.meant(bind_.component_ref);
+    auto [component, problem] = registry_.meant(bind_.component_ref, session);
     if (component == nullptr) return refused<Bind::Reply>(ReturnCode::bad_parameter, std::move(problem));
+    if (!may_command(session.rights.get(), component->ref().code)) {
+        asked->refuse(Refusal::not_allowed);
+        return {};
+    }
     return bind_one(session, asked, {component->shared_from_this(), {.session = session.number, .switching = bind_.switching}},
                     now.steady + settings_.question_deadline, now);
 }
@@ -171,8 +175,8 @@ Engine::Core::Later Engine::Core::perform(Session& session, BindAny const& bind,
     if (auto* problem = std::get_if<std::string>(&compiled))
         return refused<BindAny::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     auto const& selection = std::get<Selection>(compiled);
-    if (!may_ever_match(selection.filter(), registry_.possible(selection.filter().demand(), seen_by(selection.filter())),
-                        session))
+    if (!may_ever_match(selection.filter(),
+                        registry_.possible(selection.filter().demand(), commanded_by(session, selection.filter())), session))
         return refused<BindAny::Reply>(ReturnCode::unsupported, "no component of this engine can match the condition");
     auto const [matches, held_of_group] = select_to_bind(selection, session);
     std::vector<ToBindNow> candidates;
@@ -253,7 +257,7 @@ Engine::Core::Later Engine::Core::bind_first(Session& session, SharedAsked const
 }
 
 Reply Engine::Core::perform(Session& session, Release const& release_, Instant now) {
-    auto [component, problem] = registry_.meant(release_.component_ref);
+    auto [component, problem] = registry_.meant(release_.component_ref, session);
     if (component == nullptr) return refused<Release::Reply>(ReturnCode::bad_parameter, std::move(problem));
     if (component->bound_to == &session) {
         executor_.release(session, *component, now);
@@ -279,7 +283,7 @@ void Engine::Core::notify_of_release(RegisteredComponent& component, Instant now
 }
 
 Reply Engine::Core::perform(Session& session, GetParameter const& get, Instant) {
-    auto [component, problem] = registry_.meant(get.component_ref);
+    auto [component, problem] = registry_.meant(get.component_ref, session);
     if (component == nullptr) return refused<GetParameter::Reply>(ReturnCode::bad_parameter, std::move(problem));
     if (component->bound_to != &session) return refused<GetParameter::Reply>(ReturnCode::error, not_bound(component->ref().code));
     GetParameter::Reply reply;

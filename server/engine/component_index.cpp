@@ -25,8 +25,8 @@ void remove_from(Components& components, RegisteredComponent const& component) {
 
 }  // namespace
 
-ComponentsInOrder::ComponentsInOrder(Members members, std::vector<RegisteredComponent*> own, std::vector<List> others)
-    : members_{members}, own_{std::move(own)}, first_{own_}, others_{std::move(others)} {}
+ComponentsInOrder::ComponentsInOrder(View view, std::vector<RegisteredComponent*> own, std::vector<List> others)
+    : view_{view}, own_{std::move(own)}, first_{own_}, others_{std::move(others)} {}
 
 RegisteredComponent* ComponentsInOrder::next() {
     for (;;) {
@@ -34,14 +34,14 @@ RegisteredComponent* ComponentsInOrder::next() {
         bool const is_demanded = lowest != nullptr && !own_.empty();
         for (auto const& list : others_)
             if (!list.empty() && (lowest == nullptr || ref_of(list.front()) < ref_of(lowest))) lowest = list.front();
-        bool const is_shown =
-            lowest == nullptr || !lowest->is_member || members_ == Members::shown || (is_demanded && first_.front() == lowest);
+        bool const is_shown = lowest == nullptr || !lowest->is_member || view_.members == Members::shown ||
+                              (is_demanded && first_.front() == lowest);
         auto const pass = [&](List& list) {
             if (!list.empty() && list.front() == lowest) list = list.subspan(1);
         };
         pass(first_);
         for (auto& list : others_) pass(list);
-        if (is_shown) return lowest;
+        if (lowest == nullptr || (is_shown && view_.shows(ref_of(lowest)))) return lowest;
     }
 }
 
@@ -64,8 +64,8 @@ void ComponentIndex::remove(RegisteredComponent const& component) {
     if (alike->second.empty()) by_type_.erase(alike);
 }
 
-ComponentsInOrder ComponentIndex::possible(std::optional<Demand> const& demand, Members members) const {
-    if (!demand) return {members, all_};
+ComponentsInOrder ComponentIndex::possible(std::optional<Demand> const& demand, View view) const {
+    if (!demand) return {view, all_};
     Components named;
     named.reserve(demand->refs.size());
     for (auto const ref : demand->refs) {
@@ -75,7 +75,7 @@ ComponentsInOrder ComponentIndex::possible(std::optional<Demand> const& demand, 
     std::vector<ComponentsInOrder::List> of_types;
     for (auto const type : demand->types)
         if (auto const alike = by_type_.find(type); alike != by_type_.end()) of_types.emplace_back(alike->second);
-    return {members, std::move(named), std::move(of_types)};
+    return {view, std::move(named), std::move(of_types)};
 }
 
 }  // namespace rois

@@ -169,6 +169,19 @@ std::shared_ptr<EngineProfile const> Engine::Core::profile_without_members() con
     return shared_profile_without_members_;
 }
 
+// Without the sub engines of which the client sees no component.
+std::shared_ptr<EngineProfile const> Engine::Core::profile_seen_by(Rights const* rights,
+                                                                   std::shared_ptr<EngineProfile const> const& profile) const {
+    if (rights == nullptr || rights->sees_everything()) return profile;
+    Names hidden;
+    for (auto const& [ref, component] : registry_.all())
+        if (!rights->sees(ref)) hidden.insert(ref);
+    auto shown = *profile;
+    unlist(shown, hidden);
+    remove_empty(shown);
+    return std::make_shared<EngineProfile const>(std::move(shown));
+}
+
 // For other engines: with all sub engines, because they find loops by them.
 std::shared_ptr<EngineProfile const> Engine::Core::profile_for_engines(bool with_members) const {
     return std::make_shared<EngineProfile const>(with_members ? profile_ : without_members());

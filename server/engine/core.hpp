@@ -56,6 +56,7 @@ public:
     Session* find(SessionId const&) const;
     Session* session_of(Asked const&) const;
     void end(SessionId const&, Instant now);
+    void end_withdrawn(Instant now);
     void stop_everything(Instant now);
     void clear();
     void on_stop(std::function<void(bool is_stopped)> call) { on_stop_ = std::move(call); }
@@ -63,7 +64,7 @@ public:
     std::vector<std::string> not_halted() const;
     std::vector<std::string> not_ready() const;
     void shut_down(Instant now);
-    std::shared_ptr<NotificationQueue> note_request(SessionId const&, Instant now);
+    std::shared_ptr<NotificationQueue> note_request(SessionId const&, Instant now, Rights const*);
     void note_pong(SessionId const&, Instant now);
     void link_opened(SessionId const&, LinkKind, Instant now);
     void link_closed(SessionId const&, LinkKind, Closing, Instant now);
@@ -72,7 +73,8 @@ public:
     EngineProfile without_members() const;
     std::shared_ptr<EngineProfile const> profile_without_members() const;
     std::shared_ptr<EngineProfile const> profile_for_engines(bool with_members) const;
-    std::vector<ComponentEntry> components() const;
+    std::shared_ptr<EngineProfile const> profile_seen_by(Rights const*, std::shared_ptr<EngineProfile const> const&) const;
+    std::vector<ComponentEntry> components(Rights const*) const;
     EngineStatistics statistics() const;
 
 private:

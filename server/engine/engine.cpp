@@ -48,7 +48,7 @@ void Engine::Core::take(std::shared_ptr<Asked> const& asked, Instant now) {
     if (auto const* connection = std::get_if<Connect>(&operation)) return connect(*asked, *connection, now);
     auto const* resumed = std::get_if<Resume>(&operation);
     auto* session = resumed != nullptr ? find(resumed->session) : session_of(*asked);
-    if (session == nullptr) return asked->refuse(Refusal::no_session);
+    if (session == nullptr || session->rights != asked->rights) return asked->refuse(Refusal::no_session);
     session->lease.request_received(now.steady);
     auto const too_long = why_too_long(operation);
     auto reply = std::visit(
@@ -166,6 +166,18 @@ void Engine::Core::end(SessionId const& id, Instant now) {
     if (session == nullptr) return;
     end(*session, "the gateway ended it", now);
     settle(now);
+}
+
+void Engine::Core::end_withdrawn(Instant now) {
+    for (auto const& [id, session] : sessions_) {
+        if (session->rights == nullptr || session->ending || !session->rights->is_withdrawn()) continue;
+        session->ending = sessions_must_end_ = true;
+        session->why_it_ends = "its token was revoked or has expired";
+    }
+    Attempts attempts;
+    end_marked_sessions(now, attempts);
+    attempts([&] { settle(now); });
+    attempts.rethrow();
 }
 
 // From here on `find` does not return the session. If a step throws, the next tick continues.
@@ -297,9 +309,9 @@ void Engine::Core::save_memory(Instant now) {
     settle(now);
 }
 
-std::shared_ptr<NotificationQueue> Engine::Core::note_request(SessionId const& id, Instant now) {
+std::shared_ptr<NotificationQueue> Engine::Core::note_request(SessionId const& id, Instant now, Rights const* rights) {
     auto* session = find(id);
-    if (session == nullptr) return {};
+    if (session == nullptr || session->rights.get() != rights) return {};
     session->last_activity = now.steady;
     session->quiet_until = std::max(session->quiet_until, now.steady + settings_.session_timeout);
     return session->notifications;
@@ -356,9 +368,10 @@ void Engine::Core::end_if_lost(SessionId const& id, Instant now) {
     await_end_of_window(*session, linked ? now.steady + between_looks : now.steady);
 }
 
-std::vector<ComponentEntry> Engine::Core::components() const {
+std::vector<ComponentEntry> Engine::Core::components(Rights const* rights) const {
     std::vector<ComponentEntry> entries;
-    for (auto const& [ref, component] : registry_.all()) entries.push_back(component->entry());
+    for (auto const& [ref, component] : registry_.all())
+        if (may_see(rights, ref)) entries.push_back(component->entry());
     return entries;
 }
 
@@ -425,9 +438,9 @@ void Engine::begin(Instant now) { core_->begin(now); }
 void Engine::tick(Instant now) { core_->tick(now); }
 void Engine::work(std::unique_lock<std::mutex>& lock, Instant now, Provider::Runner runner) { core_->work(lock, now, runner); }
 
-std::shared_ptr<NotificationQueue> Engine::notifications(SessionId const& id) const {
+std::shared_ptr<NotificationQueue> Engine::notifications(SessionId const& id, Rights const* rights) const {
     auto const* session = core_->find(id);
-    return session == nullptr ? nullptr : session->notifications;
+    return session == nullptr || session->rights.get() != rights ? nullptr : session->notifications;
 }
 
 bool Engine::is_engine(SessionId const& id) const {
@@ -435,13 +448,16 @@ bool Engine::is_engine(SessionId const& id) const {
     return session != nullptr && session->is_engine;
 }
 
-std::shared_ptr<NotificationQueue> Engine::note_request(SessionId const& id, Instant now) { return core_->note_request(id, now); }
+std::shared_ptr<NotificationQueue> Engine::note_request(SessionId const& id, Instant now, Rights const* rights) {
+    return core_->note_request(id, now, rights);
+}
 void Engine::note_pong(SessionId const& id, Instant now) { core_->note_pong(id, now); }
 void Engine::link_opened(SessionId const& id, LinkKind link, Instant now) { core_->link_opened(id, link, now); }
 void Engine::link_closed(SessionId const& id, LinkKind link, Closing closing, Instant now) {
     core_->link_closed(id, link, closing, now);
 }
 void Engine::end(SessionId const& id, Instant now) { core_->end(id, now); }
+void Engine::end_withdrawn(Instant now) { core_->end_withdrawn(now); }
 void Engine::shut_down(Instant now) { core_->shut_down(now); }
 
 void Engine::stop_everything(Instant now) { core_->stop_everything(now); }
@@ -451,8 +467,10 @@ bool Engine::everything_is_stopped() const { return core_->everything_is_stopped
 std::vector<std::string> Engine::not_halted() const { return core_->not_halted(); }
 std::vector<std::string> Engine::not_ready() const { return core_->not_ready(); }
 
-std::shared_ptr<EngineProfile const> Engine::profile() const { return core_->profile_without_members(); }
-std::vector<ComponentEntry> Engine::components() const { return core_->components(); }
+std::shared_ptr<EngineProfile const> Engine::profile(Rights const* rights) const {
+    return core_->profile_seen_by(rights, core_->profile_without_members());
+}
+std::vector<ComponentEntry> Engine::components(Rights const* rights) const { return core_->components(rights); }
 EngineStatistics Engine::statistics() const { return core_->statistics(); }
 
 }  // namespace rois

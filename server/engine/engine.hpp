@@ -18,6 +18,7 @@
 #include "engine/memory_budget.hpp"
 #include "engine/notifications/notification_queue.hpp"
 #include "engine/providers/provider.hpp"
+#include "engine/rights.hpp"
 #include "engine/settings.hpp"
 #include "types/messages.hpp"
 
@@ -34,15 +35,17 @@ public:
 };
 
 // Why an operation was not performed at all. The network layer answers with a fault.
-enum class Refusal : std::uint8_t { no_session, too_many_sessions, no_memory, shutting_down };
+enum class Refusal : std::uint8_t { no_session, too_many_sessions, no_memory, shutting_down, not_allowed };
 
 // An operation that waits for its answer. The engine shares it until then.
 class Asked {
 public:
     // `from`: the notifications of the session that asks; null: the client has none. Notifications that the operation causes wait
-    // until the hold is released (decision 22). 0: there is no hold.
-    Asked(std::shared_ptr<NotificationQueue> from, NotificationQueue::Hold until_answered)
-        : notifications{std::move(from)}, hold{until_answered} {}
+    // until the hold is released (decision 22). 0: there is no hold. A session can only be used with the rights with which it was
+    // opened, which are compared by address. Null: no limits.
+    Asked(std::shared_ptr<NotificationQueue> from, NotificationQueue::Hold until_answered,
+          std::shared_ptr<Rights const> of_client = nullptr)
+        : notifications{std::move(from)}, hold{until_answered}, rights{std::move(of_client)} {}
     virtual ~Asked() = default;
     Asked(Asked const&) = delete;
     Asked& operator=(Asked const&) = delete;
@@ -54,6 +57,7 @@ public:
 
     std::shared_ptr<NotificationQueue> const notifications;
     NotificationQueue::Hold const hold;
+    std::shared_ptr<Rights const> const rights;
 };
 
 // The profiles, frames and places of a provider of components. The engine knows them while the provider has components.
@@ -171,20 +175,23 @@ public:
     // `clock`: the thread that ticks; only it advances devices, and receives exceptions.
     void work(std::unique_lock<std::mutex>& lock, Instant now, Provider::Runner = Provider::Runner::client);
 
-    // Returns the session's queue, or null. The queue stays readable after the session's end.
-    std::shared_ptr<NotificationQueue> notifications(SessionId const&) const;
+    // Returns the session's queue, or null, also if the session was opened with other rights. The queue stays readable after the
+    // session's end.
+    std::shared_ptr<NotificationQueue> notifications(SessionId const&, Rights const* = nullptr) const;
     // Returns whether the session was opened by another engine (decision 39); false for an unknown one.
     bool is_engine(SessionId const&) const;
 
     // Signs of life, reported by the network layer: a request or pong was received, a WebSocket or notification stream has opened
-    // or closed. Operations renew the motion lease without such a report. `note_request` returns the session's queue, or null.
-    std::shared_ptr<NotificationQueue> note_request(SessionId const&, Instant now);
+    // or closed. Operations renew the motion lease without such a report. `note_request` returns what `notifications` does.
+    std::shared_ptr<NotificationQueue> note_request(SessionId const&, Instant now, Rights const* = nullptr);
     void note_pong(SessionId const&, Instant now);
     void link_opened(SessionId const&, LinkKind, Instant now);
     void link_closed(SessionId const&, LinkKind, Closing, Instant now);
 
     // Ends a session, if it exists, as if it had disconnected.
     void end(SessionId const&, Instant now);
+    // Ends the sessions whose rights were withdrawn.
+    void end_withdrawn(Instant now);
 
     // Stops everything (decision 34): halts every component, bound or not, and ends all commands with ABORT. Nothing starts until
     // `clear`. Notifies all sessions, also those that are opened before `clear`.
@@ -203,10 +210,10 @@ public:
     // Ends every session. Later operations are refused.
     void shut_down(Instant now);
 
-    // Without the members of logical components.
-    std::shared_ptr<EngineProfile const> profile() const;
-    // All components, ordered by ref.
-    std::vector<ComponentEntry> components() const;
+    // Without the members of logical components, and what the client may not see.
+    std::shared_ptr<EngineProfile const> profile(Rights const* = nullptr) const;
+    // All components that the client may see, ordered by ref.
+    std::vector<ComponentEntry> components(Rights const* = nullptr) const;
     EngineStatistics statistics() const;
 
 private:

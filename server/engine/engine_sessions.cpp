@@ -36,7 +36,8 @@ void Engine::Core::serve_engines(Instant now) {
 
 void Engine::Core::notify_of_states(Session& session, Instant now) {
     if (session.owner == nullptr) {
-        for (auto const& [ref, component] : registry_.all()) notify_of_state(session, *component, now);
+        for (auto const& [ref, component] : registry_.all())
+            if (may_see(session.rights.get(), ref)) notify_of_state(session, *component, now);
         return;
     }
     for (auto const& ref : session.owner->members())

@@ -1,4 +1,5 @@
 // Event interface (7.4.2, table 5): subscriptions and the delivery of events.
+#include <algorithm>
 #include <utility>
 
 #include "engine/core.hpp"
@@ -8,13 +9,13 @@ namespace rois {
 
 Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instant now) {
     auto const& components = registry_.with(MessageKind::event, subscribe.event_type);
-    if (components.all().empty())
+    if (components.possible({}, {Members::shown, session.rights.get()}).next() == nullptr)
         return refused<Subscribe::Reply>(ReturnCode::unsupported, "no component has the event " + quoted(subscribe.event_type));
     auto filter = Filter::compile(subscribe.condition, vocabulary(&registry_.results(MessageKind::event, subscribe.event_type)));
     if (auto* problem = std::get_if<std::string>(&filter))
         return refused<Subscribe::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     auto& wanted = std::get<Filter>(filter);
-    if (!may_ever_match(wanted, components.possible(wanted.demand(), seen_by(wanted)), session))
+    if (!may_ever_match(wanted, components.possible(wanted.demand(), seen_by(session, wanted)), session))
         return refused<Subscribe::Reply>(ReturnCode::unsupported, "no component that has the event can match the condition");
     auto* const known = subscriptions_.find(subscribe.event_type, wanted);
     bool const again = known != nullptr && session.subscriptions.contains(known);
@@ -124,7 +125,9 @@ bool Engine::Core::deliver(RegisteredComponent& component, std::string const& ev
         return subscription.filter.match(MessageCandidate{askers.candidate(component), *results}) == Match::yes;
     };
     bool begun = false;  // some subscriber may have been notified
+    auto const sees = [&](Subscription::Subscriber const& one) { return may_see(one.rights, component.ref().code); };
     auto const deliver_to = [&](Subscription& subscription) {
+        if (std::ranges::none_of(subscription.subscribers, sees)) return;
         bool const each = subscription.filter.depends_on_asker();
         if (!each && subscription.filter.match(candidate) != Match::yes) return;
         if (event_id.empty()) {
@@ -142,7 +145,7 @@ bool Engine::Core::deliver(RegisteredComponent& component, std::string const& ev
         auto const& subscribers = subscription.subscribers;
         for (auto const& subscriber : subscribers) {
             deliveries([&] {
-                if (each && !matches(subscription, *subscriber.session)) return;
+                if (!sees(subscriber) || (each && !matches(subscription, *subscriber.session))) return;
                 events_.add_receiver(subscriber.slot);
                 notifier_.notify(*subscriber.queue, notifications.of(subscriber.inline_results),
                                  component.answer_to(*subscriber.session));

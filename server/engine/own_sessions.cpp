@@ -108,7 +108,9 @@ void Engine::Core::publish(RegisteredComponent const& component, MemberSwitched&
         Switched{component.ref(), std::move(switched.from), std::move(switched.to), std::move(switched.reason)});
     for (auto const& [id, session] : sessions_) {
         bool const agreed = component.bound_to == session.get() && component.switching != Switching::none;
-        if (agreed || session->receives_switches) notifier_.notify(*session, notification, component.answer_to(*session));
+        bool const sees = may_see(session->rights.get(), component.ref().code);
+        if (agreed || (session->receives_switches && sees))
+            notifier_.notify(*session, notification, component.answer_to(*session));
     }
 }
 

@@ -125,10 +125,11 @@ Engine::Core::Later Engine::Core::perform(Session& session, Query const& query, 
     if (auto* problem = std::get_if<std::string>(&compiled)) return refused(ReturnCode::bad_parameter, std::move(*problem));
     auto& selection = std::get<Selection>(compiled);
     auto const& able = registry_.with(MessageKind::query, query.query_type);
-    bool const of_whole_engine = !selection.filter().restricts() && !selection.sorts() && !able.all().empty();
+    bool const sees_all = session.rights == nullptr || session.rights->sees_everything();
+    bool const of_whole_engine = sees_all && !selection.filter().restricts() && !selection.sorts() && !able.all().empty();
     bool const looks_up = able.all().size() > few || !registry_.logical().empty();
     auto const demand = looks_up ? selection.filter().demand() : std::nullopt;
-    auto meant = able.possible(demand, seen_by(selection.filter())).rest();
+    auto meant = able.possible(demand, seen_by(session, selection.filter())).rest();
     auto const inquiry = std::make_shared<Inquiry>(*this, asked, query.query_type, std::move(selection), now);
     if (of_whole_engine && is_about_the_engine(query.query_type)) return inquiry->of_whole_engine(session, able.all(), now);
     Preference{session}.order(meant);

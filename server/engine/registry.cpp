@@ -438,9 +438,9 @@ RegisteredComponent* Registry::find(std::string_view ref) const {
     return found == components_.end() ? nullptr : found->second.get();
 }
 
-Registry::Lookup Registry::meant(Identifier const& ref) const {
+Registry::Lookup Registry::meant(Identifier const& ref, Session const& asker) const {
     auto* const component = find(ref.code);
-    if (component == nullptr) return {nullptr, "unknown component " + quoted(ref.code)};
+    if (component == nullptr || !may_see(asker.rights.get(), ref.code)) return {nullptr, "unknown component " + quoted(ref.code)};
     auto const& own = component->ref();
     auto const foreign = [&](std::string_view what, std::string const& given, std::vector<std::string> const& known) {
         return Lookup{nullptr, "the component_ref " + quoted(ref.code) + " has the " + std::string{what} + " " +

@@ -232,21 +232,19 @@ public:
     RegisteredComponent* find(std::string_view ref) const;  // null when unknown
 
     // The result of looking up a component_ref. If no component is found, `component` is null and `problem` says why: the code is
-    // unknown, or the codebook or authority does not belong to components (decision 31).
+    // unknown to the asker, or the codebook or authority does not belong to components (decision 31).
     struct Lookup {
         RegisteredComponent* component = nullptr;
         std::string problem;
     };
-    Lookup meant(Identifier const& component_ref) const;
+    Lookup meant(Identifier const& component_ref, Session const& asker) const;
 
     Components const& all() const { return components_; }
     // The components that move the robot.
     std::vector<RegisteredComponent*> const& moving() const { return moving_; }
 
     // Returns the components that can meet the demand; all of them without a demand.
-    ComponentsInOrder possible(std::optional<Demand> const& demand, Members members) const {
-        return index_.possible(demand, members);
-    }
+    ComponentsInOrder possible(std::optional<Demand> const& demand, View view) const { return index_.possible(demand, view); }
 
     // The components whose profile has this message.
     ComponentIndex const& with(MessageKind kind, std::string_view message) const { return providers(kind, message).components; }

@@ -23,6 +23,7 @@
 namespace rois {
 
 class RegisteredComponent;
+class Rights;
 struct Subscription;
 
 // Owned by the engine. Plain data without functions.
@@ -32,7 +33,8 @@ struct Session {
 
     std::shared_ptr<NotificationQueue> notifications;
     SessionId id;
-    std::uint64_t number = 0;  // in the order of connecting
+    std::uint64_t number = 0;              // in the order of connecting
+    std::shared_ptr<Rights const> rights;  // of the client that opened it, and the only one that may use it; null: no limits
     Steady connected;
     Details::Asker events;  // decides which details the session may ask for (decision 24)
     Details::Asker errors;

@@ -65,6 +65,7 @@ void Engine::Core::connect(Asked& asked, Connect const& connection, Instant now)
     session->window = window;
     session->is_engine = connection.is_engine;
     session->receives_switches = connection.switches;
+    session->rights = asked.rights;
     asked.answer(perform(open(std::move(session), now), connection, now));
 }
 
@@ -141,6 +142,7 @@ Reply Engine::Core::perform(Session& session, StopEverything const&, Instant now
         if (session.owns_stop) reply.stop = last_stop_;
     }
     reply.not_halted = not_halted();
+    std::erase_if(reply.not_halted, [&](std::string const& ref) { return !may_see(session.rights.get(), ref); });
     return reply;
 }
 
@@ -188,9 +190,9 @@ Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
         if (session.is_engine) reply.components.back().traits = component->traits();
     }
     if (session.is_engine) reply.space = space();
-    auto const whole = session.is_engine ? profile_for_engines(names_members)
-                       : names_members   ? profile()
-                                         : profile_without_members();
+    auto const whole = profile_seen_by(session.rights.get(), session.is_engine ? profile_for_engines(names_members)
+                                                             : names_members   ? profile()
+                                                                               : profile_without_members());
     reply.profile = selected.filter().restricts() ? profile_of_engine_with(whole, reply.components) : whole;
     return reply;
 }

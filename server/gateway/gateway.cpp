@@ -24,6 +24,15 @@ Fault beyond(std::uint64_t after, std::uint64_t last) {
                                             std::to_string(last)};
 }
 
+// Why the principal may not perform the operation, or nullopt.
+std::optional<Fault> why_not_allowed(Principal const& principal, Request const& request) {
+    auto const least = least_role_for(request.operation);
+    if (!principal.is_over() && principal.role >= least) return {};
+    auto fault = principal.is_over() ? unauthorized() : not_allowed_for(principal.role, least);
+    fault.request_id = request.request_id;
+    return fault;
+}
+
 }  // namespace
 
 Hold::Hold(Gateway& gateway, std::shared_ptr<NotificationQueue> queue)
@@ -87,6 +96,11 @@ Fault no_memory_for_document(MemoryBudget& memory) {
     return {FaultCode::too_many, memory.refuse("there is no memory for a long document")};
 }
 
+Fault unauthorized() {
+    return {FaultCode::unauthorized,
+            "expected the header 'Authorization: Bearer TOKEN' with a valid token; docs/trust.md says how to get one"};
+}
+
 Fault no_such_session() { return {FaultCode::no_session, "there is no such session; connect first"}; }
 
 NotificationDocument::NotificationDocument(Numbered const& numbered)
@@ -99,11 +113,13 @@ void NotificationDocument::append_to(std::string& out) const {
     out.append(before_).append(digits_.data(), digits_size_).append(after_);
 }
 
-Gateway::Gateway(Engine& engine, Readers& readers, Telemetry& telemetry, ClientLimits limits, MemoryBudget& memory)
+Gateway::Gateway(Engine& engine, Readers& readers, Telemetry& telemetry, ClientLimits limits, MemoryBudget& memory,
+                 Tokens* tokens)
     : engine_{engine},
       readers_{readers},
       telemetry_{telemetry},
       memory_{memory},
+      tokens_{tokens},
       quota_{limits.sessions_per_connection, limits.sessions_per_address},
       streams_per_session_{limits.streams_per_session},
       log_{[this](std::uint64_t session) { quota_.ended(session); }} {
@@ -118,8 +134,8 @@ Gateway::Gateway(Engine& engine, Readers& readers, Telemetry& telemetry, ClientL
 class Exchange final : public Asked {
 public:
     Exchange(Gateway& gateway, std::shared_ptr<NotificationQueue> of, NotificationQueue::Hold until_answered, Request&& request,
-             Instant begun, std::weak_ptr<Reader> waits)
-        : Asked{std::move(of), until_answered},
+             Instant begun, std::weak_ptr<Reader> waits, std::shared_ptr<Rights const> of_client)
+        : Asked{std::move(of), until_answered, std::move(of_client)},
           gateway_{gateway},
           request_{std::move(request)},
           begun_{begun},
@@ -216,7 +232,7 @@ Answer PendingAnswer::take() {
 PendingAnswer Gateway::refused(Fault fault) { return {std::make_shared<Exchange>(*this, std::move(fault)), {}}; }
 
 PendingAnswer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std::string_view text, Via via,
-                              std::weak_ptr<Reader> waits, std::shared_ptr<Opener> const& opener, Reading const* reading) {
+                              std::weak_ptr<Reader> waits, std::shared_ptr<Client> const& client, Reading const* reading) {
     auto const begun = present();
     std::optional<MemoryBudget::Room> room;
     if (text.size() > negligible) room.emplace(room_for(text));
@@ -230,7 +246,9 @@ PendingAnswer Gateway::answer(xml::RequestReader& reader, SessionId const& sessi
                         "resume works only on a WebSocket; over HTTP, pass after=N or Last-Event-ID to /rois/notifications",
                         {},
                         request.request_id});
-    return perform(session, std::move(request), via, std::move(waits), opener, reading, begun);
+    if (client && client->principal)
+        if (auto fault = why_not_allowed(*client->principal, request)) return refused(std::move(*fault));
+    return perform(session, std::move(request), via, std::move(waits), client, reading, begun);
 }
 
 // Converts to false if there is no memory. Short documents reserve none, but their bytes are counted.
@@ -249,6 +267,8 @@ Fault Gateway::fault_of(Refusal refusal) {
             return {FaultCode::too_many, memory_.refuse("there is no memory for a new session")};
         case Refusal::shutting_down:
             return rois::shutting_down();
+        case Refusal::not_allowed:
+            return {FaultCode::not_allowed, "the token may see this component, but not command it"};
         case Refusal::no_session:
             break;
     }
@@ -256,31 +276,33 @@ Fault Gateway::fault_of(Refusal refusal) {
 }
 
 PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via via, std::weak_ptr<Reader> waits,
-                               std::shared_ptr<Opener> const& opener, Reading const* reading, Instant now) {
+                               std::shared_ptr<Client> const& client, Reading const* reading, Instant now) {
+    auto const rights = client && client->principal ? client->principal->rights : nullptr;
     Hold hold;  // ends without the lock
     Lock lock{*this};
     auto queue = reading != nullptr ? reading->queue_
-                 : via == Via::http ? engine_.note_request(session, now)
-                                    : engine_.notifications(session);
+                 : via == Via::http ? engine_.note_request(session, now, rights.get())
+                                    : engine_.notifications(session, rights.get());
     bool const known = queue != nullptr;
     bool const connects = std::holds_alternative<Connect>(request.operation);
-    bool const opens = opener && !known && connects;
+    bool const opens = client && !known && connects;
     if (opens)
-        if (auto fault = refusal_of(*opener)) {
+        if (auto fault = refusal_of(*client)) {
             fault->request_id = request.request_id;
             return refused(std::move(*fault));
         }
     log_.take_joined();  // of an operation that failed
     // `disconnect` holds nothing: the readers receive the last notifications before the answer (decision 3).
     if (known && !std::holds_alternative<Disconnect>(request.operation)) hold = Hold{*this, queue};
-    auto exchange = std::make_shared<Exchange>(*this, std::move(queue), hold.number(), std::move(request), now, std::move(waits));
+    auto exchange =
+        std::make_shared<Exchange>(*this, std::move(queue), hold.number(), std::move(request), now, std::move(waits), rights);
     engine_.handle(exchange, now);
     auto const number = log_.take_joined();
     exchange->session_opened(number);
-    if (opens && number != 0) quota_.opened(number, opener);
+    if (opens && number != 0) quota_.opened(number, client);
     // The `connect` of a session counts as a sign of life (decision 2).
     if (auto const* reply = exchange->reply(); reply && via == Via::http && !known && connects)
-        engine_.note_request(std::get<Connect::Reply>(*reply).session, now);
+        engine_.note_request(std::get<Connect::Reply>(*reply).session, now, rights.get());
     engine_.work(lock, now);
     hold.leave();
     exchange->wait();
@@ -288,31 +310,32 @@ PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via 
 }
 
 // Returns a fault if this connection may not open another session.
-std::optional<Fault> Gateway::refusal_of(Opener const& opener) {
+std::optional<Fault> Gateway::refusal_of(Client const& client) {
     auto const refused = [](std::string_view holder, std::size_t sessions, std::string_view instead, std::string_view key) {
         return Fault{FaultCode::too_many, std::string{holder} + " has " + std::to_string(sessions) +
                                               " sessions open already: disconnect one" + std::string{instead} + "; the key " +
                                               std::string{key} + " sets the limit"};
     };
-    switch (quota_.verdict(opener)) {
+    switch (quota_.verdict(client)) {
         case SessionQuota::Verdict::full_connection:
             telemetry_.reached(Telemetry::Limit::sessions_per_connection);
             return refused("this connection", quota_.most_of_connection(), ", or use another connection",
                            "max_sessions_per_connection");
         case SessionQuota::Verdict::full_address:
             telemetry_.reached(Telemetry::Limit::sessions_per_address);
-            return refused("this address", quota_.most_of_address(), "", "max_sessions_per_address");
+            return refused(client.principal ? "this token" : "this address", quota_.most_of_address(), "",
+                           "max_sessions_per_address");
         case SessionQuota::Verdict::open:
             break;
     }
     return {};
 }
 
-std::variant<std::unique_ptr<Reading>, Fault> Gateway::read(SessionId const& session, LinkKind link, std::uint64_t after,
-                                                            Reader& reader, Readers::Until until) {
+std::variant<std::unique_ptr<Reading>, Fault> Gateway::read(SessionId const& session, Rights const* rights, LinkKind link,
+                                                            std::uint64_t after, Reader& reader, Readers::Until until) {
     auto reading = std::make_unique<Reading>(*this, link, after, reader);
     Lock const lock{*this};
-    auto queue = engine_.notifications(session);
+    auto queue = engine_.notifications(session, rights);
     if (!queue || queue->closed()) return no_such_session();
     if (auto const last = queue->last_sequence(); after > last) return beyond(after, last);
     if (until == Readers::Until::closed && link == LinkKind::stream && readers_.streams(session) >= streams_per_session_) {
@@ -375,6 +398,7 @@ void Gateway::tick() {
     {
         Lock lock{*this};
         Attempts attempts;
+        if (tokens_ != nullptr && tokens_->end_expired(now.utc)) attempts([&] { engine_.end_withdrawn(now); });
         attempts([&] { engine_.tick(now); });
         attempts([&] { engine_.work(lock, now, Provider::Runner::clock); });
         attempts.rethrow();
@@ -440,14 +464,14 @@ void Gateway::shut_down() {
     engine_.work(lock, now);
 }
 
-std::shared_ptr<EngineProfile const> Gateway::profile() const {
+std::shared_ptr<EngineProfile const> Gateway::profile(Rights const* rights) const {
     std::lock_guard const lock{mutex_};
-    return engine_.profile();
+    return engine_.profile(rights);
 }
 
-std::vector<ComponentEntry> Gateway::components() const {
+std::vector<ComponentEntry> Gateway::components(Rights const* rights) const {
     std::lock_guard const lock{mutex_};
-    return engine_.components();
+    return engine_.components(rights);
 }
 
 EngineStatistics Gateway::statistics() const {

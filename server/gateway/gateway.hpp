@@ -17,6 +17,7 @@
 
 #include "engine/engine.hpp"
 #include "gateway/access/session_quota.hpp"
+#include "gateway/access/tokens.hpp"
 #include "gateway/process/log.hpp"
 #include "gateway/process/telemetry.hpp"
 #include "gateway/readers.hpp"
@@ -95,7 +96,9 @@ private:
     bool is_of_engine_ = false;
 };
 
-// The fault for a request with a missing, unknown or ended session.
+// The fault for a request without a token that is valid.
+Fault unauthorized();
+// The fault for a request with a missing, unknown or ended session, or one of another token.
 Fault no_such_session();
 Fault shutting_down();
 // The fault for a document that does not fit into memory.
@@ -160,19 +163,24 @@ private:
 
 class Gateway {
 public:
-    // All must outlive the gateway. `readers` is the engine's outbox. Each tick measures the memory.
-    Gateway(Engine&, Readers& readers, Telemetry&, ClientLimits = {}, MemoryBudget& = MemoryBudget::none());
+    // All must outlive the gateway. `readers` is the engine's outbox. Each tick measures the memory. Without `tokens` clients
+    // need none.
+    Gateway(Engine&, Readers& readers, Telemetry&, ClientLimits = {}, MemoryBudget& = MemoryBudget::none(),
+            Tokens* tokens = nullptr);
 
     // Reads the request and performs its operation for the session (an empty id: none yet). Locks the engine only for the
-    // operation. If the answer comes later, `waits` is woken then. `opener` is the connection that counts its sessions; null:
-    // they are not counted. `reading` is an open reading of the session, if there is one: it saves a search.
+    // operation. If the answer comes later, `waits` is woken then. `client` counts its sessions, and its principal limits what it
+    // may do; null: no limits. `reading` is an open reading of the session, if there is one: it saves a search.
     PendingAnswer answer(xml::RequestReader&, SessionId const&, std::string_view text, Via, std::weak_ptr<Reader> waits,
-                         std::shared_ptr<Opener> const& opener = nullptr, Reading const* reading = nullptr);
+                         std::shared_ptr<Client> const& client = nullptr, Reading const* reading = nullptr);
 
-    // Starts to read behind the sequence `after`. Returns a fault if the session is unknown, if `after` is above its last
-    // sequence, or if it has too many event streams.
-    std::variant<std::unique_ptr<Reading>, Fault> read(SessionId const&, LinkKind, std::uint64_t after, Reader&,
+    // Starts to read behind the sequence `after`. Returns a fault if the session is unknown or has other rights, if `after` is
+    // above its last sequence, or if it has too many event streams.
+    std::variant<std::unique_ptr<Reading>, Fault> read(SessionId const&, Rights const*, LinkKind, std::uint64_t after, Reader&,
                                                        Readers::Until = Readers::Until::closed);
+
+    // Null: clients need no token.
+    Tokens* tokens() const { return tokens_; }
 
     // Halts all components and starts the engine's clock. Call it once, before the first request.
     void begin();
@@ -203,8 +211,9 @@ public:
     MemoryBudget& memory() { return memory_; }
     bool shutting_down() const { return shutting_down_; }
 
-    std::shared_ptr<EngineProfile const> profile() const;
-    std::vector<ComponentEntry> components() const;
+    // What a client with these rights sees; null: everything.
+    std::shared_ptr<EngineProfile const> profile(Rights const* = nullptr) const;
+    std::vector<ComponentEntry> components(Rights const* = nullptr) const;
     EngineStatistics statistics() const;
 
 private:
@@ -225,10 +234,10 @@ private:
         Readers& readers_;
     };
 
-    PendingAnswer perform(SessionId const&, Request&&, Via, std::weak_ptr<Reader> waits, std::shared_ptr<Opener> const&,
+    PendingAnswer perform(SessionId const&, Request&&, Via, std::weak_ptr<Reader> waits, std::shared_ptr<Client> const&,
                           Reading const*, Instant now);
     PendingAnswer refused(Fault);
-    std::optional<Fault> refusal_of(Opener const&);
+    std::optional<Fault> refusal_of(Client const&);
     Fault fault_of(Refusal);
     MemoryBudget::Room room_for(std::string_view text);
     void save_memory(Steady now);
@@ -248,6 +257,7 @@ private:
     Readers& readers_;
     Telemetry& telemetry_;
     MemoryBudget& memory_;
+    Tokens* const tokens_;
     Alarm alarm_;               // a component has reported something
     Steady memory_released_;    // when memory was last returned to the system; used only by tick()
     mutable std::mutex mutex_;  // guards the engine, the readers and the quota

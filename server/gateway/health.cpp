@@ -15,11 +15,14 @@ std::string why_not_alive(Telemetry const& telemetry) {
     return "the engine has not ticked for more than 0.5 s: a component blocks, or the process is overloaded\n";
 }
 
-std::string why_not_ready(Gateway const& gateway, Telemetry const& telemetry) {
+std::string why_not_ready(Gateway const& gateway, Telemetry const& telemetry, Principal const* asker) {
     if (auto trouble = why_not_alive(telemetry); !trouble.empty()) return trouble;
     std::string trouble;
     if (gateway.everything_is_stopped()) trouble = "stopped: nothing starts until POST /rois/clear\n";
-    for (auto const& ref : gateway.not_ready()) trouble += ref + " has not confirmed that it stands still\n";
+    auto const all = gateway.not_ready();
+    auto const seen = seen_by(asker, all);
+    for (auto const& ref : seen) trouble += ref + " has not confirmed that it stands still\n";
+    if (seen.size() < all.size()) trouble += "other components have not confirmed that they stand still\n";
     return trouble;
 }
 

@@ -11,6 +11,7 @@ namespace rois {
 
 // Does not use the engine, which may be locked.
 std::string why_not_alive(Telemetry const&);
-std::string why_not_ready(Gateway const&, Telemetry const&);
+// With the components that the asker may see; null: all.
+std::string why_not_ready(Gateway const&, Telemetry const&, Principal const* asker = nullptr);
 
 }  // namespace rois

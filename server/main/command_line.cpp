@@ -27,7 +27,8 @@ constexpr auto examples =
     "  rois-gateway --listen [::1]:9000 --sim-speed 20   another address, twenty times as fast\n"
     "  rois-gateway --print-config > rois-gateway.json   write a configuration file to edit\n"
     "  rois-gateway --config rois-gateway.json --check-config\n"
-    "  rois-gateway --check-profiles profiles            check a folder of component profiles\n\n"
+    "  rois-gateway --check-profiles profiles            check a folder of component profiles\n"
+    "  rois-gateway token add console --role operator --tokens tokens.json\n\n"
     "Exit codes:\n"
     "  0  stopped by a signal, or did what an option asked for\n"
     "  1  cannot start, is not healthy, or a profile was refused\n"
@@ -42,12 +43,67 @@ struct Flags {
     bool check_health = false;
     std::string check_profiles;
     bool version = false;
+    struct {
+        std::string name;
+        std::string role;
+        std::vector<std::string> components, commands;
+        std::string expires;
+    } token;
     std::map<std::string, std::string> values;  // by key
 };
 
 // Without this check, CLI11 would take the next flag as the missing value.
 std::string is_a_value(std::string const& text) {
     return text.starts_with("--") ? "a value is missing before " + rois::quoted(text) : "";
+}
+
+// `token add|list|revoke`. The options of the gateway may follow, above all --tokens and --config.
+void declare_tokens(CLI::App& app, Flags& flags) {
+    auto& token = *app.add_subcommand("token", "add, list and revoke the tokens of clients (docs/trust.md)");
+    auto& given = flags.token;
+    token.require_subcommand(1);
+    token.fallthrough();
+    auto const name = [&](CLI::App& command) { command.add_option("NAME", given.name, "name of the token")->required(); };
+    auto& add = *token.add_subcommand("add", "make a token, and print it: it is not shown again")->fallthrough();
+    name(add);
+    add.add_option("--role", given.role, "what it may do: " + names_of_roles())->option_text("ROLE")->required();
+    add.add_option("--components", given.components, "pattern of the components that it sees; may be repeated [*]")
+        ->option_text("PATTERN")
+        ->expected(1)
+        ->take_all();
+    add.add_option("--commands", given.commands, "pattern of those among them that it may command; may be repeated [*]")
+        ->option_text("PATTERN")
+        ->expected(1)
+        ->take_all();
+    add.add_option("--expires", given.expires, "30d, 12h, 45min, a day (at its end), or a time such as 2027-01-31T18:00:00Z")
+        ->option_text("WHEN");
+    token.add_subcommand("list", "print all tokens, without their secrets")->fallthrough();
+    name(*token.add_subcommand("revoke", "remove a token: its sessions end within a second")->fallthrough());
+}
+
+TokenEntry token_of(Flags const& flags) {
+    auto const& given = flags.token;
+    TokenEntry entry;
+    entry.name = given.name;
+    if (!is_token_name(entry.name))
+        throw BadSettings{"NAME must be letters, digits, '_', '-' and '.', 64 at most, not " + rois::quoted(given.name)};
+    auto const role = read_role(given.role);
+    if (!role) throw BadSettings{"--role must be one of " + names_of_roles() + ", not " + rois::quoted(given.role)};
+    entry.role = *role;
+    for (auto const& [flag, patterns] : {std::pair{"--components", &given.components}, {"--commands", &given.commands}})
+        if (std::ranges::find(*patterns, "") != patterns->end())
+            throw BadSettings{std::string{flag} + " must be a pattern of refs such as 'robot1.*', not ''"};
+    if (!given.components.empty()) entry.components = given.components;
+    if (!given.commands.empty()) entry.commands = given.commands;
+    if (given.expires.empty()) return entry;
+    auto const now = std::chrono::system_clock::now();
+    entry.expires = read_expiry(given.expires, now);
+    if (!entry.expires || *entry.expires <= now)
+        throw BadSettings{
+            "--expires must be a time in the future: 30d, 12h, 45min, a day such as 2027-01-31, or a time such as "
+            "2027-01-31T18:00:00Z, not " +
+            rois::quoted(given.expires)};
+    return entry;
 }
 
 void declare(CLI::App& app, Flags& flags) {
@@ -66,6 +122,8 @@ void declare(CLI::App& app, Flags& flags) {
             ->type_name(key.value)
             ->check(is_a_value);
     }
+    app.get_option("--allow-anyone")->expected(0, 1)->default_str("yes");
+    declare_tokens(app, flags);
     app.footer(examples);
 }
 
@@ -122,7 +180,32 @@ std::vector<std::string> warnings() {
     return all;
 }
 
-CommandLine say(std::string words) { return {CommandLine::Wish::say, std::move(words), {}, {}, {}}; }
+CommandLine say(std::string words) {
+    CommandLine command;
+    command.wish = CommandLine::Wish::say;
+    command.words = std::move(words);
+    return command;
+}
+
+CommandLine with(CommandLine::Wish wish, GatewaySettings settings, std::vector<std::string> warnings = {}) {
+    CommandLine command;
+    command.wish = wish;
+    command.settings = std::move(settings);
+    command.warnings = std::move(warnings);
+    return command;
+}
+
+CommandLine about_tokens(CLI::App const& token, Flags const& flags, GatewaySettings settings) {
+    if (settings.tokens.empty())
+        throw BadSettings{
+            "token: expected the file of tokens in --tokens FILE, ROIS_TOKENS, or the key tokens of the configuration"};
+    if (token.got_subcommand("list")) return with(CommandLine::Wish::list_tokens, std::move(settings));
+    bool const adds = token.got_subcommand("add");
+    auto command = with(adds ? CommandLine::Wish::add_token : CommandLine::Wish::revoke_token, std::move(settings));
+    if (adds) command.token = token_of(flags);
+    command.token.name = flags.token.name;
+    return command;
+}
 
 }  // namespace
 
@@ -139,12 +222,15 @@ CommandLine read_command_line(int argc, char const* const* argv) {
     }
     if (flags.version) return say("rois-gateway " ROIS_VERSION "\n");
     auto settings = gather(app, flags);
-    if (app.count("--check-profiles") > 0)
-        return {CommandLine::Wish::check_profiles, {}, std::move(flags.check_profiles), {}, std::move(settings)};
+    if (app.got_subcommand("token")) return about_tokens(*app.get_subcommand("token"), flags, std::move(settings));
+    if (app.count("--check-profiles") > 0) {
+        auto command = with(CommandLine::Wish::check_profiles, std::move(settings));
+        command.folder = std::move(flags.check_profiles);
+        return command;
+    }
     if (flags.print_config) return say(commented_configuration(settings));
-    if (flags.check_config) return {CommandLine::Wish::check_config, {}, {}, warnings(), std::move(settings)};
-    if (flags.check_health) return {CommandLine::Wish::check_health, {}, {}, {}, std::move(settings)};
-    return {CommandLine::Wish::serve, {}, {}, warnings(), std::move(settings)};
+    if (flags.check_health) return with(CommandLine::Wish::check_health, std::move(settings));
+    return with(flags.check_config ? CommandLine::Wish::check_config : CommandLine::Wish::serve, std::move(settings), warnings());
 }
 
 }  // namespace rois

@@ -5,13 +5,24 @@
 #include <vector>
 
 #include "main/settings.hpp"
+#include "main/tokens_file.hpp"
 
 namespace rois {
 
 struct CommandLine {
-    enum class Wish : std::uint8_t { serve, say, check_config, check_health, check_profiles } wish = Wish::serve;
+    enum class Wish : std::uint8_t {
+        serve,
+        say,
+        check_config,
+        check_health,
+        check_profiles,
+        add_token,
+        list_tokens,
+        revoke_token
+    } wish = Wish::serve;
     std::string words;                  // output for `say`: help, version, configuration
     std::string folder;                 // the folder of profiles to check
+    TokenEntry token{};                 // to add or to revoke
     std::vector<std::string> warnings;  // about settings that are ignored
     GatewaySettings settings;           // in order of precedence: flags, environment variables, the file, defaults
 };

@@ -17,6 +17,7 @@
 #include "main/configuration_file.hpp"
 #include "main/json_file.hpp"
 #include "main/settings.hpp"
+#include "main/tokens_file.hpp"
 #include "types/text/listing.hpp"
 #include "types/text/texts.hpp"
 #include "types/text/to_number.hpp"
@@ -64,6 +65,11 @@ std::vector<std::string> refs_of(json const& value) {
 std::string engine_of(json const& value) {
     if (value.is_string() && !value.get_ref<std::string const&>().empty()) return value.get<std::string>();
     throw Expected{"the name of an engine of the sub engine, such as \"robot1\""};
+}
+
+std::string file_of(json const& value, std::filesystem::path const& folder) {
+    if (value.is_string() && !value.get_ref<std::string const&>().empty()) return folder / value.get<std::string>();
+    throw Expected{"the name of a file"};
 }
 
 std::vector<std::string> command_of(json const& value) {
@@ -148,6 +154,8 @@ std::vector<Property> const& properties() {
              placement(engine).covariance =
                  numbers_of(value, {9, 36}, "9 numbers (x, y, yaw) or 36 (x, y, z, roll, pitch, yaw), in mm and degrees");
          }},
+        {"token_file", [](SubEngine& engine, json const& value) { engine.token = token_in(file_of(value, engine.folder)); }},
+        {"ca_file", [](SubEngine& engine, json const& value) { engine.ca_file = file_of(value, engine.folder); }},
         // A gateway with default settings refuses other windows and leases.
         {"window", [](SubEngine& engine, json const& value) { engine.window = seconds_of(value, 1, 30); }},
         {"resume_window", [](SubEngine& engine, json const& value) { engine.resume_window = seconds_of(value, 1, 86'400); }},

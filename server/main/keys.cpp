@@ -281,6 +281,12 @@ std::vector<Key> general_keys() {
         {"join_as", "name used to join; empty: engine_name", "NAME", "a text", Key::Kind::text,
          [](GatewaySettings& s, std::string const& text) { return s.join_as = text, true; },
          [](GatewaySettings const& s) { return s.join_as; }},
+        file(
+            "join_token_file", "file with the token that is sent to the gateway to join; empty: none",
+            [](GatewaySettings & s) -> auto& { return s.join_token_file; }),
+        file(
+            "join_ca_file", "certificates that the gateway to join may have, besides those of the system; empty: none",
+            [](GatewaySettings & s) -> auto& { return s.join_ca_file; }),
         {"hosts", "further host names of the gateway, besides localhost, IP addresses and the name of its machine", "NAMES",
          "host names such as gateway or robots.example, without a port, separated by spaces", Key::Kind::text, set_hosts,
          [](GatewaySettings const& s) { return joined(s.net.hosts); }},
@@ -305,6 +311,19 @@ std::vector<Key> tls_keys() {
         seconds(
             "handshake_timeout", "longest time for a TLS handshake",
             [](GatewaySettings & s) -> auto& { return s.net.handshake_timeout; }),
+    };
+}
+
+std::vector<Key> access_keys() {
+    return {
+        file(
+            "tokens", "file of tokens (rois-gateway token --help), read again when it changes; empty: clients need none",
+            [](GatewaySettings & s) -> auto& { return s.tokens; }),
+        choice<bool>("allow_anyone", "whether clients on other machines need no token",
+                     [](GatewaySettings & s) -> auto& { return s.allow_anyone; }, {{"no", false}, {"yes", true}}),
+        whole_number<std::size_t>(
+            "max_wrong_tokens", "maximum number of wrong tokens of one address in a minute; further ones get 429",
+            [](GatewaySettings & s) -> auto& { return s.max_wrong_tokens; }, 1, 1e6),
     };
 }
 
@@ -463,7 +482,7 @@ GatewaySettings::GatewaySettings() {
 std::vector<Key> const& keys() {
     static auto const all = [] {
         std::vector<Key> together;
-        for (auto const& part : {general_keys(), tls_keys(), media_keys(), session_keys(), network_keys()}) {
+        for (auto const& part : {general_keys(), tls_keys(), access_keys(), media_keys(), session_keys(), network_keys()}) {
             together.insert(together.end(), part.begin(), part.end());
         }
         return together;

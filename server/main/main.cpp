@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,11 +23,13 @@
 #include "main/command_line.hpp"
 #include "main/configuration_file.hpp"
 #include "main/engines_file.hpp"
+#include "main/exposure.hpp"
 #include "main/health_check.hpp"
 #include "main/keys.hpp"
 #include "main/logging.hpp"
 #include "main/profile_folder.hpp"
 #include "main/speech_log.hpp"
+#include "main/tokens_file.hpp"
 #include "main/user_components.hpp"
 #include "media/server.hpp"
 #include "net/http/documents.hpp"
@@ -203,13 +206,13 @@ TakenNames names_of_engines(GatewaySettings const& settings, simulation::FloorPl
 
 // Reads the file of sub engines again. If that fails, logs why and changes nothing.
 void read_again(std::string const& file, TakenNames const& taken, choosing::Settings const& choosing,
-                remote::RemoteEngines& engines, std::string const& own_url) {
+                remote::RemoteEngines& engines, std::string const& url_for_programs) {
     try {
         spdlog::info("engines: reading {} again after SIGHUP", file);
         auto const sub_engines = read_engines_file(file, taken);
         if (read_choosing(file, sub_engines) != choosing)
             spdlog::warn("engines: a change of \"choosing\" has no effect before the gateway starts again");
-        engines.set(sub_engines, own_url);
+        engines.set(sub_engines, url_for_programs);
     } catch (std::exception const& error) {
         spdlog::warn("engines: nothing was changed: {}", error.what());
     }
@@ -241,6 +244,29 @@ void read_again(tls::Credentials& credentials) {
     }
 }
 
+// The tokens with which the programs of this gateway join it. Used on the thread of the programs.
+class ProgramTokens {
+public:
+    explicit ProgramTokens(Tokens& tokens) : tokens_{tokens} {}
+
+    // Makes a token. The earlier one of the program is not valid any more.
+    std::string make(std::string const& program) {
+        auto token = fresh_token();
+        auto holder = std::make_shared<Principal>();
+        std::vector<std::string> const everything{"*"};
+        holder->role = Role::engine;
+        holder->rights = std::make_shared<Rights const>("program " + program, everything, everything);
+        holder->hash = sha256(token);
+        if (auto const earlier = std::exchange(given_[program], holder->rights)) earlier->withdraw();
+        tokens_.add(std::move(holder));
+        return token;
+    }
+
+private:
+    Tokens& tokens_;
+    std::map<std::string, std::shared_ptr<Rights const>> given_;
+};
+
 // Makes all parts in the order of their dependencies, and serves until a signal arrives.
 int serve(CommandLine const& command) {
     auto const& settings = command.settings;
@@ -252,7 +278,10 @@ int serve(CommandLine const& command) {
         settings.engines.empty() ? std::vector<remote::SubEngine>{} : read_engines_file(settings.engines, taken);
     auto const choosing_settings = settings.engines.empty() ? choosing::Settings{} : read_choosing(settings.engines, sub_engines);
     auto const credentials = credentials_of(settings.tls);
+    auto const join_token = settings.join_token_file.empty() ? std::string{} : token_in(settings.join_token_file);
+    check_exposure(settings);
     if (command.wish == CommandLine::Wish::check_config) {
+        if (!settings.tokens.empty()) read_tokens(settings.tokens);
         for (auto const& warning : command.warnings) std::fprintf(stderr, "rois-gateway: warning: %s\n", warning.c_str());
         std::puts("configuration ok");
         return done;
@@ -280,7 +309,11 @@ int serve(CommandLine const& command) {
     telemetry.show(log);
     MemoryBudget memory{settings.net.memory_budget, memory_in_use};
     MemoryReserve const reserve{memory};
-    Gateway gateway{engine, readers, telemetry, client_limits(net_settings), memory};
+    Tokens tokens{settings.max_wrong_tokens};
+    std::optional<TokensFile> tokens_file;
+    if (!settings.tokens.empty()) tokens_file.emplace(settings.tokens, tokens);
+    ProgramTokens program_tokens{tokens};
+    Gateway gateway{engine, readers, telemetry, client_limits(net_settings), memory, tokens_file ? &tokens : nullptr};
     UserComponents user_components{
         schemas, {robots, schemas}, profiles, own_refs(settings, simulation->hall().plan()), settings.profiles};
     if (!settings.profiles.empty()) gateway.change(user_components.read());
@@ -306,26 +339,33 @@ int serve(CommandLine const& command) {
                     return choosing.change(std::move(change),
                                            [&](ComponentChange all) { return gateway.change(std::move(all)); });
                 },
-            .report = [](std::string const& name, std::string const& what) { spdlog::info("{}: {}", name, what); }});
+            .report = [](std::string const& name, std::string const& what) { spdlog::info("{}: {}", name, what); },
+            .token = [&](std::string const& name) { return program_tokens.make(name); }});
         engine.add(remote_engines->pulse(), "pulse");
         engine.on_stop([&](bool is_stopped) { remote_engines->everything_stopped(is_stopped); });
     }
+    if (!settings.engines.empty()) net_settings.program_tokens = &tokens;
     if (!settings.engines.empty())
         net_settings.join = [&](UniqueDescriptor socket, std::string head) {
             remote_engines->accept(std::move(socket), std::move(head));
         };
     net::Server server{net_settings, gateway, telemetry, documents, schemas};
     server.on_hang_up([&] {
-        if (!credentials && settings.profiles.empty() && settings.engines.empty())
-            spdlog::info("SIGHUP: there is no certificate, folder of profiles or file of engines to read again");
+        if (!credentials && !tokens_file && settings.profiles.empty() && settings.engines.empty())
+            spdlog::info("SIGHUP: there is no certificate, folder of profiles, file of engines or file of tokens to read again");
+        if (tokens_file) tokens_file->read_again();
         if (credentials) read_again(*credentials);
         if (!settings.profiles.empty()) read_again(user_components, gateway);
-        if (!settings.engines.empty()) read_again(settings.engines, taken, choosing_settings, *remote_engines, server.url());
+        if (!settings.engines.empty())
+            read_again(settings.engines, taken, choosing_settings, *remote_engines, server.url_for_programs());
     });
-    if (!settings.engines.empty()) remote_engines->set(sub_engines, server.url());
+    if (!settings.engines.empty()) remote_engines->set(sub_engines, server.url_for_programs());
     if (!settings.join.empty()) {
         auto const& name = settings.join_as.empty() ? settings.engine_name : settings.join_as;
-        remote_engines->join({.url = settings.join, .name = name, .own_gateway = [&server] { return server.connect(); }});
+        remote_engines->join(
+            {.url = settings.join, .name = name, .token = join_token, .ca_file = settings.join_ca_file, .own_gateway = [&server] {
+                 return server.connect();
+             }});
     }
     if (media) spdlog::info("media are served under {}", media->url());
     spdlog::info("listening on {}", server.url());
@@ -350,6 +390,19 @@ int check_profiles(std::string const& folder, GatewaySettings const& settings) {
     return refused ? profile_refused : done;
 }
 
+int about_tokens(CommandLine const& command) {
+    auto const& file = command.settings.tokens;
+    if (command.wish == CommandLine::Wish::add_token) {
+        std::puts(add_token(file, command.token).c_str());
+        std::fputs("rois-gateway: keep this token, it is not shown again\n", stderr);
+    } else if (command.wish == CommandLine::Wish::revoke_token) {
+        revoke_token(file, command.token.name);
+    } else {
+        std::fputs(table_of(read_tokens(file), std::chrono::system_clock::now()).c_str(), stdout);
+    }
+    return done;
+}
+
 int run(int argc, char const* const* argv) {
     auto const command = read_command_line(argc, argv);
     switch (command.wish) {
@@ -360,6 +413,10 @@ int run(int argc, char const* const* argv) {
             return check_health(command.settings);
         case CommandLine::Wish::check_profiles:
             return check_profiles(command.folder, command.settings);
+        case CommandLine::Wish::add_token:
+        case CommandLine::Wish::list_tokens:
+        case CommandLine::Wish::revoke_token:
+            return about_tokens(command);
         case CommandLine::Wish::serve:
         case CommandLine::Wish::check_config:
             break;

@@ -24,8 +24,11 @@ enum class Robots : std::uint8_t { simulated, none };
 struct GatewaySettings {
     net::Settings net;
     EngineSettings engine;
-    media::Settings media;  // without a host, no streams are served
-    tls::Files tls;         // without a certificate, both serve without TLS
+    media::Settings media;              // without a host, no streams are served
+    tls::Files tls;                     // without a certificate, both serve without TLS
+    std::string tokens;                 // a file; empty: clients need no token
+    bool allow_anyone = false;          // without tokens, serve other machines too
+    std::size_t max_wrong_tokens = 10;  // of one address in a minute
     std::string engine_name = "reception";
     double sim_speed = 1;  // 0: simulated time stands still, and there is steering
     Steering steering = Steering::off;
@@ -33,10 +36,12 @@ struct GatewaySettings {
     std::uint64_t seed = 1;
     std::string floor_plan;  // a file; empty: the built-in reception hall
     std::string scenario;
-    std::string profiles;  // a folder of component profiles; empty: none
-    std::string engines;   // a file of sub engines; empty: none
-    std::string join;      // URL of the gateway to join as a sub engine; empty: none
-    std::string join_as;   // name used to join; empty: engine_name
+    std::string profiles;         // a folder of component profiles; empty: none
+    std::string engines;          // a file of sub engines; empty: none
+    std::string join;             // URL of the gateway to join as a sub engine; empty: none
+    std::string join_as;          // name used to join; empty: engine_name
+    std::string join_token_file;  // holds the token that is sent to that gateway; empty: none
+    std::string join_ca_file;     // certificates that it may have; empty: those of the system
     LogFormat log_format = LogFormat::text;
     LogLevel log_level = LogLevel::info;
 

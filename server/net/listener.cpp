@@ -57,8 +57,8 @@ void refuse(Socket& socket, Shared const& shared) {
 
 }  // namespace
 
-Listener::Listener(Loop& loop, Admission& admission)
-    : loop_{loop}, admission_{admission}, acceptor_{loop.executor()}, timer_{loop.executor()} {}
+Listener::Listener(Loop& loop, Admission& admission, Loop::From from)
+    : loop_{loop}, admission_{admission}, from_{from}, acceptor_{loop.executor()}, timer_{loop.executor()} {}
 
 void Listener::bind(Endpoint const& endpoint, Port port) {
     acceptor_.open(endpoint.protocol());
@@ -110,7 +110,7 @@ Task<bool> Listener::accept_waiting() {
 // Closes a connection that cannot be started, for example because there is no memory.
 void Listener::serve(Socket socket, Admission::Place place) {
     try {
-        loop_.serve(std::move(socket), std::move(place));
+        loop_.serve(std::move(socket), std::move(place), from_);
     } catch (...) {
         loop_.shared().troubles.report(Troubles::Where::connection);
     }

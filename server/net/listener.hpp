@@ -5,11 +5,10 @@
 #include <optional>
 
 #include "gateway/access/admission.hpp"
+#include "net/loop.hpp"
 #include "wire/asio.hpp"
 
 namespace rois::net {
-
-class Loop;
 
 // All loops listen on the same port (SO_REUSEPORT), and the kernel distributes the connections. Belongs to the thread of its loop
 // when the loop runs.
@@ -17,7 +16,7 @@ class Listener {
 public:
     using Endpoint = asio::ip::tcp::endpoint;
 
-    Listener(Loop&, Admission&);
+    Listener(Loop&, Admission&, Loop::From);
 
     // The first listener binds the port alone, which fails if another process uses it. Then it shares the port, so that the other
     // listeners can bind it too. Both throw boost::system::system_error.
@@ -43,6 +42,7 @@ private:
 
     Loop& loop_;
     Admission& admission_;
+    Loop::From const from_;
     asio::basic_socket_acceptor<asio::ip::tcp, Executor> acceptor_;
     Timer timer_;
 };

@@ -14,14 +14,14 @@ LongDocuments::LongDocuments(std::shared_ptr<xml::Schemas const> schemas, xml::D
     : reader_{std::move(schemas), limits, validation} {}
 
 Task<PendingAnswer> LongDocuments::answer(Gateway& gateway, SessionId const& session, std::string_view text, Via via,
-                                          std::weak_ptr<Reader> waits, std::shared_ptr<Opener> const& opener, Wakes& wakes) {
+                                          std::weak_ptr<Reader> waits, std::shared_ptr<Client> const& client, Wakes& wakes) {
     Executor const executor = co_await asio::this_coro::executor;
     auto const done = std::make_shared<WakeUp>(executor, wakes);
     PendingAnswer answer;
     std::exception_ptr failed;
     asio::post(thread_, [&] {
         try {
-            answer = gateway.answer(reader_, session, text, via, waits, opener);
+            answer = gateway.answer(reader_, session, text, via, waits, client);
         } catch (...) {
             failed = std::current_exception();
         }

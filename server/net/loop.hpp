@@ -46,8 +46,9 @@ public:
     void shut_down(std::chrono::milliseconds within);
 
     // The loop's own thread calls the functions below.
-    enum class From : std::uint8_t { network, this_process };
-    void serve(Socket, Admission::Place, From = From::network);
+    // Where connections come from. `programs`: those that this gateway starts, on a port of their own (Server::url_for_programs).
+    enum class From : std::uint8_t { network, programs, this_process };
+    void serve(Socket, Admission::Place, From);
     // Cuts the connection that has been idle for longest. Returns false if none has been idle for 0.1 s.
     bool cut_longest_idle();
     bool draining() const { return last_moment_ != Steady::max(); }

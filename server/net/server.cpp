@@ -8,6 +8,7 @@
 #include <boost/asio/signal_set.hpp>
 #include <csignal>
 #include <deque>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -50,6 +51,8 @@ public:
         return (shared_.settings.credentials ? "https://" : "http://") + host_and_port(shared_.settings.host, port_);
     }
 
+    std::string url_for_programs() const { return "http://" + host_and_port("127.0.0.1", for_programs_->endpoint().port()); }
+
     UniqueDescriptor connect() {
         auto entered = admission_.enter(read_address("127.0.0.1").value(), Limits::of_connection);
         auto* const place = std::get_if<Admission::Place>(&entered);
@@ -73,6 +76,7 @@ public:
     bool run() {
         for (auto& listener : listeners_)
             listener.loop().run_forever(Troubles::Where::accept, [&listener] { return listener.accept(); });
+        if (for_programs_) first_.run_forever(Troubles::Where::accept, [this] { return for_programs_->accept(); });
         first_.run_forever(Troubles::Where::loop, [this] { return wait_for_signal(); });
         if (on_hang_up_) first_.run_forever(Troubles::Where::loop, [this] { return wait_for_hang_ups(); });
         Clock const clock{shared_.settings.tick, shared_.gateway, troubles_};
@@ -86,7 +90,7 @@ public:
 private:
     Loop& add_loop() {
         auto& loop = loops_.emplace_back(shared_);
-        listeners_.emplace_back(loop, admission_);
+        listeners_.emplace_back(loop, admission_, Loop::From::network);
         return loop;
     }
 
@@ -101,6 +105,10 @@ private:
             for (std::size_t i = 1; i < listeners_.size(); ++i) listeners_[i].bind(first.endpoint(), Listener::Port::shared);
             for (auto& listener : listeners_) listener.listen();
             port_ = first.endpoint().port();
+            if (settings.program_tokens == nullptr) return;
+            for_programs_.emplace(first_, admission_, Loop::From::programs);
+            for_programs_->bind({asio::ip::address_v4::loopback(), 0}, Listener::Port::alone);
+            for_programs_->listen();
         } catch (boost::system::system_error const& error) {
             throw std::runtime_error{"cannot listen on " + host_and_port(settings.host, settings.port) + ": " +
                                      error.code().message()};
@@ -122,6 +130,7 @@ private:
             spdlog::info("shutting down after {}", signal == SIGTERM ? "SIGTERM" : "SIGINT");
         }
         for (auto& listener : listeners_) listener.close();
+        if (for_programs_) for_programs_->close();
         last_moment_ = std::chrono::steady_clock::now() + shared_.settings.shutdown_timeout;
         shared_.gateway.shut_down();
         for (auto& loop : loops_) loop.shut_down(shared_.settings.shutdown_timeout);
@@ -136,6 +145,7 @@ private:
     std::deque<Loop> loops_;
     std::deque<Listener> listeners_;  // one for each loop
     Loop& first_;
+    std::optional<Listener> for_programs_;
     Signals signals_;
     Signals hang_ups_;
     std::function<void()> on_hang_up_;
@@ -151,6 +161,8 @@ Server::Server(Settings settings, Gateway& gateway, Telemetry& telemetry, Docume
 Server::~Server() = default;
 
 std::string Server::url() const { return running_->url(); }
+
+std::string Server::url_for_programs() const { return running_->url_for_programs(); }
 
 UniqueDescriptor Server::connect() { return running_->connect(); }
 

@@ -12,7 +12,7 @@
 
 namespace rois::net {
 
-// Not thread-safe, except `url` and `connect`: call all other functions on the thread that made the server. `run` blocks that
+// Not thread-safe, except the URLs and `connect`: call all other functions on the thread that made the server. `run` blocks that
 // thread, which is then the first I/O thread; the server owns the others.
 class Server {
 public:
@@ -25,6 +25,10 @@ public:
 
     // "http://127.0.0.1:8080", or with https
     std::string url() const;
+
+    // Where programs that this process starts join, on the loopback and without TLS: "http://127.0.0.1:40123". They need one of
+    // Settings::program_tokens. Call it only if there are such tokens.
+    std::string url_for_programs() const;
 
     // Returns a socket that is connected to this server, without TLS and from within the process. Thread-safe. Throws
     // std::runtime_error if there are too many connections.

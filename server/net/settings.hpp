@@ -13,6 +13,10 @@
 #include "types/unique_descriptor.hpp"
 #include "xml/codec/codec.hpp"
 
+namespace rois {
+class Tokens;
+}
+
 namespace rois::tls {
 class Credentials;
 }
@@ -44,6 +48,9 @@ struct Settings {
 
     // Takes the socket of an engine that joins, and the bytes received on it. Called on an I/O thread. Empty: none may join.
     std::function<void(UniqueDescriptor socket, std::string head)> join;
+
+    // The tokens of the programs that this process starts, which may join; null: it starts none. Must outlive the server.
+    Tokens* program_tokens = nullptr;
 
     std::shared_ptr<tls::Credentials> credentials;  // null: no TLS
 

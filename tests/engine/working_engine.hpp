@@ -18,8 +18,8 @@ using Said = std::variant<Reply, Refusal>;
 // An operation of a test, and its answer once there is one.
 class TestedOperation final : public Asked {
 public:
-    TestedOperation(std::shared_ptr<NotificationQueue> from, Operation operation)
-        : Asked{std::move(from), 0}, operation_{std::move(operation)} {}
+    TestedOperation(std::shared_ptr<NotificationQueue> from, Operation operation, std::shared_ptr<Rights const> of_client)
+        : Asked{std::move(from), 0, std::move(of_client)}, operation_{std::move(operation)} {}
 
     Operation const& operation() const override { return operation_; }
     void answer(Reply&& reply) override { note(std::move(reply)); }
@@ -41,8 +41,9 @@ public:
     using Engine::Engine;
 
     // The answer may come later.
-    std::shared_ptr<TestedOperation> begin_to_handle(SessionId const& session, Operation const& operation, Instant now) {
-        auto asked = std::make_shared<TestedOperation>(notifications(session), operation);
+    std::shared_ptr<TestedOperation> begin_to_handle(SessionId const& session, Operation const& operation, Instant now,
+                                                     std::shared_ptr<Rights const> const& rights = nullptr) {
+        auto asked = std::make_shared<TestedOperation>(notifications(session, rights.get()), operation, rights);
         and_work([&] { handle(asked, now); }, now);
         return asked;
     }
@@ -67,6 +68,9 @@ public:
     }
     void tick(Instant now) {
         and_work([&] { Engine::tick(now); }, now, Provider::Runner::clock);
+    }
+    void end_withdrawn(Instant now) {
+        and_work([&] { Engine::end_withdrawn(now); }, now);
     }
     void end(SessionId const& session, Instant now) {
         and_work([&] { Engine::end(session, now); }, now);

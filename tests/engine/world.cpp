@@ -29,8 +29,8 @@ struct InWords {
 
 }  // namespace
 
-Application::Application(World& world, SessionId s)
-    : session{std::move(s)}, world_{&world}, notifications_{world.engine->notifications(session)} {}
+Application::Application(World& world, SessionId s, Rights const* rights)
+    : session{std::move(s)}, world_{&world}, notifications_{world.engine->notifications(session, rights)} {}
 
 std::optional<Refusal> Application::refusal_of(Operation const& operation) {
     auto const said = world_->say(session, operation);
@@ -149,6 +149,14 @@ Application World::connect(Connect const& connection) {
 Application World::connect_without_link(Connect const& connection) {
     auto const said = say({}, connection);
     return {*this, std::get<Connect::Reply>(std::get<Reply>(said)).session};
+}
+
+Application World::connect_as(std::shared_ptr<Rights const> rights, Connect const& connection) {
+    auto const asked = engine->begin_to_handle({}, connection, now, rights);
+    Application application{*this, std::get<Connect::Reply>(std::get<Reply>(asked->said.value())).session, rights.get()};
+    rights_.emplace(application.session, std::move(rights));
+    engine->link_opened(application.session, LinkKind::websocket, now);
+    return application;
 }
 
 void World::advance(std::chrono::milliseconds duration) {

@@ -33,7 +33,7 @@ class World;
 // A service application with its own session. It reads its notifications when the test asks for them.
 class Application {
 public:
-    Application(World& world, SessionId session);
+    Application(World& world, SessionId session, Rights const* = nullptr);
 
     SessionId session;
 
@@ -106,6 +106,8 @@ public:
     // An application with an open WebSocket, or one that has only sent `connect`.
     Application connect(Connect const& = {});
     Application connect_without_link(Connect const& = {});
+    // An application with these rights, which all its operations have.
+    Application connect_as(std::shared_ptr<Rights const>, Connect const& = {});
 
     // Access to a component, and functions that advance time in the steps of the gateway's clock.
     ScriptedComponent& operator[](std::string_view ref) { return *components_.at(std::string{ref}); }
@@ -133,7 +135,8 @@ public:
     // The answer may come later.
     std::shared_ptr<TestedOperation> begin_to_say(SessionId const& session, Operation const& operation) {
         let_look();
-        return engine->begin_to_handle(session, operation, now);
+        auto const rights = rights_.find(session);
+        return engine->begin_to_handle(session, operation, now, rights == rights_.end() ? nullptr : rights->second);
     }
     std::uint64_t stray_answers() const { return engine->statistics().stray_answers; }
 
@@ -148,6 +151,7 @@ private:
 
     std::shared_ptr<Stage> stage_ = std::make_shared<Stage>();
     std::map<std::string, ScriptedComponent*> components_;
+    std::map<SessionId, std::shared_ptr<Rights const>> rights_;  // null for other sessions
     int secrets_ = 0;
 };
 

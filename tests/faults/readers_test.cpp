@@ -53,7 +53,7 @@ TEST(AReaderThatIsBeingDestroyed, DoesNotAffectRequestsOfOthers) {
     auto const other = ask({}, "connect").session;
     Answer answer;
     auto leaving = std::make_shared<Leaving>(wakes, [&] { answer = (gateway.stop_everything(), ask(other, "disconnect")); });
-    auto read = gateway.read(session, LinkKind::websocket, 0, *leaving);
+    auto read = gateway.read(session, nullptr, LinkKind::websocket, 0, *leaving);
     leaving->reading = std::move(std::get<std::unique_ptr<Reading>>(read));
     EXPECT_NO_THROW(leaving.reset()) << "every session is notified meanwhile, also this one";
     EXPECT_EQ(answer.turn, Answer::Turn::disconnected);

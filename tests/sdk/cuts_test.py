@@ -73,8 +73,8 @@ class Cut:
 open_whole = rois.WebSocket.open
 
 
-async def open_cut(url):
-    link = await open_whole(url)
+async def open_cut(url, token=""):
+    link = await open_whole(url, token)
     Cut(link, bytes_of_next_link.get())
     return link
 

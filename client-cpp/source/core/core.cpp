@@ -23,7 +23,7 @@ Settings within_bounds(Settings settings) {
 Core::Core(Settings settings, Observers observers)
     : settings_{within_bounds(std::move(settings))},
       observers_{std::move(observers)},
-      target_{client::read_url(settings_.url)},
+      target_{client::read_url(settings_.url, settings_.token)},
       name_{std::random_device{}()},
       session_{settings_.session},
       random_{name_} {}

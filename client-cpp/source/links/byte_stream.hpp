@@ -35,6 +35,7 @@ Layered make_stream(Executor const& executor, asio::ssl::context* context) {
 // the file, if it cannot be read.
 inline std::unique_ptr<asio::ssl::context> trust(Settings const& settings) {
     auto context = std::make_unique<asio::ssl::context>(asio::ssl::context::tls_client);
+    SSL_CTX_set_min_proto_version(context->native_handle(), TLS1_2_VERSION);
     context->set_default_verify_paths();
     error_code error;
     if (!settings.ca_file.empty()) context->load_verify_file(settings.ca_file, error);

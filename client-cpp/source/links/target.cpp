@@ -1,5 +1,6 @@
 #include "links/target.hpp"
 
+#include <boost/asio/ip/address.hpp>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -26,9 +27,15 @@ bool is_port(std::string_view text) {
     return number && *number > 0 && *number < 65'536 && text.find_first_not_of("0123456789") == text.npos;
 }
 
+bool is_this_machine(std::string const& host) {
+    boost::system::error_code is_a_name;
+    auto const address = boost::asio::ip::make_address(host, is_a_name);
+    return is_a_name ? equal_ignoring_case(host, "localhost") : address.is_loopback();
+}
+
 }  // namespace
 
-Target read_url(std::string_view url) {
+Target read_url(std::string_view url, std::string_view token) {
     auto const mark = url.find("://");
     auto const scheme = lower_case(url.substr(0, mark));
     bool const tls = scheme == "https" || scheme == "wss";
@@ -53,6 +60,9 @@ Target read_url(std::string_view url) {
     target.host = authority.substr(literal ? 1 : 0, literal ? bracket - 1 : colon);
     if (colon != authority.npos) target.port = authority.substr(colon + 1);
     if (target.host.empty() || !is_port(target.port)) complain(url);
+    if (!tls && !token.empty() && !is_this_machine(target.host))
+        throw std::invalid_argument{"a token is not sent to " + quoted(target.host) +
+                                    " without TLS, because others could read it: expected https:// or wss://"};
     return target;
 }
 

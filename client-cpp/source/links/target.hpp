@@ -18,7 +18,8 @@ struct Target {
     Security security = Security::plain;
 };
 
-// Throws std::invalid_argument if the text is not a URL of http, https, ws or wss.
-Target read_url(std::string_view url);
+// Throws std::invalid_argument if the text is not a URL of http, https, ws or wss, or if the token would be sent to another
+// machine without TLS. `token`: empty if there is none.
+Target read_url(std::string_view url, std::string_view token = {});
 
 }  // namespace rois::client

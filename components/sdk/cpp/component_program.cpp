@@ -61,7 +61,8 @@ EngineProfile profile_of_program(std::string const& name, std::string const& ins
 }
 
 // The program is a small engine with a gateway on the loopback, which joins as a robot's gateway does.
-bool serve(std::string const& url, std::string const& name, Make const& make) {
+bool serve(remote::Joining const& joining, Make const& make) {
+    auto const& name = joining.name;
     Readers readers;
     auto const instance = fresh_secret();
     auto const profiles = xml::read_component_profiles(schemas(), files::profiles());
@@ -84,18 +85,25 @@ bool serve(std::string const& url, std::string const& name, Make const& make) {
     net::Settings settings;
     settings.port = 0;
     net::Server server{settings, gateway, telemetry, documents, schemas()};
-    engines.join({.url = url, .name = name, .own_gateway = [&server] { return server.connect(); }});
+    auto own = joining;
+    own.own_gateway = [&server] { return server.connect(); };
+    engines.join(std::move(own));
     return server.run();
 }
 
 int serve(int argc, char const* const* argv, std::string name, Make const& make) {
     CLI::App program{"Components of a RoIS engine"};
-    std::string url = "ws://127.0.0.1:8080";
-    program.add_option("--url", url, "the gateway to join")->envname("ROIS_URL")->capture_default_str();
-    program.add_option("--name", name, "the name by which the program joins")->envname("ROIS_NAME")->capture_default_str();
+    remote::Joining joining{.url = "ws://127.0.0.1:8080", .name = std::move(name), .own_gateway = {}};
+    program.add_option("--url", joining.url, "the gateway to join")->envname("ROIS_URL")->capture_default_str();
+    program.add_option("--name", joining.name, "the name by which the program joins")
+        ->envname("ROIS_NAME")
+        ->capture_default_str();
+    program.add_option("--token", joining.token, "the token that the gateway expects")->envname("ROIS_TOKEN");
+    program.add_option("--ca-file", joining.ca_file, "certificates that the gateway may have, besides those of the system")
+        ->envname("ROIS_CA_FILE");
     CLI11_PARSE(program, argc, argv);
     try {
-        return serve(url, name, make) ? 0 : not_halted;
+        return serve(joining, make) ? 0 : not_halted;
     } catch (std::exception const& error) {
         std::fprintf(stderr, "%s: %s\n", argv[0], error.what());
         return could_not_start;

@@ -280,15 +280,16 @@ class WebSocket:
         self.last_received = time.monotonic()
 
     @classmethod
-    async def open(cls, url):
+    async def open(cls, url, token=""):
         parts = urllib.parse.urlsplit(url)
         secure = parts.scheme in ("wss", "https")
         reader, writer = await asyncio.open_connection(parts.hostname, parts.port or (443 if secure else 80), ssl=secure or None)
         key = base64.b64encode(os.urandom(16)).decode()
+        bearer = f"Authorization: Bearer {token}\r\n" if token else ""
         writer.write(
             f"GET {parts.path.rstrip('/')}/rois/engines HTTP/1.1\r\nHost: {parts.netloc}\r\n"
             "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-            f"Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Protocol: rois.xml.v1\r\n\r\n".encode()
+            f"Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Protocol: rois.xml.v1\r\n{bearer}\r\n".encode()
         )
         status, _, fields = (await reader.readuntil(b"\r\n\r\n")).decode("latin-1").partition("\r\n")
         expected = base64.b64encode(hashlib.sha1((key + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11").encode()).digest()).decode()
@@ -336,8 +337,9 @@ class WebSocket:
 class Service:
     """Answers the engine's requests, each in a task of its own. The session survives a lost link for `window` seconds."""
 
-    def __init__(self, name, components):
+    def __init__(self, name, components, token=""):
         self.name = name
+        self.token = token  # that the gateway expects; empty: none
         self.instance = uuid.uuid4().hex
         self.components = {each.ref: each for each in components}
         self.loop = None
@@ -683,7 +685,7 @@ class Service:
 
 async def join(service, url):
     """Joins, and answers until the link ends."""
-    socket = await within(5, asyncio.ensure_future(WebSocket.open(url)))
+    socket = await within(5, asyncio.ensure_future(WebSocket.open(url, service.token)))
     try:
         socket.send(f"<join {NAMES} name={quoteattr(service.name)} instance={quoteattr(service.instance)}/>".encode())
         response = ElementTree.fromstring(await within(5, asyncio.ensure_future(socket.next())))
@@ -725,18 +727,37 @@ async def keep_joined(service, url):
         await service.end_session(1.5)  # the gateway kills a program after 2 s
 
 
+def is_safe(url):
+    """Whether a token can be sent there: nobody else on the network can read it."""
+    parts = urllib.parse.urlsplit(url)
+    host = parts.hostname or ""
+    return parts.scheme in ("wss", "https") or host in ("localhost", "::1") or host.startswith("127.")
+
+
 def run(url, name, components):
-    """Serves the components until SIGTERM or SIGINT. --url and --name, or ROIS_URL and ROIS_NAME, replace the given ones."""
+    """Serves the components until SIGTERM or SIGINT. --url and --name, or ROIS_URL and ROIS_NAME, replace the given ones.
+    ROIS_TOKEN is the token that the gateway expects, if it expects one."""
     parser = argparse.ArgumentParser(description="Components of a RoIS engine.")
     parser.add_argument("--url", default=os.environ.get("ROIS_URL", url), help="the gateway to join")
     parser.add_argument("--name", default=os.environ.get("ROIS_NAME", name), help="the name by which the program joins")
     arguments = parser.parse_args()
     logging.basicConfig(level=logging.INFO, format="%(levelname)s %(message)s")
 
+    token = os.environ.get("ROIS_TOKEN", "")
+    if token and not is_safe(arguments.url):
+        parser.error("ROIS_TOKEN is not sent to another machine without TLS: expected --url wss://...")
+
     async def until_signal():
+        loop, task = asyncio.get_running_loop(), asyncio.current_task()
+
+        def end(*_):
+            for number in (signal.SIGTERM, signal.SIGINT):
+                signal.signal(number, signal.SIG_IGN)  # a second one must not interrupt the halt
+            loop.call_soon_threadsafe(task.cancel)
+
         for number in (signal.SIGTERM, signal.SIGINT):
-            asyncio.get_running_loop().add_signal_handler(number, asyncio.current_task().cancel)
-        await keep_joined(Service(arguments.name, components), arguments.url)
+            signal.signal(number, end)
+        await keep_joined(Service(arguments.name, components, token), arguments.url)
 
     with contextlib.suppress(asyncio.CancelledError):  # another exception ends the program with an exit code that is not 0
         asyncio.run(until_signal())

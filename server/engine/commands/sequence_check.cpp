@@ -87,7 +87,7 @@ std::optional<Objection> SequenceCheck::objection(CommandMessage const& message)
 
 std::optional<Objection> SequenceCheck::command(CommandMessage const& message, std::string const& path) {
     begins_something_ = begins_something_ || begins_action(message.command_type);
-    auto [component, problem_of_ref] = registry_.meant(message.component_ref);
+    auto [component, problem_of_ref] = registry_.meant(message.component_ref, session_);
     if (component == nullptr) return bad_parameter(std::move(problem_of_ref));
     if (component->bound_to != &session_)
         return Objection{ReturnCode::error, "the component " + quoted(component->ref().code) + " is not bound by this session"};

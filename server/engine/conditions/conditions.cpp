@@ -35,7 +35,7 @@ std::vector<RegisteredComponent*> Engine::Core::select(Selection const& selectio
     auto const does_not_match = [&](auto const* component) {
         return selection.match(present.candidate(*component)) != Match::yes;
     };
-    auto found = registry_.possible(selection.filter().demand(), seen_by(selection.filter())).rest();
+    auto found = registry_.possible(selection.filter().demand(), seen_by(asker, selection.filter())).rest();
     std::erase_if(found, does_not_match);
     if (present.knows_groups()) {
         auto preferred = found;
@@ -55,7 +55,7 @@ std::vector<RegisteredComponent*> Engine::Core::select(Selection const& selectio
 Engine::Core::ToBind Engine::Core::select_to_bind(Selection const& selection, Session const& asker) const {
     Perspective present{registry_, places_, &asker, Perspective::Of::present};
     Preference const preference{asker};
-    auto possible = registry_.possible(selection.filter().demand(), seen_by(selection.filter())).rest();
+    auto possible = registry_.possible(selection.filter().demand(), commanded_by(asker, selection.filter())).rest();
     preference.order(possible);
     ToBind to_bind;
     auto& found = to_bind.components;

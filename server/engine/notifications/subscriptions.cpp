@@ -79,7 +79,8 @@ Subscription& Subscriptions::add(Session& session, std::string const& event_type
     if (added) {
         session.predicates += subscription->filter.predicates();
         session.condition_bytes += subscription->filter.text_bytes();
-        subscribers.insert(place, {&session, session.number, session.events.slot, session.notifications.get(), inline_results});
+        subscribers.insert(place, {&session, session.number, session.events.slot, session.notifications.get(),
+                                   session.rights.get(), inline_results});
     } else {
         place->inline_results = inline_results;
     }
@@ -134,7 +135,7 @@ std::vector<Subscription*> Subscriptions::possible(std::string_view event_type, 
     };
     add(of_type.without_demand);
     if (auto const alike = of_type.by_type.find(component.type_key()); alike != of_type.by_type.end()) add(alike->second);
-    if (component.is_member) std::erase_if(all, [](auto const* each) { return seen_by(each->filter) == Members::hidden; });
+    if (component.is_member) std::erase_if(all, [](auto const* each) { return members_for(each->filter) == Members::hidden; });
     if (auto const of_ref = of_type.by_ref.find(component.ref().code); of_ref != of_type.by_ref.end()) add(of_ref->second);
     auto const again = std::ranges::unique(all);
     all.erase(again.begin(), again.end());
@@ -147,7 +148,8 @@ std::set<Session*> Subscriptions::possible_subscribers(RegisteredComponent const
         if (message.kind != MessageKind::event) continue;
         for (auto const* subscription : possible(message.name, component))
             if (subscription->filter.match(ever.candidate(component)) != Match::no)
-                for (auto const& subscriber : subscription->subscribers) sessions.insert(subscriber.session);
+                for (auto const& subscriber : subscription->subscribers)
+                    if (may_see(subscriber.rights, component.ref().code)) sessions.insert(subscriber.session);
     }
     return sessions;
 }

@@ -19,6 +19,7 @@ namespace rois {
 
 class NotificationQueue;
 class RegisteredComponent;
+class Rights;
 struct Session;
 
 // An event type and a condition, and the sessions that subscribed to this pair.
@@ -35,6 +36,7 @@ struct Subscription {
         std::uint64_t number;      // number of the session
         std::uint32_t slot;        // copy of the session's slot in Details, to read it without the session
         NotificationQueue* queue;  // copy of the session's queue, likewise
+        Rights const* rights;      // copy of the session's rights, likewise
         bool inline_results;
     };
     std::vector<Subscriber> subscribers;  // ordered by session number

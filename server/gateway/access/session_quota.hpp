@@ -1,54 +1,61 @@
-// Limits the open sessions of a connection and of a remote address.
+// Limits the open sessions of a connection, and of a remote address or token.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <unordered_map>
+#include <utility>
 
 #include "gateway/access/addresses.hpp"
+#include "gateway/access/principal.hpp"
 
 namespace rois {
 
-// A connection that opens sessions.
-struct Opener {
+// A connection, and who sends its present request.
+struct Client {
     Address address{};
     Limits limits = Limits::none;
-    std::size_t sessions = 0;  // open sessions that it has opened; only the quota uses it
+    std::shared_ptr<Principal const> principal{};  // null: the gateway asks for no tokens, or the client is in this process
+    std::size_t sessions = 0;                      // open sessions that it has opened; only the quota uses it
+
+    Rights const* rights() const { return principal ? principal->rights.get() : nullptr; }
 };
 
-// A session counts for the connection that opened it and for that connection's address until the session ends, whichever
-// connections use it later. Not thread-safe: the gateway's mutex guards it.
+// A session counts for the connection that opened it, and for its token, or else for that connection's address, until the session
+// ends, whichever connections use it later. Not thread-safe: the gateway's mutex guards it.
 class SessionQuota {
 public:
     SessionQuota(std::size_t most_of_connection, std::size_t most_of_address)
         : most_of_connection_{most_of_connection}, most_of_address_{most_of_address} {}
 
     enum class Verdict : std::uint8_t { open, full_connection, full_address };
-    Verdict verdict(Opener const& opener) const {
-        if (opener.limits == Limits::none) return Verdict::open;
-        if (opener.sessions >= most_of_connection_) return Verdict::full_connection;
-        if (opener.limits == Limits::of_connection) return Verdict::open;
-        auto const counted = of_address_.find(opener.address);
-        bool const full = counted != of_address_.end() && counted->second >= most_of_address_;
+    Verdict verdict(Client const& client) const {
+        bool const has_token = client.principal != nullptr;
+        if (client.limits != Limits::none && client.sessions >= most_of_connection_) return Verdict::full_connection;
+        if (client.limits != Limits::all && !has_token) return Verdict::open;
+        auto const counted = of_holder_.find(holder_of(client));
+        bool const full = counted != of_holder_.end() && counted->second >= most_of_address_;
         return full ? Verdict::full_address : Verdict::open;
     }
 
-    void opened(std::uint64_t session, std::shared_ptr<Opener> opener) {
-        auto& of_address = of_address_[opener->address];
-        auto& counted = *openers_.emplace(session, std::move(opener)).first->second;
-        ++counted.sessions;
-        ++of_address;
+    void opened(std::uint64_t session, std::shared_ptr<Client> client) {
+        auto holder = holder_of(*client);
+        auto& of_holder = of_holder_[holder];
+        auto& opened = openers_.try_emplace(session, std::move(client), std::move(holder)).first->second;
+        ++opened.client->sessions;
+        ++of_holder;
     }
 
     void ended(std::uint64_t session) {
         auto const found = openers_.find(session);
         if (found == openers_.end()) return;
-        auto& opener = *found->second;
-        --opener.sessions;
-        auto const counted = of_address_.find(opener.address);
-        if (--counted->second == 0) of_address_.erase(counted);
+        auto& [client, holder] = found->second;
+        --client->sessions;
+        auto const counted = of_holder_.find(holder);
+        if (--counted->second == 0) of_holder_.erase(counted);
         openers_.erase(found);
     }
 
@@ -56,10 +63,23 @@ public:
     std::size_t most_of_address() const { return most_of_address_; }
 
 private:
+    // Whom a session counts for.
+    struct Holder {
+        Address address{};  // zero if there is a token
+        std::shared_ptr<Principal const> principal;
+        auto operator<=>(Holder const&) const = default;
+    };
+    static Holder holder_of(Client const& client) { return {client.principal ? Address{} : client.address, client.principal}; }
+
+    struct Opener {
+        std::shared_ptr<Client> client;
+        Holder holder;
+    };
+
     std::size_t most_of_connection_;
     std::size_t most_of_address_;
-    std::unordered_map<std::uint64_t, std::shared_ptr<Opener>> openers_;  // by the session's number
-    std::map<Address, std::size_t> of_address_;
+    std::unordered_map<std::uint64_t, Opener> openers_;  // by the session's number
+    std::map<Holder, std::size_t> of_holder_;
 };
 
 }  // namespace rois

@@ -23,6 +23,13 @@ constexpr std::size_t most_to_keep = 16 * 1024;    // bytes of memory that an em
 constexpr auto longest_linger = std::chrono::seconds{2};
 constexpr auto longest_wait_without_memory = std::chrono::milliseconds{100};  // for a request while the system has no memory
 
+Fault only_joining() { return {FaultCode::not_allowed, "programs can only join here: expected GET /rois/engines"}; }
+
+std::optional<HttpAnswer> refusal_of_role(Role role, Role least) {
+    if (role >= least) return {};
+    return answer_of(not_allowed_for(role, least));
+}
+
 }  // namespace
 
 // Lets a connection take the answers that have come. It may outlive the connection.
@@ -42,7 +49,7 @@ Connection::Connection(Loop& loop, Socket socket, Admission::Place place, Loop::
     : loop_{loop},
       from_{from},
       place_{std::move(place)},
-      opener_{std::make_shared<Opener>(place_.address(), place_.limits(), 0U)},
+      client_{std::make_shared<Client>(place_.address(), place_.limits())},
       wire_{std::move(socket), loop.shared().settings.write_timeout, loop.shared().telemetry},
       counted_{std::in_place, loop.shared().telemetry, Telemetry::Kind::http} {
     loop.add(*this);
@@ -65,22 +72,25 @@ Task<> Connection::run() {
     wire_.cut();
 }
 
-// The WebSocket of an engine that joins goes to the layer that asks this engine.
+// The WebSocket of an engine that joins goes to the layer that asks this engine. With TLS or a token, only its bytes do: this
+// connection cuts it when the token is revoked.
 Task<> Connection::hand_over() {
     co_await flush();
     std::ostringstream head;
     head << head_.message << wire_.text();
     auto const& join = loop_.shared().settings.join;
-    if (!wire_.is_secure()) co_return join(wire_.release(), head.str());
+    if (!wire_.is_secure() && !client_->principal) co_return join(wire_.release(), head.str());
     wire_.use(wire_.text().size());
     LocalSocket inside{loop_.executor()}, outside{loop_.executor()};
     asio::local::connect_pair(inside, outside);
     join(UniqueDescriptor{outside.release()}, head.str());
+    has_joined_ = true;
     co_await relay(wire_, inside);
 }
 
 void Connection::sweep(Steady at) {
     wire_.sweep(at);
+    if (has_joined_ && client_->principal && client_->principal->is_over()) wire_.cut();
     auto const websocket = websocket_.lock();
     if (websocket) websocket->sweep(at);
     auto const& memory = loop_.shared().gateway.memory();
@@ -107,7 +117,7 @@ void Connection::shut_down() {
 // Plain HTTP on a port with TLS gets an answer in plain HTTP.
 Task<Connection::Then> Connection::secure() {
     auto const& settings = loop_.shared().settings;
-    if (!settings.credentials || from_ == Loop::From::this_process) co_return Then::next;
+    if (!settings.credentials || from_ != Loop::From::network) co_return Then::next;
     idle_ = true;
     idle_due_ = std::chrono::steady_clock::now() + settings.idle_timeout;
     auto const due = std::chrono::steady_clock::now() + settings.handshake_timeout;
@@ -143,10 +153,10 @@ Task<Connection::Then> Connection::serve() {
             PendingAnswer answer;
             if (LongDocuments::is_long(body.size())) {
                 co_await flush();  // answers to earlier requests do not wait for this one
-                answer = co_await shared.long_documents.answer(shared.gateway, session_, body, Via::http, waker_, opener_,
+                answer = co_await shared.long_documents.answer(shared.gateway, session_, body, Via::http, waker_, client_,
                                                                loop_.wakes());
             } else {
-                answer = shared.gateway.answer(loop_.reader(), session_, body, Via::http, waker_, opener_);
+                answer = shared.gateway.answer(loop_.reader(), session_, body, Via::http, waker_, client_);
             }
             wire_.use(head_.content_length);
             if (answer.is_disconnect()) {
@@ -201,13 +211,46 @@ Connection::Then Connection::take_head() {
 
 // Answers a request that its head alone makes invalid. Otherwise sets `has_head_`.
 Connection::Then Connection::judge_head() {
+    auto const& settings = loop_.shared().settings;
     route_ = route_of(head_.path);
-    auto const refused = refusal(head_, route_, loop_.shared().settings);
+    auto refused = refusal_of_other_sites(head_, settings);
+    if (!refused) refused = identify();
+    if (!refused) refused = refusal(head_, route_, settings);
+    bool const is_program = from_ == Loop::From::programs;
+    if (!refused && is_program && route_.endpoint != Endpoint::engines) refused = answer_of(only_joining());
+    if (!refused && client_->principal)
+        refused = refusal_of_role(client_->principal->role, least_role_for(route_.endpoint, head_));
     has_head_ = !refused;
     if (!refused) return Then::next;
     if (head_.content_length > wire_.received().size()) return reply(*refused, Framed::last);
     wire_.use(head_.content_length);
     return reply(*refused);
+}
+
+// Finds out who sends the request. Returns an answer if a token is needed, and missing or wrong.
+std::optional<HttpAnswer> Connection::identify() {
+    bool const is_program = from_ == Loop::From::programs;
+    auto* const tokens = is_program ? loop_.shared().settings.program_tokens : loop_.shared().gateway.tokens();
+    if (tokens == nullptr || from_ == Loop::From::this_process) return {};
+    auto const token = head_.token();
+    bool const same = client_->principal && !client_->principal->is_over() && token == token_;
+    if (same) return {};
+    client_->principal = Principal::nobody();
+    token_.clear();
+    bool is_one_too_many = false;
+    if (token) {
+        auto found =
+            tokens->holder(*token, place_.address(), {std::chrono::steady_clock::now(), std::chrono::system_clock::now()});
+        if (auto* const holder = std::get_if<Tokens::Holder>(&found)) {
+            client_->principal = std::move(*holder);
+            token_ = *token;
+            return {};
+        }
+        is_one_too_many = std::get<Tokens::Refused>(found) == Tokens::Refused::too_many;
+    }
+    if (is_for_everyone(route_.endpoint) && !is_program) return {};
+    if (!is_one_too_many) return answer_of(unauthorized());
+    return answer_of({FaultCode::too_many, "too many wrong tokens from this address: try again in a minute"});
 }
 
 // Sends the waiting answers, then waits for input. Returns `next` if there is some.
@@ -294,22 +337,24 @@ Task<Connection::Then> Connection::serve_other() {
     // Decision 34. Stops first: the log and the answer need memory.
     bool const stops = route_.endpoint == Endpoint::stop;
     if (stops || route_.endpoint == Endpoint::clear) {
-        auto const state = stops ? shared.gateway.stop_everything() : shared.gateway.clear();
+        auto state = stops ? shared.gateway.stop_everything() : shared.gateway.clear();
+        state.not_halted = seen_by(client_->principal.get(), std::move(state.not_halted));
         spdlog::warn("{}, as asked by {}", stops ? "everything is stopped" : "commands may start again", wire_.peer());
         co_return reply(HttpAnswer{.body = xml::encode(state)});
     }
     if (route_.endpoint == Endpoint::notifications) co_return co_await serve_notifications();
-    co_return reply(shared.documents.answer(route_, head_));
+    co_return reply(shared.documents.answer(route_, head_, client_->principal.get()));
 }
 
 Connection::Then Connection::serve_upgrade() {
     auto const& shared = loop_.shared();
     if (shared.gateway.shutting_down()) return reply(answer_of(shutting_down()));
     bool const joins = route_.endpoint == Endpoint::engines;
-    if (joins && (!shared.settings.join || !is_loopback(place_.address())))
-        return reply(answer_of(
-            {FaultCode::not_allowed,
-             "joining is not allowed: expected a connection from this machine, and the key engines in the configuration"}));
+    bool const is_trusted = client_->principal != nullptr || is_loopback(place_.address());
+    if (joins && (!shared.settings.join || !is_trusted))
+        return reply(answer_of({FaultCode::not_allowed,
+                                "joining is not allowed: expected a token or a connection from this machine, and the key engines "
+                                "in the configuration"}));
     auto const answer = upgrade(head_);
     if (answer.status != http::status::switching_protocols) return reply(answer);
     if (joins) return Then::engine;  // client::accepted_link sends the answer to the handshake
@@ -323,7 +368,7 @@ Task<> Connection::serve_websocket() {
     head_ = {};
     std::string{}.swap(out_);
     counted_.emplace(loop_.shared().telemetry, Telemetry::Kind::websocket);
-    auto const websocket = std::make_shared<WebSocket>(std::shared_ptr<Wire>{shared_from_this(), &wire_}, loop_, opener_);
+    auto const websocket = std::make_shared<WebSocket>(std::shared_ptr<Wire>{shared_from_this(), &wire_}, loop_, client_);
     websocket_ = websocket;
     if (loop_.draining()) websocket->shut_down();
     co_await websocket->run();
@@ -339,12 +384,12 @@ Task<Connection::Then> Connection::serve_notifications() {
     co_await flush();
     if (wanted.as == NotificationsWanted::As::stream && head_.verb() == http::verb::get) {
         counted_.emplace(shared.telemetry, Telemetry::Kind::stream);
-        auto const refused = co_await stream(wire_, loop_, session_, wanted);
+        auto const refused = co_await stream(wire_, loop_, session_, client_->rights(), wanted);
         if (!refused) co_return Then::linger;
         counted_.emplace(shared.telemetry, Telemetry::Kind::http);
         co_return reply(*refused);
     }
-    auto const answer = co_await poll(wire_, loop_, session_, wanted);
+    auto const answer = co_await poll(wire_, loop_, session_, client_->rights(), wanted);
     co_return reply(answer);
 }
 

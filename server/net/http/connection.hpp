@@ -44,6 +44,7 @@ private:
     Then take_request();
     Then take_head();
     Then judge_head();
+    std::optional<HttpAnswer> identify();
     Task<Then> receive();
     Task<Then> serve_other();
     Then serve_upgrade();
@@ -74,7 +75,8 @@ private:
     std::size_t index_ = 0;  // index among the loop's connections; only the loop uses it
     Loop::From const from_;
     Admission::Place place_;
-    std::shared_ptr<Opener> opener_;
+    std::shared_ptr<Client> client_;
+    std::string token_;  // of the client's principal, if there is one
     Wire wire_;
     std::optional<Telemetry::Counted> counted_;
     // The current request:
@@ -98,6 +100,7 @@ private:
     std::string out_;                          // answers for the next write
     std::vector<Hold> holds_;                  // keep notifications behind these answers
     std::weak_ptr<WebSocket> websocket_;
+    bool has_joined_ = false;  // its bytes are passed on
 };
 
 }  // namespace rois::net

@@ -16,7 +16,6 @@ namespace {
 
 void secure(HttpAnswer& answer, std::string_view policy) {
     answer.fields.set("Content-Security-Policy", policy);
-    answer.fields.set("X-Content-Type-Options", "nosniff");
     answer.fields.set("Referrer-Policy", "no-referrer");
 }
 
@@ -64,20 +63,21 @@ Documents::Documents(Gateway const& gateway, Telemetry const& telemetry, xml::Sc
       style_policy_{"default-src 'none'; style-src 'sha256-" + sha256_base64(style_of(site_.page)) +
                     "'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"} {}
 
-HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const {
+HttpAnswer Documents::answer(Route const& route, RequestHead const& head, Principal const* asker) const {
+    auto const* rights = asker != nullptr ? asker->rights.get() : nullptr;
     switch (route.endpoint) {
         case Endpoint::page:
-            return site_.console.empty() ? page(head) : file_answer(site_.console.find("index.html"), head);
+            return site_.console.empty() ? page(head, rights) : file_answer(site_.console.find("index.html"), head);
         case Endpoint::plain_page:
-            return page(head);
+            return page(head, rights);
         case Endpoint::asset:
             return file_answer(site_.console.find("assets/" + route.name), head);
         case Endpoint::engine_profile: {
-            auto const profile = gateway_.profile();
+            auto const profile = gateway_.profile(rights);
             return versioned_xml(xml::encode(*profile, "engine." + profile->object.name), head);
         }
         case Endpoint::component_profile:
-            return component_profile(route.name, head);
+            return component_profile(route.name, head, rights);
         case Endpoint::schema_list:
             return versioned("text/html; charset=utf-8", schema_list_page(schemas_), head);
         case Endpoint::schema:
@@ -87,27 +87,51 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const 
         case Endpoint::healthz:
             return verdict(why_not_alive(telemetry_), "alive\n");
         case Endpoint::readyz:
-            if (gateway_.shutting_down()) return answer_of(shutting_down());
-            return verdict(why_not_ready(gateway_, telemetry_), "ready\n");
+            return readiness(asker);
         case Endpoint::engines:
-            return {.body = xml::encode(site_.engines())};
+            return {.body = xml::encode(engines(rights))};
         case Endpoint::metrics:
-            return {.body = telemetry_.text(gateway_.statistics(), site_.engines()),
+            return {.body = telemetry_.text(statistics(asker), engines(rights)),
                     .content_type = "text/plain; version=0.0.4; charset=utf-8"};
         default:
             return not_found("there is nothing here");
     }
 }
 
-HttpAnswer Documents::page(RequestHead const& head) const {
-    auto html = plain_page(site_.page, head.host(), gateway_.components(), schemas_);
+// Someone without a token does not learn what is served.
+HttpAnswer Documents::readiness(Principal const* asker) const {
+    if (gateway_.shutting_down()) return answer_of(shutting_down());
+    auto trouble = why_not_ready(gateway_, telemetry_, asker);
+    if (!trouble.empty() && asker != nullptr && asker->role == Role::nobody) trouble = "not ready\n";
+    return verdict(trouble, "ready\n");
+}
+
+// The sub engines with a component that the asker sees.
+std::vector<EngineState> Documents::engines(Rights const* rights) const {
+    auto states = site_.engines();
+    if (rights == nullptr || rights->sees_everything()) return states;
+    auto const components = gateway_.components(rights);
+    std::erase_if(states, [&](EngineState const& state) {
+        return std::ranges::none_of(components, [&](auto const& each) { return each.ref.starts_with(state.name + "."); });
+    });
+    return states;
+}
+
+EngineStatistics Documents::statistics(Principal const* asker) const {
+    auto all = gateway_.statistics();
+    for (auto& session : all.each_session) session.bound = seen_by(asker, std::move(session.bound));
+    return all;
+}
+
+HttpAnswer Documents::page(RequestHead const& head, Rights const* rights) const {
+    auto html = plain_page(site_.page, head.host(), gateway_.components(rights), schemas_);
     auto answer = versioned("text/html; charset=utf-8", std::move(html), head);
     secure(answer, style_policy_);
     return answer;
 }
 
-HttpAnswer Documents::component_profile(std::string const& ref, RequestHead const& head) const {
-    auto const components = gateway_.components();
+HttpAnswer Documents::component_profile(std::string const& ref, RequestHead const& head, Rights const* rights) const {
+    auto const components = gateway_.components(rights);
     auto const found = std::ranges::find(components, ref, &ComponentEntry::ref);
     if (found == components.end()) return not_found("unknown component " + quoted(ref) + "; /rois/profile lists the components");
     return versioned_xml(xml::encode(*found->profile, "profile." + ref), head);

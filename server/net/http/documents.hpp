@@ -31,12 +31,16 @@ class Documents {
 public:
     Documents(Gateway const&, Telemetry const&, xml::Schemas const&, Site);
 
-    // Answers a GET or HEAD of every endpoint except /rois and /rois/notifications.
-    HttpAnswer answer(Route const&, RequestHead const&) const;
+    // Answers a GET or HEAD of every endpoint except /rois and /rois/notifications, with what the asker may see; null:
+    // everything.
+    HttpAnswer answer(Route const&, RequestHead const&, Principal const* asker) const;
 
 private:
-    HttpAnswer page(RequestHead const&) const;
-    HttpAnswer component_profile(std::string const& ref, RequestHead const&) const;
+    HttpAnswer page(RequestHead const&, Rights const*) const;
+    HttpAnswer component_profile(std::string const& ref, RequestHead const&, Rights const*) const;
+    std::vector<EngineState> engines(Rights const*) const;
+    EngineStatistics statistics(Principal const*) const;
+    HttpAnswer readiness(Principal const*) const;
     HttpAnswer schema(std::string const& file, RequestHead const&) const;
 
     Gateway const& gateway_;

@@ -56,10 +56,10 @@ std::variant<NotificationsWanted, Fault> read_wanted(RequestHead const& head) {
     return wanted;
 }
 
-Task<HttpAnswer> poll(Wire& wire, Loop& loop, SessionId const& session, NotificationsWanted const& wanted) {
+Task<HttpAnswer> poll(Wire& wire, Loop& loop, SessionId const& session, Rights const* rights, NotificationsWanted const& wanted) {
     auto const until = std::chrono::steady_clock::now() + wanted.wait;
     auto const wake_up = std::make_shared<WakeUp>(wire.executor(), loop.wakes());
-    auto read = loop.shared().gateway.read(session, LinkKind::stream, wanted.after, *wake_up, Readers::Until::answered);
+    auto read = loop.shared().gateway.read(session, rights, LinkKind::stream, wanted.after, *wake_up, Readers::Until::answered);
     if (auto const* fault = std::get_if<Fault>(&read)) co_return answer_of(*fault);
     auto const reading = std::get<std::unique_ptr<Reading>>(std::move(read));
     auto taken = reading->take(most_a_poll);
@@ -78,10 +78,11 @@ Task<HttpAnswer> poll(Wire& wire, Loop& loop, SessionId const& session, Notifica
     co_return HttpAnswer{.body = std::move(document)};
 }
 
-Task<std::optional<HttpAnswer>> stream(Wire& wire, Loop& loop, SessionId const& session, NotificationsWanted const& wanted) {
+Task<std::optional<HttpAnswer>> stream(Wire& wire, Loop& loop, SessionId const& session, Rights const* rights,
+                                       NotificationsWanted const& wanted) {
     auto const& shared = loop.shared();
     auto const wake_up = std::make_shared<WakeUp>(wire.executor(), loop.wakes());
-    auto read = shared.gateway.read(session, LinkKind::stream, wanted.after, *wake_up);
+    auto read = shared.gateway.read(session, rights, LinkKind::stream, wanted.after, *wake_up);
     if (auto const* fault = std::get_if<Fault>(&read)) co_return answer_of(*fault);
     auto const reading = std::get<std::unique_ptr<Reading>>(std::move(read));
     std::string out;

@@ -24,10 +24,10 @@ std::variant<NotificationsWanted, Fault> read_wanted(RequestHead const&);
 
 // Waits until there are notifications, the time has passed, or the peer has closed the connection. Answers with a fault if the
 // session is unknown.
-Task<HttpAnswer> poll(Wire&, Loop&, SessionId const&, NotificationsWanted const&);
+Task<HttpAnswer> poll(Wire&, Loop&, SessionId const&, Rights const*, NotificationsWanted const&);
 
 // Sends events until the session or the connection ends. Returns an answer only if the session cannot be read: a fault.
-Task<std::optional<HttpAnswer>> stream(Wire&, Loop&, SessionId const&, NotificationsWanted const&);
+Task<std::optional<HttpAnswer>> stream(Wire&, Loop&, SessionId const&, Rights const*, NotificationsWanted const&);
 
 // Waits until all readers of a disconnected session have received its last notifications, for at most a second.
 Task<> wait_for_other_readers(Gateway&, SessionId const&, Executor const&, Wakes&);

@@ -41,6 +41,7 @@ bool may_have_body(http::status status) {
 void set_status(HttpAnswer& answer, FaultCode code) {
     answer.status = http::int_to_status(static_cast<unsigned>(http_status_of(code)));
     if (code == FaultCode::too_many) answer.fields.set(http::field::retry_after, "1");
+    if (code == FaultCode::unauthorized) answer.fields.set(http::field::www_authenticate, "Bearer");
 }
 
 HttpAnswer answer_of(Fault const& fault) {
@@ -69,6 +70,7 @@ void append(std::string& out, HttpAnswer const& answer, Framing framing) {
     line("Date", date());
     line("Content-Type", answer.content_type);
     line("Cache-Control", answer.cache_control);
+    line("X-Content-Type-Options", "nosniff");
     for (auto const& field : answer.fields) line(field.name_string(), field.value());
     if (has_length) line("Content-Length", std::to_string(answer.body.size()));
     if (framing.close) line("Connection", "close");

@@ -7,6 +7,7 @@
 #include <boost/none.hpp>
 #include <utility>
 
+#include "gateway/access/secrets.hpp"
 #include "types/text/texts.hpp"
 
 namespace rois::net {
@@ -67,6 +68,11 @@ bool is_folded(std::string_view head) {
     for (auto end = head.find('\n'); end < head.size() - 1; end = head.find('\n', end + 1))
         if (head[end + 1] == ' ' || head[end + 1] == '\t') return true;
     return false;
+}
+
+// Returns whether the text has visible characters of ASCII only. Random bytes, the content of a token, practically never have.
+bool is_one_word(std::string_view text) {
+    return !text.empty() && std::ranges::all_of(text, [](char c) { return c > ' ' && c < 0x7F; });
 }
 
 // Returns a fault for what Beast accepts and this gateway rejects (RFC 9112, 3.2, 5.2, 6.3).
@@ -144,6 +150,26 @@ bool RequestHead::takes_gzip() const {
             return false;
         });
     return taken;
+}
+
+std::optional<std::string> RequestHead::token() const {
+    constexpr std::string_view scheme = "Bearer ", subprotocol = "rois.bearer.";
+    std::optional<std::string> found;
+    auto const note = [&](std::string_view token) { found = found ? "" : token; };
+    for (auto const& each : message) {
+        std::string_view const value = each.value();
+        if (each.name() == http::field::authorization)
+            note(equal_ignoring_case(value.substr(0, scheme.size()), scheme) ? trimmed(value.substr(scheme.size())) : "");
+        if (each.name() == http::field::sec_websocket_protocol)
+            any_member(value, [&](std::string_view member) {
+                if (!member.starts_with(subprotocol)) return false;
+                auto const token = member.substr(subprotocol.size());
+                auto const decoded = from_base64url(token);
+                note(is_one_word(decoded) ? decoded : token);
+                return false;
+            });
+    }
+    return found;
 }
 
 std::string_view RequestHead::authority() const {

@@ -45,6 +45,10 @@ struct RequestHead {
     bool knows(std::string_view etag) const;
     // Returns whether the client accepts a body that is compressed with gzip (RFC 9110, 12.5.3).
     bool takes_gzip() const;
+    // Returns the token of the header Authorization (RFC 6750), or of a subprotocol "rois.bearer.TOKEN", because browsers cannot
+    // send the header with a WebSocket; there TOKEN may be in base64url. Returns an empty text if there are several or it is not
+    // a token, nothing if there is none.
+    std::optional<std::string> token() const;
     // The host and port that the request is for: those of the target, else those of the field Host (RFC 9112, 3.2.2).
     std::string_view authority() const;
     // The authority, for use in texts.

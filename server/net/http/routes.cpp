@@ -49,23 +49,6 @@ bool takes(Route const& route, std::string_view method) {
     return is_known_method(method) && methods_of(route.endpoint).find(method) != std::string_view::npos;
 }
 
-// Returns 421 if a Host or the target's authority is not the gateway's own, and 403 if the Origin is not allowed. A request
-// without Host is HTTP/1.0, which browsers do not send.
-std::optional<HttpAnswer> refusal_of_other_sites(RequestHead const& head, Settings const& settings) {
-    auto const host = head.field("Host");
-    auto foreign = host ? refusal_of_host(*host, settings.hosts) : std::nullopt;
-    if (!foreign && !head.target_authority.empty()) foreign = refusal_of_host(head.target_authority, settings.hosts);
-    if (foreign) {
-        auto answer = answer_of(*foreign);
-        answer.status = http::status::misdirected_request;
-        return answer;
-    }
-    if (head.message.count("Origin") == 0) return {};
-    auto const origin = head.field("Origin").value_or("");  // empty, which is never allowed, if there are two
-    if (auto const refused = refusal_of_origin(origin, head.authority(), settings.allowed_origins)) return answer_of(*refused);
-    return {};
-}
-
 HttpAnswer method_not_allowed(Route const& route, std::string_view method) {
     auto const allowed = std::string{methods_of(route.endpoint)};
     auto const reason = "the method " + quoted(method) + " is not allowed here: expected one of " + allowed;
@@ -87,8 +70,35 @@ Route route_of(std::string_view path) {
     return {};
 }
 
+// A request without Host is HTTP/1.0, which browsers do not send.
+std::optional<HttpAnswer> refusal_of_other_sites(RequestHead const& head, Settings const& settings) {
+    auto const host = head.field("Host");
+    auto foreign = host ? refusal_of_host(*host, settings.hosts) : std::nullopt;
+    if (!foreign && !head.target_authority.empty()) foreign = refusal_of_host(head.target_authority, settings.hosts);
+    if (foreign) {
+        auto answer = answer_of(*foreign);
+        answer.status = http::status::misdirected_request;
+        return answer;
+    }
+    if (head.message.count("Origin") == 0) return {};
+    auto const origin = head.field("Origin").value_or("");  // empty, which is never allowed, if there are two
+    if (auto const refused = refusal_of_origin(origin, head.authority(), settings.allowed_origins)) return answer_of(*refused);
+    return {};
+}
+
+bool is_for_everyone(Endpoint endpoint) {
+    return endpoint == Endpoint::page || endpoint == Endpoint::asset || endpoint == Endpoint::healthz ||
+           endpoint == Endpoint::readyz;
+}
+
+Role least_role_for(Endpoint endpoint, RequestHead const& head) {
+    if (is_for_everyone(endpoint)) return Role::nobody;
+    if (endpoint == Endpoint::stop || endpoint == Endpoint::clear) return Role::operator_;
+    bool const joins = endpoint == Endpoint::engines && head.message.count(http::field::upgrade) > 0;
+    return joins ? Role::engine : Role::observer;
+}
+
 std::optional<HttpAnswer> refusal(RequestHead const& head, Route const& route, Settings const& settings) {
-    if (auto refused = refusal_of_other_sites(head, settings)) return refused;
     if (route.endpoint == Endpoint::unknown && is_known_method(head.method()))
         return answer_of({FaultCode::not_found, "unknown path " + quoted(head.path) + ": docs/clients.md lists the paths"});
     if (!takes(route, head.method())) return method_not_allowed(route, head.method());

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "gateway/access/principal.hpp"
 #include "net/http/http_answer.hpp"
 #include "net/http/http_head.hpp"
 
@@ -37,8 +38,17 @@ struct Route {
 
 Route route_of(std::string_view path);
 
-// Returns the answer to a request that its head alone makes invalid: 421, 403 for an origin, 404, 405, 413 or 415, checked in
-// this order. Returns nothing if the request is to be received.
+// Returns the answer to a request of another site: 421 if a Host or the target's authority is not the gateway's own, 403 if the
+// Origin is not allowed.
+std::optional<HttpAnswer> refusal_of_other_sites(RequestHead const&, Settings const&);
+
+// Returns the answer to a request that its head alone makes invalid: 404, 405, 413 or 415, checked in this order. Returns nothing
+// if the request is to be received.
 std::optional<HttpAnswer> refusal(RequestHead const&, Route const&, Settings const&);
+
+// Returns whether the answer tells nothing that needs a token: whether the gateway works, and the files of the console.
+bool is_for_everyone(Endpoint);
+// The least role that may use the endpoint; for /rois, that of operations counts, too.
+Role least_role_for(Endpoint, RequestHead const&);
 
 }  // namespace rois::net

@@ -28,7 +28,7 @@ Steady now() { return std::chrono::steady_clock::now(); }
 
 }  // namespace
 
-WebSocket::WebSocket(std::shared_ptr<Wire> wire, Loop& loop, std::shared_ptr<Opener> opener)
+WebSocket::WebSocket(std::shared_ptr<Wire> wire, Loop& loop, std::shared_ptr<Client> client)
     : Reader{loop.wakes()},
       wire_{std::move(wire)},
       shared_{loop.shared()},
@@ -36,7 +36,7 @@ WebSocket::WebSocket(std::shared_ptr<Wire> wire, Loop& loop, std::shared_ptr<Ope
       pings_{static_cast<std::uint64_t>(received_at_.time_since_epoch().count())},
       reader_{loop.reader()},
       messages_{shared_.settings.document.bytes, shared_.settings.max_fragments},
-      opener_{std::move(opener)} {}
+      client_{std::move(client)} {}
 
 bool WebSocket::full() const {
     auto const unsent = answers_waiting_ + answers_in_out_;
@@ -101,7 +101,7 @@ void WebSocket::take(Received const& received) {
             if (LongDocuments::is_long(received.text.size()))
                 long_message_ = received.text;
             else
-                take(shared_.gateway.answer(reader_, session_, received.text, Via::websocket, weak_from_this(), opener_,
+                take(shared_.gateway.answer(reader_, session_, received.text, Via::websocket, weak_from_this(), client_,
                                             reading_.get()));
             break;
         case Received::Kind::ping:
@@ -183,7 +183,7 @@ Task<> WebSocket::pause() {
 
 Task<> WebSocket::answer_long_message() {
     auto const message = std::exchange(long_message_, {});
-    take(co_await shared_.long_documents.answer(shared_.gateway, session_, message, Via::websocket, weak_from_this(), opener_,
+    take(co_await shared_.long_documents.answer(shared_.gateway, session_, message, Via::websocket, weak_from_this(), client_,
                                                 wakes()));
 }
 
@@ -210,7 +210,7 @@ void WebSocket::join(Answer const& answer) {
     if (same && answer.turn == Answer::Turn::connected) return;
     reading_.reset();
     session_over_ = false;
-    auto read = shared_.gateway.read(session_, LinkKind::websocket, answer.last_sequence, *this);
+    auto read = shared_.gateway.read(session_, client_->rights(), LinkKind::websocket, answer.last_sequence, *this);
     if (auto* reading = std::get_if<std::unique_ptr<Reading>>(&read)) reading_ = std::move(*reading);
 }
 
@@ -267,12 +267,14 @@ void WebSocket::sweep(Steady at) {
     if (reading_) session_due_ = Steady::max();
     if (!reading_ && session_due_ == Steady::max()) session_due_ = at + shared_.settings.connect_timeout;
     bool const without_session = at >= session_due_ && !ending_;
+    bool const is_over = client_->principal && client_->principal->is_over() && !ending_;
     if (late) close({CloseCode::policy_violation, "the message did not arrive within request_timeout"});
+    if (is_over) close({CloseCode::policy_violation, "the token was revoked or has expired"});
     if (without_session) close({CloseCode::policy_violation, "no session was opened or resumed within connect_timeout"});
     bool const proof_due = at >= proof_due_ && reading_ && reading_->wants_signs_of_life(at);
     if (proof_due) proof_due_ = std::max(proof_due_ + proof_interval, at + proof_interval / 2);
     if (silent || proof_due) ping_due_ = true;
-    if (late || ping_due_ || without_session) flush();
+    if (late || ping_due_ || without_session || is_over) flush();
 }
 
 void WebSocket::shut_down() {

@@ -21,7 +21,7 @@ struct Shared;
 // otherwise `drain` writes the rest.
 class WebSocket : public Reader {
 public:
-    WebSocket(std::shared_ptr<Wire>, Loop&, std::shared_ptr<Opener>);
+    WebSocket(std::shared_ptr<Wire>, Loop&, std::shared_ptr<Client>);
 
     // Call it after the answer to the handshake. Runs until the connection ends.
     Task<> run();
@@ -100,7 +100,7 @@ private:
     std::string long_message_;  // for the other thread; no more frames are handled meanwhile
     MessageReader messages_;
     SessionId session_;
-    std::shared_ptr<Opener> opener_;
+    std::shared_ptr<Client> client_;
     std::unique_ptr<Answer> last_answer_;  // to a disconnect; waits until the session's last notifications are sent
     std::string out_;                      // the bytes that `drain` writes
 };

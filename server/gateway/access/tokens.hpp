@@ -1,0 +1,60 @@
+// The tokens of clients (docs/trust.md). Only their hashes are known.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "gateway/access/addresses.hpp"
+#include "gateway/access/principal.hpp"
+#include "types/instant.hpp"
+
+namespace rois {
+
+// Thread-safe.
+class Tokens {
+public:
+    using Holder = std::shared_ptr<Principal const>;
+
+    // `most_wrong`: wrong tokens of one address in a minute that are answered as such.
+    explicit Tokens(std::size_t most_wrong) : most_wrong_{most_wrong} {}
+
+    // Replaces all tokens. Withdraws the rights of those that are not among them, or have changed.
+    void set(std::vector<std::shared_ptr<Principal>>);
+    // Adds a token that `set` does not touch, until its rights are withdrawn.
+    void add(std::shared_ptr<Principal>);
+
+    enum class Refused : std::uint8_t {
+        wrong,    // unknown, revoked or expired
+        too_many  // likewise, and not the first one of this address
+    };
+    // Takes the same time for every wrong token. A valid token is always accepted: others behind the same address cannot keep an
+    // operator from `stop`.
+    std::variant<Holder, Refused> holder(std::string_view token, Address const& from, Instant now);
+
+    // Withdraws the rights of expired tokens. Returns whether any rights were withdrawn since the last call.
+    bool end_expired(std::chrono::system_clock::time_point now);
+
+private:
+    bool is_too_many(Address const&, Steady now);
+
+    struct Wrong {
+        std::size_t count = 0;
+        Steady since;
+    };
+
+    std::size_t const most_wrong_;
+    std::mutex mutex_;  // guards all below
+    std::vector<Holder> of_file_;
+    std::vector<Holder> added_;
+    std::map<Address, Wrong> wrong_;
+    bool some_ended_ = false;
+};
+
+}  // namespace rois

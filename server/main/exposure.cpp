@@ -1,0 +1,56 @@
+#include "main/exposure.hpp"
+
+#include <netdb.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <memory>
+
+#include "gateway/access/addresses.hpp"
+#include "types/text/address.hpp"
+#include "types/text/texts.hpp"
+
+namespace rois {
+
+namespace {
+
+// Also true for a name that cannot be resolved: the gateway does not start then.
+bool is_only_here(std::string const& host) {
+    if (auto const address = read_address(host)) return is_loopback(*address);
+    addrinfo const hints{.ai_flags = 0,
+                         .ai_family = AF_UNSPEC,
+                         .ai_socktype = SOCK_STREAM,
+                         .ai_protocol = 0,
+                         .ai_addrlen = 0,
+                         .ai_addr = nullptr,
+                         .ai_canonname = nullptr,
+                         .ai_next = nullptr};
+    addrinfo* found = nullptr;
+    if (::getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0) return true;
+    std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> const all{found, &::freeaddrinfo};
+    for (auto const* each = all.get(); each != nullptr; each = each->ai_next) {
+        std::array<char, NI_MAXHOST> text{};
+        if (::getnameinfo(each->ai_addr, each->ai_addrlen, text.data(), text.size(), nullptr, 0, NI_NUMERICHOST) != 0)
+            return false;
+        auto const address = read_address(text.data());
+        if (!address || !is_loopback(*address)) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+void check_exposure(GatewaySettings const& settings) {
+    if (!settings.tokens.empty() || settings.allow_anyone) return;
+    auto const check = [](std::string const& key, std::string const& host, std::uint16_t port) {
+        if (host.empty() || is_only_here(host)) return;
+        throw BadSettings{
+            key + ": other machines can reach " + host_and_port(host, port) +
+            ", and nobody needs a token: make one with 'rois-gateway token add NAME --role operator --tokens FILE' and "
+            "set tokens = FILE, or allow everyone with --allow-anyone"};
+    };
+    check("listen", settings.net.host, settings.net.port);
+    check("media", settings.media.host, settings.media.port);
+}
+
+}  // namespace rois

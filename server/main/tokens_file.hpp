@@ -1,0 +1,67 @@
+// The file of tokens (key `tokens`; docs/trust.md): JSON. It holds the hashes of the tokens, not the tokens.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "gateway/access/tokens.hpp"
+#include "types/instant.hpp"
+
+namespace rois {
+
+struct TokenEntry {
+    std::string name;
+    Role role = Role::nobody;
+    std::vector<std::string> components{"*"};  // patterns of the refs that it may see
+    std::vector<std::string> commands{"*"};    // and of those among them that it may bind and command
+    std::optional<Utc> expires;                // nothing: never
+    Sha256 sha256{};
+};
+
+// All functions throw BadSettings, with the file and the reason.
+std::vector<TokenEntry> read_tokens(std::string const& file);
+// Makes a token, adds its entry, and returns it. Makes the file if it does not exist.
+std::string add_token(std::string const& file, TokenEntry);
+void revoke_token(std::string const& file, std::string const& name);
+
+// Lines for a terminal: name, role, components, commands, and when it expires.
+std::string table_of(std::vector<TokenEntry> const&, Utc now);
+
+// Returns whether a token may have this name: letters, digits, '_', '-' and '.', 64 at most.
+bool is_token_name(std::string_view);
+
+// Returns the token that a file holds, without white space around it: one to send. Throws BadSettings.
+std::string token_in(std::string const& file);
+
+// When a token expires: "30d", "12h" or "45min" from now, a day in UTC (at its end), or a time such as "2027-01-31T18:00:00Z".
+// Returns nothing for another text.
+std::optional<Utc> read_expiry(std::string_view, Utc now);
+
+// Reads the file again when it has changed, on a thread of its own. If it cannot be read, logs why and changes nothing.
+class TokensFile {
+public:
+    // Reads the file; throws BadSettings if that fails. `tokens` must outlive it.
+    TokensFile(std::string file, Tokens& tokens);
+
+    // For SIGHUP. Thread-safe.
+    void read_again();
+
+private:
+    void read();
+    void watch(std::stop_token const&);
+
+    std::string const file_;
+    Tokens& tokens_;
+    std::mutex mutex_;  // guards all below
+    std::condition_variable_any changed_;
+    std::string version_;  // of the file that was read last
+    bool is_asked_ = false;
+    std::jthread thread_;
+};
+
+}  // namespace rois

@@ -1,0 +1,124 @@
+// What sessions with rights see and command (docs/trust.md).
+#include "engine/world.hpp"
+
+namespace rois {
+
+namespace {
+
+std::shared_ptr<Rights const> rights(std::vector<std::string> sees, std::vector<std::string> commands = {"*"}) {
+    return std::make_shared<Rights const>("desk", std::move(sees), std::move(commands));
+}
+
+Part named(std::string const& ref, Part part, std::string const& engine = "") {
+    part.ref = ref;
+    part.engine = engine;
+    return part;
+}
+
+struct TwoRobots : testing::Test {
+    World world{named("one.navigation", navigation, "one"), named("two.navigation", navigation, "two"), speech};
+    Application of_one = world.connect_as(rights({"one.*"}));
+};
+
+}  // namespace
+
+TEST_F(TwoRobots, ShowOnlyTheOneThatTheClientMaySee) {
+    EXPECT_THAT(of_one.search(), ElementsAre("one.navigation"));
+    EXPECT_EQ(of_one.bind_any(equal("component_ref", "two.navigation")), "UNSUPPORTED");
+    EXPECT_EQ(of_one.bind("two.navigation"), ReturnCode::bad_parameter);
+    EXPECT_EQ(of_one.bind_any(), "one.navigation");
+    auto const profile = of_one.ask(GetProfile{});
+    ASSERT_EQ(profile.components.size(), 1u);
+    EXPECT_EQ(profile.components.front().ref, "one.navigation");
+    ASSERT_EQ(profile.profile->sub_profiles.size(), 1u);
+    EXPECT_EQ(profile.profile->sub_profiles.front().object.name, "one");
+    EXPECT_THAT(profile.profile->components, IsEmpty());
+    EXPECT_EQ(of_one.query("route", equal("component_ref", "two.navigation")).return_code, ReturnCode::unsupported);
+    EXPECT_EQ(of_one.query("component_status", equal("component_ref", "speech")).return_code, ReturnCode::unsupported);
+    EXPECT_EQ(of_one.query("route").component_ref.code, "one.navigation");
+}
+
+TEST_F(TwoRobots, SendOnlyTheEventsOfTheOne) {
+    auto everyone = world.connect();
+    of_one.subscribe("reached_target");
+    everyone.subscribe("reached_target");  // the same subscription
+    world["two.navigation"].fires("reached_target");
+    world["one.navigation"].fires("reached_target");
+    EXPECT_THAT(of_one.received(), ElementsAre("1 reached_target one.navigation"));
+    EXPECT_THAT(everyone.received(), ElementsAre("1 reached_target two.navigation", "2 reached_target one.navigation"));
+}
+
+TEST_F(TwoRobots, SendOnlyTheErrorsOfTheOne) {
+    of_one.subscribe("reached_target");
+    world["two.navigation"].reports(ErrorType::component_internal_error, "the wheel of two");
+    world["one.navigation"].reports(ErrorType::component_internal_error, "the wheel of one");
+    EXPECT_THAT(of_one.received(), ElementsAre("1 COMPONENT_INTERNAL_ERROR one.navigation"));
+}
+
+TEST_F(TwoRobots, TellAnotherEngineOnlyTheStateOfTheOne) {
+    auto engine =
+        world.connect_as(rights({"one.*"}), {.motion_lease = {}, .motion_lease_http = {}, .motion_proof = {}, .is_engine = true});
+    world.advance(50ms);
+    EXPECT_THAT(engine.received(), ElementsAre("1 component_changed one.navigation READY"));
+}
+
+TEST(Rights, LetTheEngineKeepAnEventThatNobodyMayReceive) {
+    EngineSettings settings;
+    settings.max_kept_events = 10;
+    World world{{navigation, speech}, settings};
+    auto blind = world.connect_as(rights({"speech"}));
+    auto desk = world.connect();
+    auto const subscribed = desk.subscribe("reached_target");
+    desk.unsubscribe(subscribed.subscribe_id);
+    EXPECT_EQ(blind.subscribe("reached_target").return_code, ReturnCode::unsupported);
+    world["navigation"].fires("reached_target");
+    EXPECT_THAT(blind.received(), IsEmpty());
+    desk.subscribe("reached_target");
+    EXPECT_THAT(desk.received(), ElementsAre("1 reached_target navigation"));
+}
+
+TEST_F(TwoRobots, NameOnlyTheOneThatDoesNotHalt) {
+    world["one.navigation"].halts_later = world["two.navigation"].halts_later = true;
+    EXPECT_THAT(of_one.ask(StopEverything{}).not_halted, ElementsAre("one.navigation"));
+}
+
+TEST(Rights, ToSeeAreNotThoseToCommand) {
+    World world{navigation, speech};
+    auto desk = world.connect_as(rights({"*"}, {"speech"}));
+    EXPECT_EQ(desk.refusal_of(Bind{Application::identifier("navigation")}), Refusal::not_allowed);
+    EXPECT_EQ(desk.bind_any(equal("component_ref", "navigation")), "UNSUPPORTED");
+    EXPECT_EQ(desk.bind_any(), "speech");
+    EXPECT_THAT(desk.search(), ElementsAre("navigation", "speech"));
+    EXPECT_EQ(desk.status_of("navigation"), "READY");
+}
+
+TEST(Rights, BelongToTheirSessions) {
+    World world{navigation};
+    auto const own = rights({"*"}), equal = rights({"*"});
+    auto desk = world.connect_as(own);
+    auto const with = [&](std::shared_ptr<Rights const> const& other) {
+        return world.engine->begin_to_handle(desk.session, GetProfile{}, world.now, other)->said.value();
+    };
+    EXPECT_TRUE(std::holds_alternative<Reply>(with(own)));
+    EXPECT_EQ(std::get<Refusal>(with(equal)), Refusal::no_session) << "they are compared by address";
+    EXPECT_EQ(std::get<Refusal>(with(nullptr)), Refusal::no_session);
+    auto const resumed = world.engine->begin_to_handle({}, Resume{desk.session, 0}, world.now, equal);
+    EXPECT_EQ(std::get<Refusal>(resumed->said.value()), Refusal::no_session);
+}
+
+TEST(Rights, ThatAreWithdrawnEndTheirSessions) {
+    World world{navigation, speech};
+    auto const of_desk = rights({"*"});
+    auto desk = world.connect_as(of_desk);
+    auto other = world.connect_as(rights({"*"}));
+    desk.bind("navigation");
+    desk.execute(go("go-1"));
+    desk.received();
+    of_desk->withdraw();
+    world.engine->end_withdrawn(world.now);
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go-1 ABORT"));
+    EXPECT_TRUE(desk.notifications_closed());
+    EXPECT_EQ(other.bind("navigation"), ReturnCode::ok);
+}
+
+}  // namespace rois

@@ -1,0 +1,252 @@
+// Tokens: who may connect, and what each holder sees and may do.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "server/application.hpp"
+#include "server/token_file.hpp"
+#include "server/websocket_client.hpp"
+
+namespace rois::test {
+
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+struct Tokens : testing::Test {
+    TokenFile file;
+
+    // What a gateway answers to an operation: its fault, or else its return code.
+    static std::string outcome(kit::HttpClient& client, std::string const& operation, Xml const& children = {},
+                               Attributes const& attributes = {}) {
+        auto const reply = client.call(operation, children, attributes);
+        return reply.fault().empty() ? reply.return_code() : reply.fault();
+    }
+    static std::string bind(kit::HttpClient& client, std::string const& ref) {
+        return outcome(client, "bind", component_ref(ref));
+    }
+};
+
+std::string post(std::string const& path, std::string const& more = {}) {
+    return "POST " + path + " HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/xml\r\nContent-Length: 0\r\n" + more +
+           "\r\n";
+}
+
+}  // namespace
+
+TEST_F(Tokens, AreNeededForEverythingButHealthAndTheFilesOfTheConsole) {
+    file.add("desk", "operator");
+    GatewayProcess const gateway{file.of_gateway()};
+    HttpClient stranger{gateway};
+    EXPECT_EQ(stranger.get("/healthz").status, 200);
+    EXPECT_EQ(stranger.get("/readyz").status, 200);
+    EXPECT_EQ(stranger.get("/").status, 200);
+    for (auto const* path : {"/rois", "/rois/profile", "/rois/profile/navigation", "/rois/schemas", "/rois/map", "/rois/engines",
+                             "/rois/notifications", "/metrics", "/plain", "/nothing"}) {
+        auto const reply = stranger.get(path);
+        EXPECT_EQ(reply.status, 401) << path;
+        EXPECT_EQ(reply.fault(), "unauthorized") << path;
+        EXPECT_EQ(reply.header("WWW-Authenticate"), "Bearer") << path;
+        EXPECT_THAT(reply.body, Not(HasSubstr("navigation"))) << path;
+    }
+    for (auto const* path : {"/rois", "/rois/stop", "/rois/clear"}) EXPECT_EQ(stranger.say(post(path)).status, 401) << path;
+    EXPECT_EQ(kit::shake_hands(stranger).status, 401);
+    EXPECT_EQ(kit::shake_hands(stranger, {}, "/rois/engines").status, 401);
+}
+
+TEST_F(Tokens, AreRefusedInTheSameWayForEveryReason) {
+    auto const revoked = file.add("gone", "operator"), valid = file.add("desk", "operator");
+    EXPECT_EQ(file.run({"revoke", "gone"}).exit_code, 0);
+    GatewayProcess const gateway{file.of_gateway()};
+    HttpClient stranger{gateway};
+    auto const missing = stranger.get("/rois/profile").body;
+    auto const two = "Bearer " + valid + "\r\nAuthorization: Bearer " + valid;
+    for (auto const& field :
+         {"Bearer " + revoked, "Bearer " + valid + "x", "Basic " + valid, std::string{"Bearer"}, valid, two}) {
+        auto const reply = stranger.get("/rois/profile", {{"Authorization", field}});
+        EXPECT_EQ(reply.status, 401) << field;
+        EXPECT_EQ(reply.body, missing) << field;
+    }
+    EXPECT_EQ(stranger.get("/rois/profile", {{"authorization", "bearer " + valid}}).status, 200);
+    EXPECT_EQ(stranger.get("/rois/profile?token=" + valid).status, 401) << "never in a URL";
+}
+
+TEST_F(Tokens, MayBeASecondSubprotocolBecauseBrowsersSendNoHeader) {
+    auto const token = file.add("console", "observer");
+    GatewayProcess const gateway{file.of_gateway()};
+    auto const with = [&](std::string const& subprotocols) {
+        HttpClient browser{gateway};
+        return kit::shake_hands(browser, {{"Sec-WebSocket-Protocol", subprotocols}});
+    };
+    auto const accepted = with("rois.xml.v1, rois.bearer." + token);
+    EXPECT_EQ(accepted.status, 101);
+    EXPECT_EQ(accepted.header("Sec-WebSocket-Protocol"), "rois.xml.v1");
+    auto const encoded = run_shell("printf %s '" + token + "' | base64 -w0 | tr '+/' '-_' | tr -d =").out;
+    EXPECT_EQ(with("rois.xml.v1, rois.bearer." + encoded).status, 101);
+    EXPECT_EQ(with("rois.xml.v1, rois.bearer.x" + token).status, 401);
+    EXPECT_EQ(with("rois.xml.v1, rois.bearer." + token + ", rois.bearer." + token).status, 401);
+}
+
+TEST_F(Tokens, HaveRoles) {
+    auto const observer = file.add("watcher", "observer"), service = file.add("desk", "operator");
+    auto const engine = file.add("main", "engine"), administrator = file.add("chief", "administrator");
+    GatewayProcess const gateway{file.of_gateway()};
+    auto const as_engine = Attributes{{"role", "engine"}};
+
+    kit::HttpClient watcher{with_token(observer, gateway)};
+    EXPECT_EQ(outcome(watcher, "connect", {}, as_engine), "not_allowed");
+    EXPECT_EQ(outcome(watcher, "connect"), "OK");
+    EXPECT_EQ(outcome(watcher, "get_profile"), "OK");
+    EXPECT_EQ(outcome(watcher, "search"), "OK");
+    EXPECT_EQ(outcome(watcher, "query", text_element("query_type", "engine_status")), "OK");
+    EXPECT_EQ(outcome(watcher, "subscribe", text_element("event_type", "person_detected")), "OK");
+    auto const refused = watcher.call("bind", component_ref("navigation"));
+    EXPECT_EQ(refused.status, 403);
+    EXPECT_EQ(refused.reason(), "the token has the role observer: expected at least operator");
+    EXPECT_EQ(outcome(watcher, "bind_any"), "not_allowed");
+    EXPECT_EQ(outcome(watcher, "release", component_ref("navigation")), "not_allowed");
+    auto const stop = "RoIS-Session: " + watcher.session + "\r\nAuthorization: Bearer " + observer + "\r\n";
+    EXPECT_EQ(watcher.say(post("/rois/stop", stop)).status, 403);
+    EXPECT_EQ(watcher.say(post("/rois/clear", stop)).status, 403);
+    EXPECT_EQ(watcher.get("/metrics").status, 200);
+
+    for (auto const& token : {service, engine, administrator}) {
+        kit::HttpClient client{with_token(token, gateway)};
+        EXPECT_EQ(outcome(client, "connect", {}, token == service ? Attributes{} : as_engine), "OK");
+        EXPECT_EQ(bind(client, "navigation"), "OK");
+        EXPECT_EQ(client.say(post("/rois/stop", "Authorization: Bearer " + token + "\r\n")).status, 200);
+        EXPECT_EQ(client.say(post("/rois/clear", "Authorization: Bearer " + token + "\r\n")).status, 200);
+    }
+    kit::HttpClient desk{with_token(service, gateway)};
+    EXPECT_EQ(outcome(desk, "connect", {}, as_engine), "not_allowed");
+    EXPECT_EQ(kit::shake_hands(desk, {}, "/rois/engines").status, 403);
+}
+
+TEST_F(Tokens, HideComponentsFromTheirHolders) {
+    auto const token = file.add("speaker", "operator", {"--components", "speech_*", "--components", "system_information"});
+    auto const all = file.add("desk", "operator");
+    GatewayProcess const gateway{file.of_gateway()};
+    kit::HttpClient desk{with_token(all, gateway)}, speaker{with_token(token, gateway)};
+    desk.call("connect");
+    EXPECT_EQ(bind(desk, "navigation"), "OK");
+
+    EXPECT_EQ(outcome(speaker, "connect"), "OK");
+    for (auto const* path : {"/rois/profile", "/plain", "/metrics"}) {
+        auto const seen = speaker.get(path).body;
+        EXPECT_THAT(seen, Not(HasSubstr("navigation"))) << path;
+        EXPECT_THAT(desk.get(path).body, HasSubstr("navigation")) << path;
+    }
+    EXPECT_THAT(speaker.get("/rois/profile").body, HasSubstr("speech_synthesis"));
+    EXPECT_EQ(speaker.get("/rois/profile/speech_synthesis").status, 200);
+    EXPECT_EQ(speaker.get("/rois/profile/navigation").status, 404);
+    EXPECT_THAT(speaker.call("get_profile").body, AllOf(HasSubstr("speech_synthesis"), Not(HasSubstr("navigation"))));
+    EXPECT_THAT(speaker.call("search").body, AllOf(HasSubstr("speech_synthesis"), Not(HasSubstr("navigation"))));
+
+    auto const of_unknown = [&](std::string const& operation, std::string const& ref) {
+        auto reason = speaker.call(operation, component_ref(ref)).reason();
+        return reason.replace(reason.find(ref), ref.size(), "X");
+    };
+    for (auto const* operation : {"bind", "release", "get_parameter"}) {
+        EXPECT_EQ(outcome(speaker, operation, component_ref("navigation")), "BAD_PARAMETER") << operation;
+        EXPECT_EQ(of_unknown(operation, "navigation"), of_unknown(operation, "nothing_at_all")) << operation;
+    }
+    EXPECT_EQ(bind(speaker, "speech_synthesis"), "OK");
+    EXPECT_EQ(outcome(speaker, "subscribe", text_element("event_type", "person_detected")), "UNSUPPORTED");
+    EXPECT_EQ(speaker.call("subscribe", text_element("event_type", "person_detected")).reason(),
+              "no component has the event 'person_detected'");
+    EXPECT_EQ(outcome(speaker, "query", text_element("query_type", "navigation_status")),
+              outcome(speaker, "query", text_element("query_type", "nothing_at_all")));
+}
+
+TEST_F(Tokens, LimitWhatTheirHoldersCommand) {
+    auto const token = file.add("speaker", "operator", {"--commands", "speech_synthesis"});
+    GatewayProcess const gateway{file.of_gateway()};
+    kit::HttpClient speaker{with_token(token, gateway)};
+    speaker.call("connect");
+    EXPECT_EQ(bind(speaker, "speech_synthesis"), "OK");
+    auto const refused = speaker.call("bind", component_ref("navigation"));
+    EXPECT_EQ(refused.status, 403);
+    EXPECT_EQ(refused.reason(), "the token may see this component, but not command it");
+    EXPECT_EQ(outcome(speaker, "subscribe", text_element("event_type", "person_detected")), "OK");
+    EXPECT_THAT(speaker.call("bind_any").text("component_ref"), "") << "it has bound the only one";
+    EXPECT_THAT(speaker.call("bind_any").body, HasSubstr("\"speech_synthesis\""));
+}
+
+TEST_F(Tokens, OwnTheirSessions) {
+    auto const one = file.add("one", "operator"), two = file.add("two", "operator");
+    GatewayProcess const gateway{file.of_gateway()};
+    kit::HttpClient owner{with_token(one, gateway)}, thief{with_token(two, gateway)};
+    owner.call("connect");
+    thief.session = owner.session;
+    auto const stolen = thief.call("get_profile");
+    EXPECT_EQ(stolen.fault(), "no_session");
+    EXPECT_EQ(thief.notifications(0, 0).fault(), "no_session");
+    kit::WebSocketClient link{with_token(two, gateway)};
+    auto const resumed = link.call("resume", {}, {{"session", owner.session}, {"last_sequence", "0"}});
+    EXPECT_STREQ(resumed.name(), "fault");
+    thief.session = "made-up";
+    EXPECT_EQ(thief.call("get_profile").body, stolen.body) << "the same text as for an unknown session";
+    thief.session.clear();
+    EXPECT_EQ(outcome(owner, "get_profile"), "OK");
+    kit::WebSocketClient own{with_token(one, gateway)};
+    EXPECT_STREQ(own.call("resume", {}, {{"session", owner.session}, {"last_sequence", "0"}}).attribute("return_code").value(),
+                 "OK");
+}
+
+TEST_F(Tokens, EndTheSessionsOfARevokedOneWithinASecond) {
+    auto const token = file.add("desk", "operator"), other = file.add("other", "operator");
+    GatewayProcess const gateway{file.of_gateway()};
+    kit::HttpClient colleague{with_token(other, gateway)};
+    colleague.call("connect");
+    kit::WebSocketClient desk{with_token(token, gateway)};
+    desk.call("connect");
+    EXPECT_STREQ(desk.call("bind", component_ref("navigation")).attribute("return_code").value(), "OK");
+    kit::HttpClient over_http{with_token(token, gateway)}, stream{with_token(token, gateway)};
+    over_http.call("connect");
+    stream.session = over_http.session;
+    EXPECT_EQ(stream.get("/rois/notifications", {{"Accept", "text/event-stream"}}).status, 200);
+
+    EXPECT_EQ(file.run({"revoke", "desk"}).exit_code, 0);
+    auto const revoked_at = std::chrono::steady_clock::now();
+    EXPECT_EQ(desk.await_close(), 1008);
+    EXPECT_TRUE(stream.line().ends());
+    EXPECT_LT(std::chrono::steady_clock::now() - revoked_at, std::chrono::seconds{1});
+    EXPECT_EQ(over_http.call("get_profile").status, 401);
+    over_http.session.clear();
+    stream.session.clear();
+    EXPECT_EQ(bind(colleague, "navigation"), "OK") << "the component is free, and other sessions go on";
+}
+
+TEST_F(Tokens, ThatAreWrongGet429AfterTenInAMinute) {
+    auto const token = file.add("desk", "operator");
+    GatewayProcess const gateway{file.of_gateway()};
+    HttpClient stranger{gateway};
+    auto const guess = [&] { return stranger.get("/rois/profile", {{"Authorization", "Bearer guess"}}).status; };
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(guess(), 401) << i;
+    EXPECT_EQ(guess(), 429);
+    EXPECT_EQ(stranger.get("/rois/profile").status, 401) << "without a token";
+    EXPECT_EQ(stranger.get("/rois/profile", {{"Authorization", "Bearer " + token}}).status, 200)
+        << "another client behind this address must be able to stop the robot";
+    EXPECT_EQ(guess(), 429);
+}
+
+TEST_F(Tokens, CountTheSessionsOfTheirHolders) {
+    auto const one = file.add("one", "operator"), two = file.add("two", "operator");
+    GatewayProcess const gateway{file.of_gateway({"--max-sessions-per-address", "2"})};
+    std::vector<std::unique_ptr<kit::HttpClient>> clients;
+    auto const connect = [&](std::string const& token) {
+        auto& client = clients.emplace_back(std::make_unique<kit::HttpClient>(with_token(token, gateway)));
+        return client->call("connect");
+    };
+    EXPECT_EQ(connect(one).status, 200);
+    EXPECT_EQ(connect(one).status, 200);
+    auto const third = connect(one);
+    EXPECT_EQ(third.status, 429);
+    EXPECT_THAT(third.reason(), HasSubstr("this token has 2 sessions open already"));
+    EXPECT_EQ(connect(two).status, 200);
+}
+
+}  // namespace rois::test

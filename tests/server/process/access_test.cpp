@@ -1,0 +1,140 @@
+// The command `rois-gateway token`, and what the gateway refuses to serve without tokens.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "server/http_client.hpp"
+#include "server/token_file.hpp"
+
+namespace rois::test {
+
+namespace {
+
+using testing::HasSubstr;
+
+void expect_complaint(Ended const& ended, std::string const& wanted) {
+    EXPECT_EQ(ended.exit_code, 2);
+    EXPECT_THAT(ended.error, HasSubstr(wanted));
+    EXPECT_EQ(std::ranges::count(ended.error, '\n'), 1) << ended.error;
+    EXPECT_EQ(ended.out, "");
+}
+
+std::string content_of(std::string const& file) {
+    std::ostringstream text;
+    text << std::ifstream{file}.rdbuf();
+    return text.str();
+}
+
+}  // namespace
+
+TEST(TokenCommand, KeepsOnlyTheHashInAFileForItsOwner) {
+    TokenFile const file;
+    auto const token = file.add("desk", "operator");
+    EXPECT_TRUE(std::regex_match(token, std::regex{"[A-Za-z0-9_-]{43}"})) << "256 bits in base64url: " << token;
+    EXPECT_NE(file.add("other", "operator"), token);
+    auto const kept = content_of(file.name());
+    EXPECT_THAT(kept, Not(HasSubstr(token)));
+    auto const hash = run_shell("printf %s '" + token + "' | sha256sum").out.substr(0, 64);
+    EXPECT_THAT(kept, HasSubstr(hash));
+    struct stat found {};
+    ASSERT_EQ(::stat(file.name().c_str(), &found), 0);
+    EXPECT_EQ(found.st_mode & 0777, 0600);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator{file.folder()}, {}), 1) << "no other file is left";
+}
+
+TEST(TokenCommand, ListsWhatTokensAllow) {
+    TokenFile const file;
+    file.add("watcher", "observer", {"--components", "speech_*"});
+    file.add("desk", "operator", {"--commands", "navigation", "--commands", "move", "--expires", "2099-12-31"});
+    EXPECT_EQ(file.run({"list"}).out,
+              "NAME     ROLE      COMPONENTS  COMMANDS          EXPIRES\n"
+              "watcher  observer  speech_*    none              never\n"
+              "desk     operator  *           navigation, move  2100-01-01T00:00:00.000Z\n");
+}
+
+TEST(TokenCommand, SaysWhatIsWrong) {
+    TokenFile const file;
+    file.add("desk", "operator");
+    expect_complaint(file.run({"add", "desk", "--role", "observer"}), "there is a token with the name 'desk' already");
+    expect_complaint(file.run({"add", "d k", "--role", "observer"}), "NAME must be letters, digits");
+    expect_complaint(file.run({"add", "x", "--role", "king"}),
+                     "--role must be one of observer, operator, engine, administrator, not 'king'");
+    expect_complaint(file.run({"add", "x"}), "--role is required");
+    expect_complaint(file.run({"add", "x", "--role", "observer", "--expires", "soon"}), "--expires must be a time in the future");
+    expect_complaint(file.run({"add", "x", "--role", "observer", "--expires", "2001-01-01"}),
+                     "--expires must be a time in the future");
+    expect_complaint(file.run({"add", "x", "--role", "observer", "--components", ""}), "--components must be a pattern");
+    expect_complaint(file.run({"revoke", "nobody"}), "there is no token with the name 'nobody'");
+    expect_complaint(file.run({}), "A subcommand is required");
+    expect_complaint(run_gateway({"token", "list"}), "expected the file of tokens in --tokens FILE");
+    expect_complaint(run_gateway({"token", "list", "--tokens", "/nowhere/at.all"}), "cannot read '/nowhere/at.all'");
+    expect_complaint(run_gateway({"token", "add", "x", "--role", "observer", "--tokens", "/nowhere/at.all"}),
+                     "cannot change '/nowhere/at.all': No such file or directory");
+}
+
+TEST(TokenCommand, LosesNoTokenWhenManyAreAddedAtOnce) {
+    TokenFile const file;
+    std::string commands;
+    for (int i = 0; i < 8; ++i)
+        commands += std::string{kit::gateway_program} + " token add t" + std::to_string(i) + " --role observer --tokens " +
+                    file.name() + " & ";
+    run_shell("(" + commands + "wait) 2>/dev/null");
+    auto const listed = file.run({"list"}).out;
+    EXPECT_EQ(std::ranges::count(listed, '\n'), 9) << listed;
+}
+
+TEST(FileOfTokens, MustBeValidAndForItsOwnerOnly) {
+    TokenFile const file;
+    auto const refused = [&](std::string const& text, std::string const& wanted) {
+        std::ofstream{file.name()} << text;
+        expect_complaint(run_gateway({"--tokens", file.name(), "--check-config"}), wanted);
+    };
+    std::string const hash(64, 'a');
+    refused("", ": this is not JSON");
+    refused(R"({"tokens": 3})", R"(expected only "tokens": [ ... ])");
+    refused("{\"tokens\": [\n{\"name\": \"x\"}]}", ":2:1: role must be one of observer, operator, engine, administrator");
+    refused(R"({"tokens": [{"name": "x", "role": "observer", "sha256": "123"}]})", "sha256 must be 64 hexadecimal digits");
+    refused(R"({"tokens": [{"name": "x", "role": "observer", "sha256": ")" + hash + R"(", "expires": "soon"}]})",
+            "expires must be a time");
+    refused(R"({"tokens": [{"name": "x", "role": "observer", "sha256": ")" + hash + R"(", "components": "a"}]})",
+            "components must be a list of patterns");
+    refused(R"({"tokens": [{"name": "x", "role": "observer", "sha256": ")" + hash + R"(", "rights": 1}]})",
+            "'rights' is not a key of a token");
+    std::filesystem::permissions(file.name(), std::filesystem::perms::group_write, std::filesystem::perm_options::add);
+    refused(R"({"tokens": []})", "others may write");
+    expect_complaint(run_gateway({"--tokens", "/nowhere/at.all"}), "cannot read '/nowhere/at.all': No such file or directory");
+}
+
+TEST(FileOfTokens, ThatBecomesInvalidChangesNothing) {
+    TokenFile const file;
+    auto const token = file.add("desk", "operator");
+    GatewayProcess gateway{file.of_gateway()};
+    std::ofstream{file.name()} << "{";
+    EXPECT_THAT(gateway.log_with("the tokens are those of before"), HasSubstr(file.name() + ":1:2: this is not JSON"));
+    kit::HttpClient desk{with_token(token, gateway)};
+    EXPECT_EQ(desk.get("/rois/profile").status, 200);
+}
+
+TEST(WithoutTokens, OnlyThisMachineIsServed) {
+    for (auto const* flag : {"--listen", "--media"})
+        for (auto const* address : {"0.0.0.0:0", "[::]:0", "192.0.2.1:1"}) {
+            auto const wanted =
+                std::string{flag}.substr(2) + ": other machines can reach " + address + ", and nobody needs a token";
+            expect_complaint(run_gateway({flag, address}), wanted);
+            expect_complaint(run_gateway({flag, address, "--check-config"}), wanted);
+        }
+    TokenFile const file;
+    file.add("desk", "operator");
+    EXPECT_EQ(run_gateway({"--listen", "0.0.0.0:0", "--check-config", "--tokens", file.name()}).exit_code, 0);
+    EXPECT_EQ(run_gateway({"--listen", "0.0.0.0:0", "--check-config", "--allow-anyone"}).exit_code, 0);
+    EXPECT_EQ(run_gateway({"--listen", "0.0.0.0:0", "--check-config"}, {{"ROIS_ALLOW_ANYONE", "yes"}}).exit_code, 0);
+    EXPECT_EQ(run_gateway({"--listen", "localhost:0", "--media", "[::1]:0", "--check-config"}).exit_code, 0);
+}
+
+}  // namespace rois::test
