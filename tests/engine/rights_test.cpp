@@ -15,14 +15,14 @@ Part named(std::string const& ref, Part part, std::string const& engine = "") {
     return part;
 }
 
-struct TwoRobots : testing::Test {
+struct OneOfTwoRobots : testing::Test {
     World world{named("one.navigation", navigation, "one"), named("two.navigation", navigation, "two"), speech};
     Application of_one = world.connect_as(rights({"one.*"}));
 };
 
 }  // namespace
 
-TEST_F(TwoRobots, ShowOnlyTheOneThatTheClientMaySee) {
+TEST_F(OneOfTwoRobots, ShowOnlyTheOneThatTheClientMaySee) {
     EXPECT_THAT(of_one.search(), ElementsAre("one.navigation"));
     EXPECT_EQ(of_one.bind_any(equal("component_ref", "two.navigation")), "UNSUPPORTED");
     EXPECT_EQ(of_one.bind("two.navigation"), ReturnCode::bad_parameter);
@@ -38,7 +38,7 @@ TEST_F(TwoRobots, ShowOnlyTheOneThatTheClientMaySee) {
     EXPECT_EQ(of_one.query("route").component_ref.code, "one.navigation");
 }
 
-TEST_F(TwoRobots, SendOnlyTheEventsOfTheOne) {
+TEST_F(OneOfTwoRobots, SendOnlyTheEventsOfTheOne) {
     auto everyone = world.connect();
     of_one.subscribe("reached_target");
     everyone.subscribe("reached_target");  // the same subscription
@@ -48,14 +48,14 @@ TEST_F(TwoRobots, SendOnlyTheEventsOfTheOne) {
     EXPECT_THAT(everyone.received(), ElementsAre("1 reached_target two.navigation", "2 reached_target one.navigation"));
 }
 
-TEST_F(TwoRobots, SendOnlyTheErrorsOfTheOne) {
+TEST_F(OneOfTwoRobots, SendOnlyTheErrorsOfTheOne) {
     of_one.subscribe("reached_target");
     world["two.navigation"].reports(ErrorType::component_internal_error, "the wheel of two");
     world["one.navigation"].reports(ErrorType::component_internal_error, "the wheel of one");
     EXPECT_THAT(of_one.received(), ElementsAre("1 COMPONENT_INTERNAL_ERROR one.navigation"));
 }
 
-TEST_F(TwoRobots, TellAnotherEngineOnlyTheStateOfTheOne) {
+TEST_F(OneOfTwoRobots, TellAnotherEngineOnlyTheStateOfTheOne) {
     auto engine =
         world.connect_as(rights({"one.*"}), {.motion_lease = {}, .motion_lease_http = {}, .motion_proof = {}, .is_engine = true});
     world.advance(50ms);
@@ -77,7 +77,7 @@ TEST(Rights, LetTheEngineKeepAnEventThatNobodyMayReceive) {
     EXPECT_THAT(desk.received(), ElementsAre("1 reached_target navigation"));
 }
 
-TEST_F(TwoRobots, NameOnlyTheOneThatDoesNotHalt) {
+TEST_F(OneOfTwoRobots, NameOnlyTheOneThatDoesNotHalt) {
     world["one.navigation"].halts_later = world["two.navigation"].halts_later = true;
     EXPECT_THAT(of_one.ask(StopEverything{}).not_halted, ElementsAre("one.navigation"));
 }

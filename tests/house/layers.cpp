@@ -46,7 +46,7 @@ struct Layer {
 std::vector<Layer> const layers{
     {"server/types/", {"types/"}, {posix}, Time::passed_in},
     {"server/xml/", {"xml/", "types/"}, {xerces, pugixml}, Time::passed_in},
-    {"server/engine/", {"engine/", "types/"}, {eigen, boost_geometry}, Time::passed_in},
+    {"server/engine/", {"engine/", "types/"}, {eigen, boost_geometry, {"fnmatch.h"}}, Time::passed_in},
     {"server/files/", {"files/"}, {}, Time::passed_in},
     {"server/gateway/",
      {"gateway/", "engine/", "xml/", "types/"},

@@ -233,7 +233,7 @@ std::optional<HttpAnswer> Connection::identify() {
     auto* const tokens = is_program ? loop_.shared().settings.program_tokens : loop_.shared().gateway.tokens();
     if (tokens == nullptr || from_ == Loop::From::this_process) return {};
     auto const token = head_.token();
-    bool const same = client_->principal && !client_->principal->is_over() && token == token_;
+    bool const same = !token_.empty() && token == token_ && !client_->principal->is_over();
     if (same) return {};
     client_->principal = Principal::nobody();
     token_.clear();

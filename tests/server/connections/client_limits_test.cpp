@@ -305,7 +305,7 @@ TEST_F(ClientLimits, LetEnginesJoinFromTheLoopbackOnly) {
 TEST(SessionQuota, CountsSessionsUntilTheyEnd) {
     using Verdict = SessionQuota::Verdict;
     auto const here = read_address("192.0.2.1").value();
-    auto const make = [&](Limits limits) { return std::make_shared<Opener>(Opener{here, limits, 0}); };
+    auto const make = [&](Limits limits) { return std::make_shared<Client>(Client{here, limits}); };
     auto const first = make(Limits::all), second = make(Limits::all), local = make(Limits::of_connection),
                proxy = make(Limits::none);
     SessionQuota quota{2, 3};

@@ -103,7 +103,7 @@ TEST(FloorMap, OfAnEngineWithoutOneIsNotFound) {
     Telemetry telemetry;
     Gateway gateway{engine, readers, telemetry};
     net::Documents const documents{gateway, telemetry, schemas, {}};
-    auto const answer = documents.answer(net::route_of("/rois/map"), {});
+    auto const answer = documents.answer(net::route_of("/rois/map"), {}, nullptr);
     EXPECT_EQ(answer.status, net::http::status::not_found);
     ASSERT_TRUE(answer.fault);
     EXPECT_EQ(answer.fault->code, FaultCode::not_found);
