@@ -15,8 +15,11 @@ namespace rois::command {
 namespace {
 
 // The configuration keys of rois-gateway (server/main/keys.cpp) as variables.
-constexpr std::array<std::string_view, 68> keys{"ROIS_ALLOWED_ORIGINS",
+constexpr std::array<std::string_view, 71> keys{"ROIS_ALLOWED_ORIGINS",
                                                 "ROIS_ALLOW_ANYONE",
+                                                "ROIS_AUDIT_LOG",
+                                                "ROIS_AUDIT_LOG_BYTES",
+                                                "ROIS_AUDIT_LOG_FILES",
                                                 "ROIS_COMMAND_RESULTS",
                                                 "ROIS_CONNECT_TIMEOUT",
                                                 "ROIS_ENGINES",

@@ -179,6 +179,7 @@ private:
         auto& bind =
             command("bind", "bind components, and hold them until interrupted, or in the background with --session-file");
         words(bind, "REF", "components");
+        bind.add_flag("--take-over", options_.take_over, "halt the components, and take them from sessions that have bound them");
         switching(bind);
         conditioned(bind);
         bounded(bind, "hold them for this time");

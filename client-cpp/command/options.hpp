@@ -51,6 +51,7 @@ struct Options {
     bool results = false;
     bool check = false;
     bool check_only = false;
+    bool take_over = false;              // bind: from the session that has bound the component
     std::optional<Switching> switching;  // of bindings; empty: that of the present binding, or none
     bool quiet = false;
 };

@@ -15,6 +15,14 @@ Task<Component> Client::bind(std::string ref, Switching switching) {
     co_return Component{inside, std::move(bound)};
 }
 
+Task<Component> Client::take_over(std::string ref, Switching switching) {
+    auto const inside = core();
+    Bind operation{{.code = std::move(ref), .authority = {}, .codebook_ref = {}, .version = {}}, switching, true};
+    auto bound = operation.component_ref;
+    co_await asked(inside, std::move(operation), "take over ", bound.code);
+    co_return Component{inside, std::move(bound)};
+}
+
 Task<Component> Client::bind_any(QueryExpression condition, Switching switching) {
     auto const inside = core();
     BindAny operation{std::move(condition), switching};

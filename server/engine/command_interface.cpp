@@ -124,8 +124,35 @@ Engine::Core::Later Engine::Core::perform(Session& session, Bind const& bind_, S
         asked->refuse(Refusal::not_allowed);
         return {};
     }
+    if (auto problem = bind_.take_over ? take_over(session, *component, now) : std::nullopt)
+        return refused<Bind::Reply>(ReturnCode::error, *std::move(problem));
     return bind_one(session, asked, {component->shared_from_this(), {.session = session.number, .switching = bind_.switching}},
                     now.steady + settings_.question_deadline, now);
+}
+
+// Releases the component for the session that has bound it, which is told why. Returns why that is not possible, or nullopt. The
+// `bind` then waits until the component has confirmed its halt.
+std::optional<std::string> Engine::Core::take_over(Session const& session, RegisteredComponent& component, Instant now) {
+    auto* const previous = component.bound_to;
+    if (previous == nullptr || previous == &session) return {};
+    if (previous->owner != nullptr)
+        return "the component " + quoted(component.ref().code) + " acts for the component " +
+               quoted(previous->owner->ref().code) + ", which stands for it: take over that one";
+    auto const by = session.rights ? quoted(session.rights->holder()) : "the session number " + std::to_string(session.number);
+    auto const reason = "its component was taken over by " + by;
+    Attempts attempts;
+    attempts([&] { executor_.release(*previous, component, now, reason); });
+    attempts([&] { journal_->taken_over(session.number, previous->number, component.ref().code); });
+    attempts([&] { unbind(*previous, component, now); });
+    attempts([&] {
+        auto const error = noted({component.shared_from_this(), ErrorType::user_defined_error,
+                                  "the component " + quoted(component.ref().code) + " was taken over by " + by},
+                                 now);
+        errors_.add_receiver(previous->errors.slot);
+        notifier_.notify(*previous, error);
+    });
+    attempts.rethrow();
+    return {};
 }
 
 Engine::Core::Later Engine::Core::bind_one(Session& session, SharedAsked const& asked, ToBindNow const& wanted, Steady until,

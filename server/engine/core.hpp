@@ -142,6 +142,7 @@ private:
     };
     Reply bind(Session&, ToBindNow const&, Instant now);
     void order_members(RegisteredComponent const& logical, Session const&);
+    std::optional<std::string> take_over(Session const&, RegisteredComponent&, Instant now);
     Later bind_one(Session&, SharedAsked const&, ToBindNow const&, Steady until, Instant now);
     Later bind_first(Session&, SharedAsked const&, std::vector<ToBindNow> candidates, Steady until, Instant now);
     std::optional<Objection> why_not_now(Session const&, bool begins, bool lasts, std::size_t commands);

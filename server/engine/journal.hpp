@@ -21,6 +21,8 @@ public:
     virtual void session_ended(std::uint64_t /*session*/, std::string_view /*why*/) {}
     virtual void bound(std::uint64_t /*session*/, std::string const& /*ref*/) {}
     virtual void released(std::uint64_t /*session*/, std::string const& /*ref*/) {}
+    // The session takes the component from another one, which then releases it.
+    virtual void taken_over(std::uint64_t /*session*/, std::uint64_t /*from*/, std::string const& /*ref*/) {}
     // The component did not confirm a halt. The engine repeats the halt until it does (decision 35).
     virtual void halt_failed(std::string const& /*ref*/, std::string_view /*why*/) {}
     virtual void halted_at_last(std::string const& /*ref*/) {}

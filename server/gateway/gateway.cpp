@@ -33,6 +33,11 @@ std::optional<Fault> why_not_allowed(Principal const& principal, Request const& 
     return fault;
 }
 
+// An entry of the audit log with the client's name and address.
+AuditEntry entry(std::string_view what, Client const& client) {
+    return {.what = what, .token = client.name(), .address = text_of(Network{client.address})};
+}
+
 }  // namespace
 
 Hold::Hold(Gateway& gateway, std::shared_ptr<NotificationQueue> queue)
@@ -247,7 +252,10 @@ PendingAnswer Gateway::answer(xml::RequestReader& reader, SessionId const& sessi
                         {},
                         request.request_id});
     if (client && client->principal)
-        if (auto fault = why_not_allowed(*client->principal, request)) return refused(std::move(*fault));
+        if (auto fault = why_not_allowed(*client->principal, request)) {
+            note_refusal(*client, operation_name(request.operation), fault->code);
+            return refused(std::move(*fault));
+        }
     return perform(session, std::move(request), via, std::move(waits), client, reading, begun);
 }
 
@@ -299,6 +307,12 @@ PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via 
     engine_.handle(exchange, now);
     auto const number = log_.take_joined();
     exchange->session_opened(number);
+    if (number != 0 && client) {
+        log_.session_is_of(number, client->name());
+        auto joined = entry(connects ? "connected" : "resumed", *client);
+        joined.session = number;
+        audit_(joined);
+    }
     if (opens && number != 0) quota_.opened(number, client);
     // The `connect` of a session counts as a sign of life (decision 2).
     if (auto const* reply = exchange->reply(); reply && via == Via::http && !known && connects)
@@ -349,6 +363,18 @@ std::variant<std::unique_ptr<Reading>, Fault> Gateway::read(SessionId const& ses
     reading->is_of_engine_ = engine_.is_engine(session);
     reading->queue_ = std::move(queue);
     return reading;
+}
+
+void Gateway::audit_to(Audit audit) {
+    log_.audit_to(audit);
+    audit_ = std::move(audit);
+}
+
+void Gateway::note_refusal(Client const& client, std::string_view operation, FaultCode code) const {
+    auto refused = entry("refused", client);
+    refused.operation = operation;
+    refused.outcome = to_text(code);
+    audit_(refused);
 }
 
 void Gateway::begin() {
@@ -425,19 +451,21 @@ std::vector<std::string> Gateway::change(ComponentChange change) {
     return left_out;
 }
 
-StopState Gateway::stop_everything() {
+StopState Gateway::stop_everything(Client const* asked_by) {
     auto const now = present();
     Lock lock{*this};
     Attempts attempts;
     attempts([&] { engine_.stop_everything(now); });
     attempts([&] { engine_.work(lock, now); });
+    if (asked_by != nullptr) attempts([&] { audit_(entry("stopped everything", *asked_by)); });
     attempts.rethrow();
     return {engine_.everything_is_stopped(), engine_.not_halted()};
 }
 
-StopState Gateway::clear() {
+StopState Gateway::clear(Client const* asked_by) {
     Lock const lock{*this};
     engine_.clear();
+    if (asked_by != nullptr) audit_(entry("cleared the stop", *asked_by));
     return {engine_.everything_is_stopped(), engine_.not_halted()};
 }
 

@@ -182,6 +182,11 @@ public:
     // Null: clients need no token.
     Tokens* tokens() const { return tokens_; }
 
+    // Sets where clients' actions are noted. Call it before the first request.
+    void audit_to(Audit);
+    // Notes that a client was refused before an operation was performed.
+    void note_refusal(Client const&, std::string_view operation, FaultCode) const;
+
     // Halts all components and starts the engine's clock. Call it once, before the first request.
     void begin();
 
@@ -200,8 +205,8 @@ public:
     std::vector<std::string> change(ComponentChange);
 
     // Stop for everything (decision 34), and its end. Return the state afterwards.
-    StopState stop_everything();
-    StopState clear();
+    StopState stop_everything(Client const* asked_by = nullptr);
+    StopState clear(Client const* asked_by = nullptr);
     bool everything_is_stopped() const;
     std::vector<std::string> not_halted() const;
     std::vector<std::string> not_ready() const;
@@ -264,6 +269,7 @@ private:
     SessionQuota quota_;
     std::size_t streams_per_session_;
     EngineLog log_;
+    Audit audit_ = [](AuditEntry const&) {};
     std::atomic<bool> shutting_down_ = false;
 };
 

@@ -324,6 +324,15 @@ std::vector<Key> access_keys() {
         whole_number<std::size_t>(
             "max_wrong_tokens", "maximum number of wrong tokens of one address in a minute; further ones get 429",
             [](GatewaySettings & s) -> auto& { return s.max_wrong_tokens; }, 1, 1e6),
+        file(
+            "audit_log", "file that says who bound, commanded, stopped or was refused, and when; empty: none",
+            [](GatewaySettings & s) -> auto& { return s.audit_log; }),
+        whole_number<std::size_t>(
+            "audit_log_bytes", "size at which the audit log begins another file",
+            [](GatewaySettings & s) -> auto& { return s.audit_log_bytes; }, 10'000, 1e10),
+        whole_number<std::size_t>(
+            "audit_log_files", "number of earlier files of the audit log that are kept",
+            [](GatewaySettings & s) -> auto& { return s.audit_log_files; }, 1, 1'000),
     };
 }
 

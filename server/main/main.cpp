@@ -19,6 +19,7 @@
 #include "gateway/access/secrets.hpp"
 #include "gateway/gateway.hpp"
 #include "gateway/process/memory.hpp"
+#include "main/audit_file.hpp"
 #include "main/choosing_section.hpp"
 #include "main/command_line.hpp"
 #include "main/configuration_file.hpp"
@@ -313,7 +314,15 @@ int serve(CommandLine const& command) {
     std::optional<TokensFile> tokens_file;
     if (!settings.tokens.empty()) tokens_file.emplace(settings.tokens, tokens);
     ProgramTokens program_tokens{tokens};
+    std::optional<AuditFile> audit_file;
+    if (!settings.audit_log.empty())
+        audit_file.emplace(settings.audit_log,
+                           AuditFile::Limits{.bytes = settings.audit_log_bytes, .files = settings.audit_log_files});
     Gateway gateway{engine, readers, telemetry, client_limits(net_settings), memory, tokens_file ? &tokens : nullptr};
+    if (audit_file) {
+        gateway.audit_to([&](AuditEntry const& entry) { audit_file->note(entry); });
+        telemetry.show_audit([&] { return audit_file->lost(); });
+    }
     UserComponents user_components{
         schemas, {robots, schemas}, profiles, own_refs(settings, simulation->hall().plan()), settings.profiles};
     if (!settings.profiles.empty()) gateway.change(user_components.read());

@@ -24,11 +24,14 @@ enum class Robots : std::uint8_t { simulated, none };
 struct GatewaySettings {
     net::Settings net;
     EngineSettings engine;
-    media::Settings media;              // without a host, no streams are served
-    tls::Files tls;                     // without a certificate, both serve without TLS
-    std::string tokens;                 // a file; empty: clients need no token
-    bool allow_anyone = false;          // without tokens, serve other machines too
-    std::size_t max_wrong_tokens = 10;  // of one address in a minute
+    media::Settings media;                                // without a host, no streams are served
+    tls::Files tls;                                       // without a certificate, both serve without TLS
+    std::string tokens;                                   // a file; empty: clients need no token
+    bool allow_anyone = false;                            // without tokens, serve other machines too
+    std::size_t max_wrong_tokens = 10;                    // of one address in a minute
+    std::string audit_log;                                // a file; empty: none
+    std::size_t audit_log_bytes = std::size_t{10} << 20;  // of one file
+    std::size_t audit_log_files = 10;                     // earlier ones that are kept
     std::string engine_name = "reception";
     double sim_speed = 1;  // 0: simulated time stands still, and there is steering
     Steering steering = Steering::off;

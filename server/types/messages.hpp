@@ -97,6 +97,7 @@ struct Search {
 struct Bind {
     Identifier component_ref;
     Switching switching = Switching::none;
+    bool take_over = false;  // from the session that has bound it (docs/trust.md)
     struct Reply : Outcome {};
 };
 

@@ -73,6 +73,11 @@ TEST(Request, BindingsAndSessionsAskForSwitches) {
     EXPECT_EQ(operation<BindAny>(document("bind_any", {}, " switching='restart'")).switching, Switching::restart);
     EXPECT_THAT(encode(Request{BindAny{{}, Switching::restart}, {}}), HasSubstr(" switching=\"restart\""));
     EXPECT_THAT(encode(Request{Bind{}, {}}), Not(HasSubstr("switching")));
+    EXPECT_TRUE(operation<Bind>(document("bind", ref, " take_over='1'")).take_over);
+    EXPECT_FALSE(operation<Bind>(document("bind", ref, " take_over='false'")).take_over);
+    EXPECT_FALSE(operation<Bind>(document("bind", ref)).take_over);
+    EXPECT_THAT(encode(Request{Bind{{}, Switching::none, true}, {}}), HasSubstr(" take_over=\"true\""));
+    EXPECT_THAT(encode(Request{Bind{}, {}}), Not(HasSubstr("take_over")));
     Connect connect;
     EXPECT_THAT(encode(Request{connect, {}}), Not(HasSubstr("switches")));
     connect.switches = operation<Connect>(document("connect", {}, " switches='true'")).switches;

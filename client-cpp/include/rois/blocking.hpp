@@ -30,6 +30,9 @@ public:
     Component bind(std::string ref, Switching switching = Switching::none) {
         return client_.wait(client_.bind(std::move(ref), switching));
     }
+    Component take_over(std::string ref, Switching switching = Switching::none) {
+        return client_.wait(client_.take_over(std::move(ref), switching));
+    }
     Component bind_any(QueryExpression condition, Switching switching = Switching::none) {
         return client_.wait(client_.bind_any(std::move(condition), switching));
     }

@@ -38,7 +38,11 @@ public:
     Task<Component> bind(std::string ref, Switching switching = Switching::none);
     Task<Component> bind_any(QueryExpression condition, Switching switching = Switching::none);
 
-    // The same with the type of the component: bind_any<Navigation>(), bind<Navigation>("sub1.navigation").
+    // Binds the component also if another session has bound it: halts it first, and takes it from that session. For
+    // administrators (docs/trust.md).
+    Task<Component> take_over(std::string ref, Switching switching = Switching::none);
+
+    // The same as bind and bind_any with the type of the component: bind_any<Navigation>(), bind<Navigation>("sub1.navigation").
     template <class Facade>
     Task<Facade> bind(std::string ref, Switching switching = Switching::none) {
         auto component = co_await bind(std::move(ref), switching);

@@ -413,10 +413,9 @@ void Executor::forget(Session& session) {
 
 // An engine stops its component before it releases it: halting it once more would delay the next binding. A component of another
 // engine is halted there if it does not stand still.
-void Executor::release(Session& session, RegisteredComponent& component, Instant now) {
+void Executor::release(Session& session, RegisteredComponent& component, Instant now, std::string_view reason) {
     bool const is_halted_elsewhere = session.is_engine || component.confirms_binding();
-    if (!is_halted_elsewhere || !component.stands_still)
-        halt(component, CompletedStatus::abort, "its component was released", now);
+    if (!is_halted_elsewhere || !component.stands_still) halt(component, CompletedStatus::abort, reason, now);
     for (auto const& command : live_commands(session))
         if (command->component.get() == &component) command->binding_lost = true;
     run_ready(now);

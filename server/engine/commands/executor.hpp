@@ -64,7 +64,7 @@ public:
     void halt(RegisteredComponent&, CompletedStatus status_of_start, std::string_view reason, Instant now);
 
     // Halts the component, and ends the session's commands that wait for it (decision 6).
-    void release(Session&, RegisteredComponent&, Instant now);
+    void release(Session&, RegisteredComponent&, Instant now, std::string_view reason = "its component was released");
 
     // Halts a component that leaves the engine, and ends the commands of all sessions that wait for it.
     void part(RegisteredComponent&, Instant now);

@@ -44,6 +44,7 @@ std::string const& names_of_roles() {
 
 Role least_role_for(Operation const& operation) {
     if (auto const* connect = std::get_if<Connect>(&operation)) return connect->is_engine ? Role::engine : Role::observer;
+    if (auto const* bind = std::get_if<Bind>(&operation)) return bind->take_over ? Role::administrator : Role::operator_;
     bool const observes =
         is_one_of<Resume, Disconnect, GetProfile, GetErrorDetail, Search, Query, Subscribe, Unsubscribe, GetEventDetail>(
             operation);

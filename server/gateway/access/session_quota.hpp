@@ -22,6 +22,7 @@ struct Client {
     std::size_t sessions = 0;                      // open sessions that it has opened; only the quota uses it
 
     Rights const* rights() const { return principal ? principal->rights.get() : nullptr; }
+    std::string name() const { return principal ? principal->name() : std::string{}; }  // of its token; empty: it has none
 };
 
 // A session counts for the connection that opened it, and for its token, or else for that connection's address, until the session

@@ -45,14 +45,46 @@ std::string clean(std::string_view reason) {
 
 std::uint64_t EngineLog::take_joined() { return std::exchange(joined_, 0); }
 
+std::string EngineLog::token_of(std::uint64_t session) const {
+    auto const found = tokens_.find(session);
+    return found == tokens_.end() ? std::string{} : found->second;
+}
+
+void EngineLog::audit(std::string_view what, std::uint64_t session, std::string const& component, std::string operation,
+                      std::string_view outcome) const {
+    audit_({.what = what,
+            .token = token_of(session),
+            .session = session,
+            .component = component,
+            .operation = std::move(operation),
+            .outcome = std::string{outcome}});
+}
+
+void EngineLog::audit(std::string_view what, Command const& command, std::string_view outcome) const {
+    audit(what, command.session == nullptr ? 0 : command.session->number, command.component->ref().code, command.type, outcome);
+}
+
 void EngineLog::session_ended(std::uint64_t session, std::string_view why) {
     ended_(session);
+    audit("disconnected", session, {}, {}, why);
+    tokens_.erase(session);
     spdlog::info("session {} ended: {}", session, why);
 }
 
-void EngineLog::bound(std::uint64_t session, std::string const& ref) { spdlog::debug("session {} binds {}", session, ref); }
+void EngineLog::bound(std::uint64_t session, std::string const& ref) {
+    audit("bound", session, ref);
+    spdlog::debug("session {} binds {}", session, ref);
+}
 
-void EngineLog::released(std::uint64_t session, std::string const& ref) { spdlog::debug("session {} releases {}", session, ref); }
+void EngineLog::released(std::uint64_t session, std::string const& ref) {
+    audit("released", session, ref);
+    spdlog::debug("session {} releases {}", session, ref);
+}
+
+void EngineLog::taken_over(std::uint64_t session, std::uint64_t from, std::string const& ref) {
+    audit("took over", session, ref);
+    spdlog::info("session {} takes {} over from session {}", session, ref, from);
+}
 
 void EngineLog::halt_failed(std::string const& ref, std::string_view why) {
     spdlog::error("{} may still move: {}; it is halted again until it confirms", ref, why);
@@ -61,16 +93,19 @@ void EngineLog::halt_failed(std::string const& ref, std::string_view why) {
 void EngineLog::halted_at_last(std::string const& ref) { spdlog::warn("{} has confirmed that it stands still", ref); }
 
 void EngineLog::refused(std::uint64_t session, Operation const& operation, Outcome const& outcome) {
+    audit("refused", session, {}, std::string{operation_name(operation)}, to_text(outcome.return_code));
     if (!is_debugging()) return;
     spdlog::debug("session {}: {} refused with {}: {}", session, operation_name(operation), to_text(outcome.return_code),
                   clean(outcome.reason));
 }
 
 void EngineLog::command_begun(Command const& command) {
+    audit("command begun", command, {});
     if (is_debugging()) spdlog::debug("{}, begins", name_of(command));
 }
 
 void EngineLog::command_ended(Command const& command) {
+    audit("command ended", command, to_text(command.status));
     if (!is_debugging()) return;
     spdlog::debug("{}, ended with {}{}{}", name_of(command), to_text(command.status), command.reason.empty() ? "" : ": ",
                   command.reason.empty() ? "" : clean(command.reason));

@@ -5,18 +5,29 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include "engine/journal.hpp"
+#include "gateway/process/audit.hpp"
 #include "types/messages.hpp"
 
 namespace rois {
 
-// Sessions are logged at the level info, the rest at debug. Called with the engine locked.
+// Sessions are logged at the level info, the rest at debug. What clients do also goes to the audit log. Called with the engine
+// locked.
 class EngineLog : public Journal {
 public:
     // `ended` is called with the number of each session that ends, with the engine locked.
     explicit EngineLog(std::function<void(std::uint64_t session)> ended) : ended_{std::move(ended)} {}
+
+    // Call it before the first request.
+    void audit_to(Audit audit) { audit_ = std::move(audit); }
+    // The session belongs to the holder of this token; empty: the client has none.
+    void session_is_of(std::uint64_t session, std::string const& token) {
+        if (!token.empty()) tokens_[session] = token;
+    }
+    std::string token_of(std::uint64_t session) const;
 
     // The number of the session that the last operation opened or resumed; 0 if it did neither.
     std::uint64_t take_joined();
@@ -27,12 +38,18 @@ private:
     void session_ended(std::uint64_t session, std::string_view why) override;
     void bound(std::uint64_t session, std::string const& ref) override;
     void released(std::uint64_t session, std::string const& ref) override;
+    void taken_over(std::uint64_t session, std::uint64_t from, std::string const& ref) override;
     void halt_failed(std::string const& ref, std::string_view why) override;
     void halted_at_last(std::string const& ref) override;
     void refused(std::uint64_t session, Operation const&, Outcome const&) override;
     void command_begun(Command const&) override;
     void command_ended(Command const&) override;
+    void audit(std::string_view what, std::uint64_t session, std::string const& component, std::string operation = {},
+               std::string_view outcome = {}) const;
+    void audit(std::string_view what, Command const&, std::string_view outcome) const;
 
+    Audit audit_ = [](AuditEntry const&) {};
+    std::unordered_map<std::uint64_t, std::string> tokens_;  // by the session's number
     std::function<void(std::uint64_t session)> ended_;
     std::uint64_t joined_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -73,6 +74,8 @@ public:
 
     // Shows the lines that this queue has dropped. Call it before the first `text`.
     void show(std::shared_ptr<LogQueue const> log) { log_ = std::move(log); }
+    // Shows how many lines of the audit log were lost. Call it before the first `text`.
+    void show_audit(std::function<std::uint64_t()> lost) { lost_of_audit_ = std::move(lost); }
     // The number of lines that this queue has dropped.
     std::uint64_t dropped_log_lines() const;
 
@@ -98,7 +101,8 @@ private:
     std::atomic<std::uint64_t> cut_ = 0;
     std::array<std::atomic<std::uint64_t>, 6> survived_{};
     std::atomic<Steady> last_tick_{Steady{}};
-    std::shared_ptr<LogQueue const> log_;  // null: none is shown
+    std::shared_ptr<LogQueue const> log_;           // null: none is shown
+    std::function<std::uint64_t()> lost_of_audit_;  // empty: there is no audit log
     struct Reached {
         std::atomic<std::size_t> most = 0;
         std::atomic<std::uint64_t> reached = 0;

@@ -222,6 +222,9 @@ Connection::Then Connection::judge_head() {
         refused = refusal_of_role(client_->principal->role, least_role_for(route_.endpoint, head_));
     has_head_ = !refused;
     if (!refused) return Then::next;
+    auto const code = refused->fault ? refused->fault->code : FaultCode::invalid;
+    bool const concerns_rights = code == FaultCode::unauthorized || code == FaultCode::not_allowed || code == FaultCode::too_many;
+    if (concerns_rights) loop_.shared().gateway.note_refusal(*client_, name_of(route_.endpoint), code);
     if (head_.content_length > wire_.received().size()) return reply(*refused, Framed::last);
     wire_.use(head_.content_length);
     return reply(*refused);
@@ -337,7 +340,7 @@ Task<Connection::Then> Connection::serve_other() {
     // Decision 34. Stops first: the log and the answer need memory.
     bool const stops = route_.endpoint == Endpoint::stop;
     if (stops || route_.endpoint == Endpoint::clear) {
-        auto state = stops ? shared.gateway.stop_everything() : shared.gateway.clear();
+        auto state = stops ? shared.gateway.stop_everything(client_.get()) : shared.gateway.clear(client_.get());
         state.not_halted = seen_by(client_->principal.get(), std::move(state.not_halted));
         spdlog::warn("{}, as asked by {}", stops ? "everything is stopped" : "commands may start again", wire_.peer());
         co_return reply(HttpAnswer{.body = xml::encode(state)});

@@ -70,6 +70,14 @@ Route route_of(std::string_view path) {
     return {};
 }
 
+std::string_view name_of(Endpoint endpoint) {
+    for (auto const& named : fixed)
+        if (named.endpoint == endpoint) return named.path;
+    for (auto const& named : folders)
+        if (named.endpoint == endpoint) return named.path;
+    return {};
+}
+
 // A request without Host is HTTP/1.0, which browsers do not send.
 std::optional<HttpAnswer> refusal_of_other_sites(RequestHead const& head, Settings const& settings) {
     auto const host = head.field("Host");

@@ -37,6 +37,8 @@ struct Route {
 };
 
 Route route_of(std::string_view path);
+// The path of an endpoint, "/rois/stop" for example; empty for an unknown one.
+std::string_view name_of(Endpoint);
 
 // Returns the answer to a request of another site: 421 if a Host or the target's authority is not the gateway's own, 403 if the
 // Origin is not allowed.

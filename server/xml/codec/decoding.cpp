@@ -77,7 +77,7 @@ constexpr std::array<std::pair<std::string_view, Decode>, std::variant_size_v<Op
     {"search", [](Node n) -> Operation { return Search{condition(n)}; }},
     {"bind",
      [](Node n) -> Operation {
-         return Bind{component_ref(n), switching(n)};
+         return Bind{component_ref(n), switching(n), decode_boolean(n.attribute("take_over").value_or("false"))};
      }},
     {"bind_any",
      [](Node n) -> Operation {

@@ -60,6 +60,8 @@ template <class Op>
 requires requires(Op op) { op.switching; }
 void write_attributes(Writer& out, Op const& op) {
     if (op.switching != Switching::none) out.attribute("switching", to_text(op.switching));
+    if constexpr (requires { op.take_over; })
+        if (op.take_over) out.attribute("take_over", "true");
 }
 void write_attributes(Writer& out, Subscribe const& op) {
     if (op.inline_results) out.attribute("inline_results", "true");

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -231,6 +233,67 @@ TEST_F(Tokens, ThatAreWrongGet429AfterTenInAMinute) {
     EXPECT_EQ(stranger.get("/rois/profile", {{"Authorization", "Bearer " + token}}).status, 200)
         << "another client behind this address must be able to stop the robot";
     EXPECT_EQ(guess(), 429);
+}
+
+TEST_F(Tokens, LetOnlyAdministratorsTakeOver) {
+    auto const service = file.add("desk", "operator"), administrator = file.add("chief", "administrator");
+    GatewayProcess const gateway{file.of_gateway({"--audit-log", file.folder() + "/audit.log"})};
+    kit::HttpClient desk{with_token(service, gateway)}, chief{with_token(administrator, gateway)};
+    desk.call("connect");
+    chief.call("connect");
+    EXPECT_EQ(bind(desk, "navigation"), "OK");
+    auto const refused = desk.call("bind", component_ref("speech_synthesis"), {{"take_over", "true"}});
+    EXPECT_EQ(refused.status, 403);
+    EXPECT_EQ(refused.reason(), "the token has the role operator: expected at least administrator");
+    EXPECT_EQ(outcome(chief, "bind", component_ref("navigation")), "OUT_OF_RESOURCES");
+    EXPECT_EQ(outcome(chief, "bind", component_ref("navigation"), {{"take_over", "true"}}), "OK");
+    EXPECT_THAT(desk.notifications(0).body, HasSubstr("USER_DEFINED_ERROR"));
+}
+
+TEST_F(Tokens, AreNamedInTheAuditLogAndNeverShown) {
+    auto const service = file.add("desk", "operator"), administrator = file.add("chief", "administrator");
+    auto const log = file.folder() + "/audit.log";
+    std::string session;
+    {
+        GatewayProcess const gateway{file.of_gateway({"--audit-log", log})};
+        kit::HttpClient desk{with_token(service, gateway)}, chief{with_token(administrator, gateway)};
+        desk.call("connect");
+        session = desk.session;
+        desk.call("bind", component_ref("navigation"));
+        desk.call("execute", unit({.component = "navigation",
+                                   .type = "start",
+                                   .id = "my-secret-id",
+                                   .arguments = {{"target_position", "string", {"desk"}}}}));
+        chief.call("connect");
+        chief.call("bind", component_ref("navigation"), {{"take_over", "true"}});
+        desk.call("bind", component_ref("<script>"));
+        desk.call("bind", component_ref("move"), {{"take_over", "true"}});
+        chief.say(post("/rois/stop", "Authorization: Bearer " + administrator + "\r\n"));
+        chief.say(post("/rois/clear", "Authorization: Bearer " + administrator + "\r\n"));
+        HttpClient stranger{gateway};
+        for (int i = 0; i < 30; ++i) stranger.get("/rois/profile/secret", {{"Authorization", "Bearer guess"}});
+    }
+    auto const text = run_shell("cat " + log).out;
+    auto const without_times = run_shell("sed 's/\"time\":\"[^\"]*\",//' " + log).out;
+    for (auto const* line :
+         {R"({"what":"connected","token":"desk","session":1,"address":"127.0.0.1"})",
+          R"({"what":"bound","token":"desk","session":1,"component":"navigation"})",
+          R"({"what":"command begun","token":"desk","session":1,"component":"navigation","operation":"start"})",
+          R"({"what":"took over","token":"chief","session":2,"component":"navigation"})",
+          R"({"what":"command ended","token":"desk","session":1,"component":"navigation","operation":"start","outcome":"ABORT"})",
+          R"({"what":"released","token":"desk","session":1,"component":"navigation"})",
+          R"({"what":"bound","token":"chief","session":2,"component":"navigation"})",
+          R"({"what":"refused","token":"desk","session":1,"operation":"bind","outcome":"BAD_PARAMETER"})",
+          R"({"what":"refused","token":"desk","address":"127.0.0.1","operation":"bind","outcome":"not_allowed"})",
+          R"({"what":"stopped everything","token":"chief","address":"127.0.0.1"})",
+          R"({"what":"cleared the stop","token":"chief","address":"127.0.0.1"})",
+          R"({"what":"refused","address":"127.0.0.1","operation":"/rois/profile/","outcome":"unauthorized"})"})
+        EXPECT_THAT(without_times, HasSubstr(std::string{line} + "\n"));
+    for (auto const& secret : {service, administrator, session, std::string{"guess"}, std::string{"my-secret-id"},
+                               std::string{"script"}, std::string{"secret"}})
+        EXPECT_THAT(text, Not(HasSubstr(secret)));
+    EXPECT_LT(std::ranges::count(text, '\n'), 60) << "refusals do not flood it";
+    EXPECT_EQ(run_shell("stat -c %a " + log).out, "600\n");
 }
 
 TEST_F(Tokens, CountTheSessionsOfTheirHolders) {

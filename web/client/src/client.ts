@@ -213,10 +213,12 @@ export class Client {
     );
   }
 
-  bind(component_ref: Ref, options: BindOptions = {}): Promise<void> {
+  /** `take_over`: also from another session that has bound the component, which is halted first; for administrators. */
+  bind(component_ref: Ref, options: BindOptions & { take_over?: boolean } = {}): Promise<void> {
     const { switching } = options;
+    const take_over = options.take_over === true ? 'true' : undefined;
     const taken = () => void this.bound.set(code_of(component_ref), switching);
-    return this.asked('bind', { switching }, () => component_ref_xml(component_ref), options, taken, true);
+    return this.asked('bind', { switching, take_over }, () => component_ref_xml(component_ref), options, taken, true);
   }
 
   /** Binds a component that matches the condition, or one of the named type. May return a component that this session has already bound. */

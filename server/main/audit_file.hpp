@@ -1,0 +1,65 @@
+// The audit log (key `audit_log`; docs/trust.md): a file of JSON lines.
+#pragma once
+
+#include <spdlog/sinks/rotating_file_sink.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "gateway/process/audit.hpp"
+#include "types/instant.hpp"
+
+namespace rois {
+
+// Thread-safe.
+class AuditFile {
+public:
+    struct Limits {
+        std::size_t bytes = std::size_t{10} << 20;  // of a file; then it becomes FILE.1, and FILE.1 becomes FILE.2
+        std::size_t files = 10;                     // that are kept besides the present one
+        std::size_t waiting = 10'000;               // lines
+        // Refusals of one token, or of all clients without one, in a second. Others are counted in the next line about them, so
+        // that refusals do not drive out what has happened.
+        std::size_t refusals_a_second = 10;
+        Steady (*now)() = std::chrono::steady_clock::now;
+    };
+
+    // Throws BadSettings if the file cannot be written. The destructor writes the waiting lines.
+    AuditFile(std::string const& file, Limits const&);
+    ~AuditFile();
+    AuditFile(AuditFile const&) = delete;
+    AuditFile& operator=(AuditFile const&) = delete;
+
+    // Returns at once: a thread of its own writes the line.
+    void note(AuditEntry const&) noexcept;
+    // Lines that could not be written, or for which there was no room.
+    std::uint64_t lost() const { return lost_; }
+
+private:
+    struct Second {
+        Steady since;
+        std::size_t refusals = 0;
+        std::uint64_t left_out = 0;  // since the last line
+    };
+
+    bool may_say(AuditEntry const&, std::uint64_t& left_out);
+    void run(std::stop_token const&);
+    void write(std::string const& line);
+
+    Limits const limits_;
+    spdlog::sinks::rotating_file_sink_st sink_;  // only the thread uses it
+    std::atomic<std::uint64_t> lost_ = 0;
+    std::mutex mutex_;  // guards the next three
+    std::condition_variable_any news_;
+    std::deque<std::string> lines_;
+    std::map<std::string, Second> refused_;  // by the name of the token
+    std::jthread thread_;
+};
+
+}  // namespace rois
