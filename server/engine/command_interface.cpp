@@ -124,8 +124,9 @@ Engine::Core::Later Engine::Core::perform(Session& session, Bind const& bind_, S
         asked->refuse(Refusal::not_allowed);
         return {};
     }
-    if (auto problem = bind_.take_over ? take_over(session, *component, now) : std::nullopt)
-        return refused<Bind::Reply>(ReturnCode::error, *std::move(problem));
+    if (bind_.take_over)
+        if (auto why_not = take_over(session, *component, now))
+            return refused<Bind::Reply>(ReturnCode::error, *std::move(why_not));
     return bind_one(session, asked, {component->shared_from_this(), {.session = session.number, .switching = bind_.switching}},
                     now.steady + settings_.question_deadline, now);
 }

@@ -29,7 +29,7 @@ ip link set robot up
 of_peer ip address add 10.9.0.2/24 dev desk
 
 mkfifo "$work/log"
-"$ROIS_BINARY_DIR/bin/rois-gateway" --listen 0.0.0.0:8080 --media '' 2>"$work/log" &
+"$ROIS_BINARY_DIR/bin/rois-gateway" --listen 0.0.0.0:8080 --allow-anyone --media '' 2>"$work/log" &
 exec 3<"$work/log"
 while read -r line <&3; do
     if [[ $line == *"listening on "* ]]; then break; fi

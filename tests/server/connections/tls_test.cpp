@@ -166,9 +166,8 @@ TEST_F(Tls, NoticesThatTheReaderOfAStreamHasGone) {
 TEST_F(Tls, IsSpokenWithSubEngines) {
     GatewayProcess const hall{with({})};
     certificates.put("engines.json",
-                     R"({"engines": [{"name": "hall", "url": "https://localhost:)" + std::to_string(hall.port()) + R"("}]})");
-    GatewayProcess main{{"--robots", "none", "--engines", certificates.folder() + "/engines.json"},
-                        {{"SSL_CERT_FILE", certificates.certificate("own")}}};
+                     R"({"engines": [{"name": "hall", "url": "https://localhost:)" + std::to_string(hall.port()) + R"(", "ca_file": "own.pem"}]})");
+    GatewayProcess main{{"--robots", "none", "--engines", certificates.folder() + "/engines.json"}};
     EXPECT_THAT(main.log_with("present with"), HasSubstr("present with 15"));
 }
 
@@ -176,7 +175,7 @@ TEST_F(Tls, IsSpokenByEnginesThatJoin) {
     certificates.put("engines.json", R"({"engines": [{"name": "hall", "joins": "hall"}]})");
     GatewayProcess main{with({"--robots", "none", "--engines", certificates.folder() + "/engines.json"})};
     auto const url = "wss://localhost:" + std::to_string(main.port());
-    GatewayProcess const hall{with({"--join", url, "--join-as", "hall"}), {{"SSL_CERT_FILE", certificates.certificate("own")}}};
+    GatewayProcess const hall{with({"--join", url, "--join-as", "hall", "--join-ca-file", certificates.certificate("own")})};
     EXPECT_THAT(main.log_with("present with"), HasSubstr("present with 15"));
     Application desk{Transport::websocket, certificates.trusting("own", main)};
     desk.connect();

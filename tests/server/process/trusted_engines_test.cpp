@@ -1,0 +1,110 @@
+// Sub engines, engines that join, and programs, where tokens and TLS are needed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+#include <memory>
+
+#include "server/application.hpp"
+#include "server/certificates.hpp"
+#include "server/token_file.hpp"
+#include "server/websocket_client.hpp"
+
+namespace rois::test {
+
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+struct TrustedEngines : testing::Test {
+    TokenFile file;
+    std::string const engine = file.add("engine", "engine");
+    std::string const desk = file.add("desk", "operator");
+
+    void put(std::string const& name, std::string const& text) const { std::ofstream{file.folder() + "/" + name} << text; }
+    std::string path(std::string const& name) const { return file.folder() + "/" + name; }
+    std::vector<std::string> main(std::vector<std::string> more = {}) const {
+        more.insert(more.end(), {"--robots", "none", "--engines", path("engines.json")});
+        return file.of_gateway(more);
+    }
+};
+
+}  // namespace
+
+TEST_F(TrustedEngines, AreAskedWithTheTokenOfTheirEntry) {
+    GatewayProcess const robot{file.of_gateway()};
+    put("engine.token", engine + "\n");
+    put("desk.token", desk);
+    auto const entries = [&](std::string const& token) {
+        put("engines.json",
+            R"({"engines": [{"name": "hall", "url": ")" + robot.url() + R"(", "token_file": ")" + token + R"("}]})");
+    };
+    entries("desk.token");
+    GatewayProcess gateway{main()};
+    EXPECT_THAT(gateway.log_with("expected at least"), HasSubstr("the token has the role operator: expected at least engine"));
+    entries("engine.token");
+    gateway.signal(SIGHUP);
+    gateway.log_with("present with");
+    Application application{Transport::websocket, with_token(desk, gateway)};
+    application.connect();
+    EXPECT_THAT(application.search(), Contains("hall.navigation"));
+    application.disconnect();
+}
+
+TEST_F(TrustedEngines, JoinWithATokenUntilItIsRevoked) {
+    put("engines.json", R"({"engines": [{"name": "hall", "joins": "hall"}]})");
+    put("engine.token", engine);
+    put("wrong.token", "wrong");
+    GatewayProcess gateway{main()};
+    auto const joining = [&](std::string const& token) {
+        return std::vector<std::string>{"--join", gateway.url(), "--join-as", "hall", "--join-token-file", path(token)};
+    };
+    {
+        GatewayProcess stranger{joining("wrong.token")};
+        EXPECT_THAT(stranger.log_with("401"), HasSubstr("401"));
+    }
+    GatewayProcess robot{joining("engine.token")};
+    gateway.log_with("present with");
+    EXPECT_EQ(file.run({"revoke", "engine"}).exit_code, 0);
+    EXPECT_THAT(robot.log_with("401"), HasSubstr("401")) << "the link was cut, and another one is refused";
+}
+
+TEST_F(TrustedEngines, AreProgramsOfTheGatewayWithoutAnyConfiguration) {
+    Certificates const certificates;
+    certificates.make("own");
+    put("engines.json", R"({"engines": [{"name": "lamps", "joins": "lamps", "command": ["python3", ")" ROIS_SOURCE_DIR
+                        R"(/components/sdk/python/lamp.py"]}, {"name": "lamp", "joins": "lamp", "command": [")" ROIS_BINARY_DIR
+                        R"(/bin/rois-lamp"]}]})");
+    GatewayProcess gateway{certificates.of_gateway("own", main())};
+    gateway.log_with("sub engine lamps: present with");
+    gateway.log_with("sub engine lamp: present with");
+    auto address = certificates.trusting("own", gateway);
+    address.token = desk;
+    Application application{Transport::websocket, address};
+    application.connect();
+    auto const refs = application.search();
+    EXPECT_THAT(refs, Contains(testing::StartsWith("lamps.")));
+    EXPECT_THAT(refs, Contains(testing::StartsWith("lamp.")));
+    application.disconnect();
+}
+
+TEST_F(TrustedEngines, HaveAPortWhereOthersCanOnlyBeRefused) {
+    put("engines.json",
+        R"({"engines": [{"name": "p", "joins": "p", "command": ["sh", "-c", "echo url $ROIS_URL; sleep 600"]}]})");
+    GatewayProcess gateway{main()};
+    std::string const mark = "url http://127.0.0.1:";
+    auto const log = gateway.log_with(mark);
+    auto address = with_token(engine, gateway);
+    address.port = static_cast<std::uint16_t>(std::stoi(log.substr(log.find(mark) + mark.size())));
+    EXPECT_NE(address.port, gateway.port());
+    kit::HttpClient with_token{address};
+    for (auto const* path : {"/rois/profile", "/healthz", "/"}) EXPECT_EQ(with_token.get(path).status, 403) << path;
+    EXPECT_EQ(kit::shake_hands(with_token).status, 403);
+    address.token.clear();
+    kit::HttpClient without{address};
+    for (auto const* path : {"/rois/profile", "/healthz", "/", "/rois/engines"}) EXPECT_EQ(without.get(path).status, 401) << path;
+}
+
+}  // namespace rois::test
