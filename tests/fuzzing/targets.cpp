@@ -1,0 +1,22 @@
+#include "fuzzing/targets.hpp"
+
+#include <array>
+
+namespace rois::fuzzing {
+
+std::span<Target const> targets() {
+    static constexpr std::array<Target, 11> all{{{"answers", answers},
+                                                 {"conditions", conditions},
+                                                 {"configuration", configuration},
+                                                 {"engines", engines},
+                                                 {"http", http},
+                                                 {"messages", messages},
+                                                 {"profiles", profiles},
+                                                 {"roles", roles},
+                                                 {"speech", speech},
+                                                 {"tokens", tokens},
+                                                 {"websocket", websocket}}};
+    return all;
+}
+
+}  // namespace rois::fuzzing
