@@ -110,7 +110,7 @@ export class Client {
     this.deadline = options.deadline ?? 10_000;
     this.rebind = options.rebind ?? true;
     const settings: LinkSettings = {
-      url: socket_url(url),
+      url: socket_url(url, options.token),
       deadline: this.deadline,
       heartbeat: options.heartbeat ?? 10_000,
       first_delay: options.first_delay ?? 100,

@@ -29,7 +29,7 @@ export function clear_everything(url: string, options: EverythingOptions = {}): 
 }
 
 async function post(url: string, what: string, { token, deadline = 10_000 }: EverythingOptions): Promise<StopState> {
-  const to = `${socket_url(url).replace('ws', 'http')}/${what}`;
+  const to = `${socket_url(url, token).replace('ws', 'http')}/${what}`;
   const headers: Record<string, string> = token === undefined ? {} : { Authorization: `Bearer ${token}` };
   try {
     const answer = await fetch(to, { method: 'POST', headers, signal: AbortSignal.timeout(deadline) });

@@ -42,8 +42,11 @@ function base64url(text: string): string {
   return btoa(bytes).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '');
 }
 
-/** The WebSocket URL for http(s)://host[/path] or ws(s)://... Throws RoisError `invalid`. */
-export function socket_url(url: string): string {
+/**
+ * The WebSocket URL for http(s)://host[/path] or ws(s)://... Throws RoisError `invalid`, also if the token would be sent to another
+ * machine without TLS.
+ */
+export function socket_url(url: string, token?: string): string {
   let at: URL;
   try {
     at = new URL(url);
@@ -51,6 +54,9 @@ export function socket_url(url: string): string {
     throw new RoisError('invalid', `'${url}' is not a URL: expected http://HOST:PORT, or https, ws or wss`);
   }
   if (!/^(https?|wss?):$/.test(at.protocol)) throw new RoisError('invalid', `'${url}': unknown scheme, expected http, https, ws or wss`);
+  const is_here = /^(localhost|127(\.\d+){3}|\[::1\])$/.test(at.hostname);
+  if (token !== undefined && !is_here && /^(http|ws):$/.test(at.protocol))
+    throw new RoisError('invalid', `a token is not sent to '${at.hostname}' without TLS, because others could read it: expected https or wss`);
   const path = at.pathname.replace(/\/+$/, '');
   return `${at.protocol.replace('http', 'ws')}//${at.host}${path.endsWith('/rois') ? path : `${path}/rois`}`;
 }

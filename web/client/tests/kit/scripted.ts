@@ -111,7 +111,7 @@ export function scripted(name: string, more: ClientOptions, dialogue: (client: C
   test(name, async () => {
     const [clock, gateway] = [new Clock(), new Scripted()];
     try {
-      const client = new Client('http://robot', { ...options, ...more }, gateway.open);
+      const client = new Client('https://robot', { ...options, ...more }, gateway.open);
       const started = client.start();
       await gateway.socket.open();
       await gateway.socket.answer('<session>one</session>');

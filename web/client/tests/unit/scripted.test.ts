@@ -421,6 +421,13 @@ scripted('all calls of a lost session fail, and only those', {}, async (client, 
 });
 
 // Its base64 has all characters that base64url replaces: fn5+Pj4+Pz8/w7s=
+test('a token is not sent to another machine without TLS', () => {
+  const unused: OpenSocket = () => assert.fail('nothing is opened');
+  for (const url of ['http://robot', 'ws://192.0.2.1:8080', 'http://127.0.0.1.example'])
+    assert.throws(() => new Client(url, { token: 't' }, unused), { failure: 'invalid', message: /^a token is not sent to '.+' without TLS/ });
+  for (const url of ['https://robot', 'wss://192.0.2.1', 'http://localhost:8080', 'ws://127.0.0.1', 'http://[::1]:1']) new Client(url, { token: 't' }, unused);
+});
+
 scripted('a token is encoded as base64url', { token: '~~~>>>???û' }, async (_, gateway) => {
   assert.deepEqual(gateway.socket.subprotocols, ['rois.xml.v1', 'rois.bearer.fn5-Pj4-Pz8_w7s']);
 });

@@ -31,7 +31,7 @@ export function TokenDialog() {
         <TextField
           label={texts.token_label()}
           hint={texts.token_hint()}
-          error={console.current_token === undefined ? '' : `${texts.token_wrong()} ${reason}`}
+          error={console.current_token === undefined ? reason : `${texts.token_wrong()} ${reason}`}
           value={token.value}
           change={(value) => (token.value = value)}
           input={{ type: 'password', autofocus: true }}

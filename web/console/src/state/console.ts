@@ -167,11 +167,15 @@ export class Console {
     this.leave();
     this.token = token;
     // Bindings are not repeated: borrowers bind again in the new session.
-    const client = new Client(
-      this.environment.origin,
-      { most_delay, rebind: false, switches: true, ...(token !== undefined && { token }) },
-      this.environment.open_socket,
-    );
+    const options = { most_delay, rebind: false, switches: true, ...(token !== undefined && { token }) };
+    let client: Client;
+    try {
+      client = new Client(this.environment.origin, options, this.environment.open_socket);
+    } catch (error) {
+      this.token = undefined; // it is not sent without TLS
+      this.link.set_phase('token', reason_of(error));
+      return;
+    }
     this.current_client = client;
     this.stops = [
       this.link.follow(client, token, () => void client.close({ deadline: 0 })), // first: the others ask whether it is open

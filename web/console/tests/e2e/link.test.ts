@@ -1,4 +1,5 @@
 // The states of the link as shown to the user, each provoked with the real gateway.
+import { createHash } from 'node:crypto';
 import { rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { resolve } from 'node:path';
@@ -86,9 +87,12 @@ describe('the link', () => {
     }, expected);
   });
 
-  test('a token is requested, and requested again if it is wrong', async () => {
-    stage = await Stage.set(...still_hall);
-    stage.front.token = 'open sesame';
+  test('a token is requested, and requested again if it is wrong or revoked', async () => {
+    const file = resolve(tmpdir(), `rois-tokens-${process.pid}.json`);
+    const sha256 = createHash('sha256').update('open-sesame').digest('hex');
+    const allow = (tokens: object[]) => writeFile(file, JSON.stringify({ tokens }));
+    await allow([{ name: 'console', role: 'operator', sha256 }]);
+    stage = await Stage.set(...still_hall, '--tokens', file);
     await stage.page(async (page) => {
       const dialog = page.getByRole('dialog', { name: 'This gateway requires a token' });
       await dialog.waitFor();
@@ -97,11 +101,18 @@ describe('the link', () => {
       await page.keyboard.press('Enter');
       await page.getByText('The gateway did not accept this token.').waitFor();
       await check_page(page, 'token-wrong');
-      await page.getByRole('textbox', { name: 'Token' }).fill('open sesame');
+      await page.getByRole('textbox', { name: 'Token' }).fill('open-sesame');
       await page.getByRole('button', { name: 'Connect', exact: true }).click();
       await mark(page, 'Connected').waitFor();
       await page.getByRole('treeitem', { name: /^navigation / }).getByText('READY').waitFor();
+      await allow([]);
+      await dialog.waitFor();
+      await allow([{ name: 'console', role: 'operator', sha256 }]);
+      await page.getByRole('textbox', { name: 'Token' }).fill('open-sesame');
+      await page.keyboard.press('Enter');
+      await mark(page, 'Connected').waitFor();
     }, expected);
+    await rm(file);
   });
 
   test('shows that the gateway shuts down, and then the lost link', async () => {

@@ -141,6 +141,16 @@ describe('the link', () => {
     expect(closed.current_token).toBe('a secret');
   });
 
+  test('sends no token without TLS', async () => {
+    const open_to_all = new World();
+    open_to_all.origin = 'http://engine.example';
+    const { Console: Made } = await import('../../src/state/console');
+    const closed = new Made(open_to_all);
+    closed.connect('a secret');
+    expect(closed.link.view.value).toMatchObject({ phase: 'token', reason: expect.stringContaining("not sent to 'engine.example' without TLS") });
+    expect(closed.current_token).toBeUndefined();
+  });
+
   test('a gap is shown until it is acknowledged', async () => {
     await world.notifies('profile_changed');
     world.says('<profile_changed xmlns="urn:x-rois:psm:xml:message:1" sequence="5"/>');

@@ -11,7 +11,7 @@ interface Alarm {
 }
 
 export class World implements Environment {
-  readonly origin = 'http://engine.example';
+  origin = 'https://engine.example';
   readonly remembered = new Map<string, string>();
   /** Responses of GET, by path. */
   readonly pages = new Map<string, { status: number; text: string }>();
