@@ -17,7 +17,7 @@ constexpr auto time_to_read_refusal = 1s;
 
 class JoinAcceptor::PendingJoin final : public client::Link::Listener, public std::enable_shared_from_this<PendingJoin> {
 public:
-    explicit PendingJoin(std::weak_ptr<JoinAcceptor> at) : at_{std::move(at)} {}
+    PendingJoin(std::weak_ptr<JoinAcceptor> at, MayJoin may_join) : at_{std::move(at)}, may_join_{std::move(may_join)} {}
     virtual ~PendingJoin() = default;
 
     void enter(std::shared_ptr<client::Link> link) {
@@ -43,7 +43,7 @@ private:
         if (!acceptor || !link_ || is_refused_) return;
         auto const read = acceptor->reader_.read(text);
         if (auto const* fault = std::get_if<Fault>(&read)) return refuse(xml::encode(*fault));
-        auto const found = acceptor->find_(std::get<xml::Join>(read));
+        auto const found = acceptor->find_(std::get<xml::Join>(read), may_join_);
         xml::JoinResponse response;
         if (auto const* reason = std::get_if<std::string>(&found)) {
             response.return_code = ReturnCode::bad_parameter;
@@ -72,6 +72,7 @@ private:
     }
 
     std::weak_ptr<JoinAcceptor> at_;
+    MayJoin may_join_;
     std::shared_ptr<client::Link> link_;  // null: it has joined, or left
     bool is_refused_ = false;
 };
@@ -82,9 +83,9 @@ JoinAcceptor::JoinAcceptor(client::Loop& loop, std::shared_ptr<xml::Schemas cons
     settings_.longest_document = largest_document;
 }
 
-void JoinAcceptor::open(UniqueDescriptor socket, std::string head) {
+void JoinAcceptor::open(UniqueDescriptor socket, std::string head, MayJoin may_join) {
     if (pending_.size() >= most_pending_joins) return;
-    auto const pending = std::make_shared<PendingJoin>(weak_from_this());
+    auto const pending = std::make_shared<PendingJoin>(weak_from_this(), std::move(may_join));
     auto link = client::accepted_link(loop_, std::move(socket), std::move(head), settings_, *pending);
     if (!link) return;
     pending_.insert(pending);

@@ -18,13 +18,15 @@ namespace rois::remote {
 // Used on the thread of the links.
 class JoinAcceptor : public std::enable_shared_from_this<JoinAcceptor> {
 public:
+    // Returns whether the client may join as the sub engine with this name.
+    using MayJoin = std::function<bool(std::string const& name)>;
     // Returns the sub engine that joins by this name, or the reason why it may not join.
-    using Find = std::function<std::variant<std::shared_ptr<RemoteEngine>, std::string>(xml::Join const&)>;
+    using Find = std::function<std::variant<std::shared_ptr<RemoteEngine>, std::string>(xml::Join const&, MayJoin const&)>;
 
     JoinAcceptor(client::Loop&, std::shared_ptr<xml::Schemas const>, Find);
 
     // `socket` and `head` as in client::accepted_link. Closes the socket if too many engines wait.
-    void open(UniqueDescriptor socket, std::string head);
+    void open(UniqueDescriptor socket, std::string head, MayJoin);
     // Closes the links of engines that have not joined.
     void close();
 

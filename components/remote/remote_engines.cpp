@@ -78,7 +78,9 @@ public:
         for (auto const& [name, engine] : engines_) is_stopped ? engine->stop_everything() : engine->clear_stop();
     }
 
-    void accept(UniqueDescriptor&& socket, std::string head) { acceptor_->open(std::move(socket), std::move(head)); }
+    void accept(UniqueDescriptor&& socket, std::string head, JoinAcceptor::MayJoin may_join) {
+        acceptor_->open(std::move(socket), std::move(head), std::move(may_join));
+    }
 
     void trouble(std::string const& name, std::string const& what) {
         auto const found = engines_.find(name);
@@ -142,11 +144,15 @@ private:
     }
 
     // An engine keeps its name while its link is open. Only the same instance may replace the link.
-    std::variant<std::shared_ptr<RemoteEngine>, std::string> joining(xml::Join const& join) {
+    std::variant<std::shared_ptr<RemoteEngine>, std::string> joining(xml::Join const& join,
+                                                                     JoinAcceptor::MayJoin const& may_join) {
         auto const found =
             std::ranges::find_if(engines_, [&](auto const& each) { return each.second->settings().joins == join.name; });
         if (join.name.empty() || found == engines_.end())
             return "unknown name " + quoted(join.name) + ": expected the \"joins\" of an entry in the engines file";
+        if (!may_join(found->first))
+            return "the token does not allow to join as " + quoted(join.name) + ": its patterns do not cover the components " +
+                   quoted(found->first + ".*");
         auto& [instance, often] = joined_[join.name];
         if (found->second->has_link() && instance != join.instance) return "another engine has joined as " + quoted(join.name);
         if (often.is_exceeded(now())) return quoted(join.name) + " joins too often: expected at most once a second";
@@ -190,9 +196,9 @@ private:
     };
     std::map<std::string, Joined> joined_;              // by name
     std::map<std::string, std::string> last_refusals_;  // by name; "": all unknown names
-    std::shared_ptr<JoinAcceptor> const acceptor_ =
-        std::make_shared<JoinAcceptor>(loop_, host_.schemas, [this](xml::Join const& join) {
-            auto found = joining(join);
+    std::shared_ptr<JoinAcceptor> const acceptor_ = std::make_shared<JoinAcceptor>(
+        loop_, host_.schemas, [this](xml::Join const& join, JoinAcceptor::MayJoin const& may_join) {
+            auto found = joining(join, may_join);
             auto const* refusal = std::get_if<std::string>(&found);
             note_join(join.name, refusal == nullptr ? std::string{} : *refusal);
             return found;
@@ -221,9 +227,11 @@ void RemoteEngines::set(std::vector<SubEngine> wanted, std::string const& url_fo
     links_->post([links = links_, wanted = std::move(wanted)] { links->set(wanted); });
 }
 
-void RemoteEngines::accept(UniqueDescriptor socket, std::string head) {
+void RemoteEngines::accept(UniqueDescriptor socket, std::string head, std::function<bool(std::string const&)> may_join) {
     auto shared = std::make_shared<UniqueDescriptor>(std::move(socket));  // std::function must be copyable
-    links_->post([links = links_, shared, head = std::move(head)] { links->accept(std::move(*shared), head); });
+    links_->post([links = links_, shared, head = std::move(head), may_join = std::move(may_join)] {
+        links->accept(std::move(*shared), head, may_join);
+    });
 }
 
 void RemoteEngines::join(Joining joining) {

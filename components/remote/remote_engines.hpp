@@ -47,8 +47,9 @@ public:
     // What is known of each sub engine, by their names.
     std::vector<EngineState> states() const;
 
-    // Takes a WebSocket of an engine that joins. `socket` and `head` as in client::accepted_link.
-    void accept(UniqueDescriptor socket, std::string head);
+    // Takes a WebSocket of an engine that joins. `socket` and `head` as in client::accepted_link. `may_join`: whether its client
+    // may join as the sub engine with this name; called on the thread of the links.
+    void accept(UniqueDescriptor socket, std::string head, std::function<bool(std::string const& name)> may_join);
 
     // Makes this engine a sub engine of another one. Throws std::invalid_argument if the URL is invalid.
     void join(Joining);

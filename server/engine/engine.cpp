@@ -172,7 +172,7 @@ void Engine::Core::end_withdrawn(Instant now) {
     for (auto const& [id, session] : sessions_) {
         if (session->rights == nullptr || session->ending || !session->rights->is_withdrawn()) continue;
         session->ending = sessions_must_end_ = true;
-        session->why_it_ends = "its token was revoked or has expired";
+        session->why_it_ends = "its token was revoked or changed, or has expired";
     }
     Attempts attempts;
     end_marked_sessions(now, attempts);

@@ -103,7 +103,8 @@ Fault no_memory_for_document(MemoryBudget& memory) {
 
 Fault unauthorized() {
     return {FaultCode::unauthorized,
-            "expected the header 'Authorization: Bearer TOKEN' with a valid token; docs/trust.md says how to get one"};
+            "expected a valid token, in the header 'Authorization: Bearer TOKEN', or in the subprotocol rois.bearer.TOKEN of a "
+            "WebSocket; docs/trust.md says how to get one"};
 }
 
 Fault no_such_session() { return {FaultCode::no_session, "there is no such session; connect first"}; }

@@ -62,6 +62,7 @@ void declare_tokens(CLI::App& app, Flags& flags) {
     auto& token = *app.add_subcommand("token", "add, list and revoke the tokens of clients (docs/trust.md)");
     auto& given = flags.token;
     token.require_subcommand(1);
+    token.footer("The file of tokens: --tokens FILE, ROIS_TOKENS, or the key tokens of the configuration.");
     token.fallthrough();
     auto const name = [&](CLI::App& command) { command.add_option("NAME", given.name, "name of the token")->required(); };
     auto& add = *token.add_subcommand("add", "make a token, and print it: it is not shown again")->fallthrough();
@@ -90,6 +91,8 @@ TokenEntry token_of(Flags const& flags) {
     auto const role = read_role(given.role);
     if (!role) throw BadSettings{"--role must be one of " + names_of_roles() + ", not " + rois::quoted(given.role)};
     entry.role = *role;
+    if (entry.role == Role::observer && !given.commands.empty())
+        throw BadSettings{"--commands has no effect with --role observer, which commands nothing"};
     for (auto const& [flag, patterns] : {std::pair{"--components", &given.components}, {"--commands", &given.commands}})
         if (std::ranges::find(*patterns, "") != patterns->end())
             throw BadSettings{std::string{flag} + " must be a pattern of refs such as 'robot1.*', not ''"};

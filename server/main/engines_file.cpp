@@ -191,6 +191,9 @@ SubEngine read(json const& entry, std::filesystem::path const& folder,
     };
     set("name", entry["name"]);
     for (auto const& [name, value] : entry.items()) set(name, value);
+    for (auto const* key : {"token_file", "ca_file"})
+        if (engine.url.empty() && entry.contains(key))
+            throw BadSettings{where(key) + named() + key + " needs 'url': an engine that joins is not asked"};
     if (!engine.command.empty()) {
         if (engine.url.empty() && engine.joins.empty()) engine.joins = engine.name;
         if (!is_found(engine.command.front(), folder))

@@ -156,6 +156,11 @@ std::shared_ptr<media::Server> make_media(media::Settings settings, net::Setting
     return std::make_shared<media::Server>(std::move(settings), fresh_secret);
 }
 
+FloorMap without_robots(FloorMap map) {
+    map.robots.clear();
+    return map;
+}
+
 bool has_steering(GatewaySettings const& settings) { return settings.steering == Steering::on || settings.sim_speed == 0; }
 
 ComponentProfile profile_of_hall(std::shared_ptr<xml::Schemas const> const& schemas) {
@@ -245,18 +250,21 @@ void read_again(tls::Credentials& credentials) {
     }
 }
 
-// The tokens with which the programs of this gateway join it. Used on the thread of the programs.
+// The tokens with which the programs of this gateway join it, each as its own sub engine. Used on the thread of the programs.
 class ProgramTokens {
 public:
-    explicit ProgramTokens(Tokens& tokens) : tokens_{tokens} {}
+    explicit ProgramTokens(std::size_t most_wrong) : tokens_{most_wrong} {}
+
+    // Thread-safe.
+    Tokens& all() { return tokens_; }
 
     // Makes a token. The earlier one of the program is not valid any more.
     std::string make(std::string const& program) {
         auto token = fresh_token();
         auto holder = std::make_shared<Principal>();
-        std::vector<std::string> const everything{"*"};
+        std::vector<std::string> const own{program + ".*"};
         holder->role = Role::engine;
-        holder->rights = std::make_shared<Rights const>("program " + program, everything, everything);
+        holder->rights = std::make_shared<Rights const>("program " + program, own, own);
         holder->hash = sha256(token);
         if (auto const earlier = std::exchange(given_[program], holder->rights)) earlier->withdraw();
         tokens_.add(std::move(holder));
@@ -264,7 +272,7 @@ public:
     }
 
 private:
-    Tokens& tokens_;
+    Tokens tokens_;
     std::map<std::string, std::shared_ptr<Rights const>> given_;
 };
 
@@ -313,7 +321,7 @@ int serve(CommandLine const& command) {
     Tokens tokens{settings.max_wrong_tokens};
     std::optional<TokensFile> tokens_file;
     if (!settings.tokens.empty()) tokens_file.emplace(settings.tokens, tokens);
-    ProgramTokens program_tokens{tokens};
+    ProgramTokens program_tokens{settings.max_wrong_tokens};
     std::optional<AuditFile> audit_file;
     if (!settings.audit_log.empty())
         audit_file.emplace(settings.audit_log,
@@ -331,12 +339,14 @@ int serve(CommandLine const& command) {
     choosing::Choosing choosing{choosing_settings, [](std::string const& line) { spdlog::warn("choosing: {}", line); }};
     if (!choosing_settings.engines.empty()) engine.add(choosing.device(), choosing::Choosing::provider);
     std::optional<remote::RemoteEngines> remote_engines;
+    auto const map = simulation::floor_map(simulation->hall().plan());
     net::Documents const documents{gateway,
                                    telemetry,
                                    *schemas,
                                    {.page = files::web().at("index.html"),
                                     .console = WebFiles{files::console()},
-                                    .floor_map = xml::encode(simulation::floor_map(simulation->hall().plan())),
+                                    .floor_map = xml::encode(map),
+                                    .floor_map_without_robots = xml::encode(without_robots(map)),
                                     .engines = [&] { return remote_engines ? remote_engines->states() : none; }}};
     if (!settings.engines.empty() || !settings.join.empty()) {
         remote_engines.emplace(remote::RemoteEngines::Host{
@@ -353,10 +363,12 @@ int serve(CommandLine const& command) {
         engine.add(remote_engines->pulse(), "pulse");
         engine.on_stop([&](bool is_stopped) { remote_engines->everything_stopped(is_stopped); });
     }
-    if (!settings.engines.empty()) net_settings.program_tokens = &tokens;
+    if (!settings.engines.empty()) net_settings.program_tokens = &program_tokens.all();
     if (!settings.engines.empty())
-        net_settings.join = [&](UniqueDescriptor socket, std::string head) {
-            remote_engines->accept(std::move(socket), std::move(head));
+        net_settings.join = [&](UniqueDescriptor socket, std::string head, std::shared_ptr<Rights const> rights) {
+            remote_engines->accept(std::move(socket), std::move(head), [rights = std::move(rights)](std::string const& name) {
+                return may_see(rights.get(), name + ".any");
+            });
         };
     net::Server server{net_settings, gateway, telemetry, documents, schemas};
     server.on_hang_up([&] {

@@ -39,6 +39,9 @@ constexpr auto between_looks = std::chrono::milliseconds{250};
 void check_mode(std::string const& file) {
     struct stat found {};
     if (::stat(file.c_str(), &found) != 0) fail("tokens: cannot read " + rois::quoted(file));
+    if (!S_ISREG(found.st_mode)) throw BadSettings{"tokens: " + rois::quoted(file) + " is not a file"};
+    if (found.st_uid != 0 && found.st_uid != ::geteuid())
+        throw BadSettings{"tokens: " + rois::quoted(file) + " belongs to another user: expected one of root or of this process"};
     if ((found.st_mode & (S_IWGRP | S_IWOTH)) != 0)
         throw BadSettings{"tokens: others may write " + rois::quoted(file) + ": expected the mode 0600 (chmod 600)"};
 }
@@ -90,6 +93,13 @@ json object_of(TokenEntry const& entry) {
 }
 
 std::filesystem::path folder_of(std::string const& file) { return std::filesystem::absolute(file).parent_path(); }
+
+// The file that a link stands for: a link is not replaced by a file that only it names.
+std::string without_links(std::string const& file) {
+    std::error_code ignored;
+    auto const real = std::filesystem::weakly_canonical(file, ignored);
+    return real.empty() ? file : real.string();
+}
 
 // Keeps other processes from changing the files of the folder with these functions.
 UniqueDescriptor locked_folder(std::string const& file) {
@@ -170,12 +180,15 @@ std::vector<TokenEntry> read_tokens(std::string const& file) {
         if (auto const problem = problem_of(each, entry); !problem.empty()) throw BadSettings{where + problem};
         if (std::ranges::find(entries, entry.name, &TokenEntry::name) != entries.end())
             throw BadSettings{where + "there are two tokens with the name " + rois::quoted(entry.name)};
+        if (std::ranges::find(entries, entry.sha256, &TokenEntry::sha256) != entries.end())
+            throw BadSettings{where + "there are two entries for one token: revoking one would leave it valid"};
         entries.push_back(std::move(entry));
     }
     return entries;
 }
 
-std::string add_token(std::string const& file, TokenEntry entry) {
+std::string add_token(std::string const& name_of_file, TokenEntry entry) {
+    auto const file = without_links(name_of_file);
     auto const folder = locked_folder(file);
     auto entries = std::filesystem::exists(file) ? read_tokens(file) : std::vector<TokenEntry>{};
     if (std::ranges::find(entries, entry.name, &TokenEntry::name) != entries.end())
@@ -190,7 +203,8 @@ std::string add_token(std::string const& file, TokenEntry entry) {
     return token;
 }
 
-void revoke_token(std::string const& file, std::string const& name) {
+void revoke_token(std::string const& name_of_file, std::string const& name) {
+    auto const file = without_links(name_of_file);
     auto const folder = locked_folder(file);
     auto entries = read_tokens(file);
     if (std::erase_if(entries, [&](TokenEntry const& each) { return each.name == name; }) == 0)
@@ -203,8 +217,9 @@ std::string table_of(std::vector<TokenEntry> const& entries, Utc now) {
     std::vector<Row> rows{{"NAME", "ROLE", "COMPONENTS", "COMMANDS", "EXPIRES"}};
     for (auto const& entry : entries) {
         auto const expires = !entry.expires ? "never" : to_text(*entry.expires) + (*entry.expires <= now ? " (expired)" : "");
-        rows.push_back({entry.name, std::string{to_text(entry.role)}, listed(entry.components),
-                        entry.role == Role::observer ? "none" : listed(entry.commands), expires});
+        rows.push_back({entry.name, std::string{to_text(entry.role)},
+                        entry.components.empty() ? "none" : listed(entry.components),
+                        entry.role == Role::observer || entry.commands.empty() ? "none" : listed(entry.commands), expires});
     }
     std::array<std::size_t, 5> widths{};
     for (auto const& row : rows)

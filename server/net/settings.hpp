@@ -14,8 +14,9 @@
 #include "xml/codec/codec.hpp"
 
 namespace rois {
+class Rights;
 class Tokens;
-}
+}  // namespace rois
 
 namespace rois::tls {
 class Credentials;
@@ -46,8 +47,9 @@ struct Settings {
     std::vector<std::string> hosts;            // names of the gateway, in the form of host_name (gateway/access/host_names.hpp)
     std::vector<std::string> allowed_origins;  // of web pages, besides those of the gateway: "https://console.example"
 
-    // Takes the socket of an engine that joins, and the bytes received on it. Called on an I/O thread. Empty: none may join.
-    std::function<void(UniqueDescriptor socket, std::string head)> join;
+    // Takes the socket of an engine that joins, the bytes received on it, and the rights of its client (null: no limits). Called
+    // on an I/O thread. Empty: none may join.
+    std::function<void(UniqueDescriptor socket, std::string head, std::shared_ptr<Rights const>)> join;
 
     // The tokens of the programs that this process starts, which may join; null: it starts none. Must outlive the server.
     Tokens* program_tokens = nullptr;

@@ -26,7 +26,7 @@ TEST_F(TakingOver, HaltsTheComponentAndTellsItsOwnerWhy) {
         << "without take_over";
     world["navigation"].calls.clear();
     EXPECT_EQ(chief.ask(take_over("navigation")).return_code, ReturnCode::ok);
-    EXPECT_THAT(world["navigation"].calls, Contains("halt"));
+    EXPECT_THAT(world["navigation"].calls, testing::Contains("halt"));
     EXPECT_THAT(desk.received(),
                 ElementsAre("1 completed go-1 ABORT", "2 completed go-2 ABORT", "3 USER_DEFINED_ERROR navigation"));
     auto const error = desk.last_received<ReceiveError>();

@@ -13,6 +13,7 @@
 
 #include "core/loop.hpp"
 #include "links/link.hpp"
+#include "xml/codec/codec.hpp"
 
 namespace rois::client {
 
@@ -137,8 +138,11 @@ private:
             return;
         }
         auto const status = answer.result_int();
+        auto const document = xml::AnswerReader{}.read(answer.body());
+        auto const* fault = document ? std::get_if<Fault>(&*document) : nullptr;
         bool const lasting = status >= 400 && status < 500 && status != 429 && status != 408;
-        fail(target_.authority + " refuses a WebSocket: " + std::to_string(status) + " " + std::string{answer.reason()},
+        fail(target_.authority + " refuses a WebSocket: " + std::to_string(status) + " " + std::string{answer.reason()} +
+                 (fault == nullptr ? "" : ": " + fault->reason),
              lasting ? Failure::lasting : Failure::passing);
     }
 

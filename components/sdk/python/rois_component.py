@@ -15,6 +15,7 @@ import os
 import pathlib
 import re
 import signal
+import ssl
 import struct
 import threading
 import time
@@ -271,6 +272,15 @@ def in_thread(function):
     return asyncio.wrap_future(future)
 
 
+def trusted():
+    """TLS that trusts the certificates of the system, and those of the file ROIS_CA_FILE."""
+    context = ssl.create_default_context()
+    context.minimum_version = ssl.TLSVersion.TLSv1_2
+    if os.environ.get("ROIS_CA_FILE"):
+        context.load_verify_locations(os.environ["ROIS_CA_FILE"])
+    return context
+
+
 class WebSocket:
     """The client's side of a WebSocket (RFC 6455)."""
 
@@ -283,7 +293,8 @@ class WebSocket:
     async def open(cls, url, token=""):
         parts = urllib.parse.urlsplit(url)
         secure = parts.scheme in ("wss", "https")
-        reader, writer = await asyncio.open_connection(parts.hostname, parts.port or (443 if secure else 80), ssl=secure or None)
+        port = parts.port or (443 if secure else 80)
+        reader, writer = await asyncio.open_connection(parts.hostname, port, ssl=trusted() if secure else None)
         key = base64.b64encode(os.urandom(16)).decode()
         bearer = f"Authorization: Bearer {token}\r\n" if token else ""
         writer.write(
@@ -736,7 +747,7 @@ def is_safe(url):
 
 def run(url, name, components):
     """Serves the components until SIGTERM or SIGINT. --url and --name, or ROIS_URL and ROIS_NAME, replace the given ones.
-    ROIS_TOKEN is the token that the gateway expects, if it expects one."""
+    ROIS_TOKEN is the token that the gateway expects, if it expects one; ROIS_CA_FILE has certificates that it may have."""
     parser = argparse.ArgumentParser(description="Components of a RoIS engine.")
     parser.add_argument("--url", default=os.environ.get("ROIS_URL", url), help="the gateway to join")
     parser.add_argument("--name", default=os.environ.get("ROIS_NAME", name), help="the name by which the program joins")

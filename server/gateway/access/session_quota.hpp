@@ -22,6 +22,7 @@ struct Client {
     std::size_t sessions = 0;                      // open sessions that it has opened; only the quota uses it
 
     Rights const* rights() const { return principal ? principal->rights.get() : nullptr; }
+    bool sees_everything() const { return !principal || principal->rights->sees_everything(); }
     std::string name() const { return principal ? principal->name() : std::string{}; }  // of its token; empty: it has none
 };
 

@@ -25,6 +25,10 @@ constexpr auto longest_wait_without_memory = std::chrono::milliseconds{100};  //
 
 Fault only_joining() { return {FaultCode::not_allowed, "programs can only join here: expected GET /rois/engines"}; }
 
+Fault only_for_all() {
+    return {FaultCode::not_allowed, "the stop is for all components: expected a token that may see all of them"};
+}
+
 std::optional<HttpAnswer> refusal_of_role(Role role, Role least) {
     if (role >= least) return {};
     return answer_of(not_allowed_for(role, least));
@@ -79,11 +83,12 @@ Task<> Connection::hand_over() {
     std::ostringstream head;
     head << head_.message << wire_.text();
     auto const& join = loop_.shared().settings.join;
-    if (!wire_.is_secure() && !client_->principal) co_return join(wire_.release(), head.str());
+    auto const rights = client_->principal ? client_->principal->rights : nullptr;
+    if (!wire_.is_secure() && !rights) co_return join(wire_.release(), head.str(), rights);
     wire_.use(wire_.text().size());
     LocalSocket inside{loop_.executor()}, outside{loop_.executor()};
     asio::local::connect_pair(inside, outside);
-    join(UniqueDescriptor{outside.release()}, head.str());
+    join(UniqueDescriptor{outside.release()}, head.str(), rights);
     has_joined_ = true;
     co_await relay(wire_, inside);
 }
@@ -218,6 +223,7 @@ Connection::Then Connection::judge_head() {
     if (!refused) refused = refusal(head_, route_, settings);
     bool const is_program = from_ == Loop::From::programs;
     if (!refused && is_program && route_.endpoint != Endpoint::engines) refused = answer_of(only_joining());
+    if (!refused && route_.endpoint == Endpoint::clear && !client_->sees_everything()) refused = answer_of(only_for_all());
     if (!refused && client_->principal)
         refused = refusal_of_role(client_->principal->role, least_role_for(route_.endpoint, head_));
     has_head_ = !refused;
@@ -253,7 +259,9 @@ std::optional<HttpAnswer> Connection::identify() {
     }
     if (is_for_everyone(route_.endpoint) && !is_program) return {};
     if (!is_one_too_many) return answer_of(unauthorized());
-    return answer_of({FaultCode::too_many, "too many wrong tokens from this address: try again in a minute"});
+    auto answer = answer_of({FaultCode::too_many, "too many wrong tokens from this address: try again in a minute"});
+    answer.fields.set(http::field::retry_after, "60");
+    return answer;
 }
 
 // Sends the waiting answers, then waits for input. Returns `next` if there is some.
@@ -354,10 +362,12 @@ Connection::Then Connection::serve_upgrade() {
     if (shared.gateway.shutting_down()) return reply(answer_of(shutting_down()));
     bool const joins = route_.endpoint == Endpoint::engines;
     bool const is_trusted = client_->principal != nullptr || is_loopback(place_.address());
-    if (joins && (!shared.settings.join || !is_trusted))
-        return reply(answer_of({FaultCode::not_allowed,
-                                "joining is not allowed: expected a token or a connection from this machine, and the key engines "
-                                "in the configuration"}));
+    if (joins && !shared.settings.join)
+        return reply(
+            answer_of({FaultCode::not_allowed, "joining is not allowed: expected the key engines in the configuration"}));
+    if (joins && !is_trusted)
+        return reply(
+            answer_of({FaultCode::not_allowed, "joining is not allowed: expected a connection from this machine, or tokens"}));
     auto const answer = upgrade(head_);
     if (answer.status != http::status::switching_protocols) return reply(answer);
     if (joins) return Then::engine;  // client::accepted_link sends the answer to the handshake

@@ -43,7 +43,8 @@ HttpAnswer not_found(std::string reason) { return answer_of({FaultCode::not_foun
 
 HttpAnswer file_answer(WebFile const* file, RequestHead const& head) {
     if (file == nullptr) return not_found("the console has no file " + quoted(head.path));
-    bool const compressed = !file->compressed.empty() && head.takes_gzip();
+    // The page itself is short, and compressing it looks like the weakness BREACH of TLS.
+    bool const compressed = file->is_asset && !file->compressed.empty() && head.takes_gzip();
     auto const etag = '"' + file->digest + (compressed ? "-gzip\"" : "\"");
     HttpAnswer answer{.body = std::string{compressed ? file->compressed : file->plain}, .content_type = file->content_type};
     answer.cache_control = file->is_asset ? "public, max-age=31536000, immutable" : "no-cache";
@@ -83,7 +84,7 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head, Princi
         case Endpoint::schema:
             return schema(route.name, head);
         case Endpoint::floor_map:
-            return site_.floor_map.empty() ? not_found("this engine has no floor map") : versioned_xml(site_.floor_map, head);
+            return floor_map(head, rights);
         case Endpoint::healthz:
             return verdict(why_not_alive(telemetry_), "alive\n");
         case Endpoint::readyz:
@@ -91,7 +92,7 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head, Princi
         case Endpoint::engines:
             return {.body = xml::encode(engines(rights))};
         case Endpoint::metrics:
-            return {.body = telemetry_.text(statistics(asker), engines(rights)),
+            return {.body = telemetry_.text(statistics(rights), engines(rights)),
                     .content_type = "text/plain; version=0.0.4; charset=utf-8"};
         default:
             return not_found("there is nothing here");
@@ -117,9 +118,18 @@ std::vector<EngineState> Documents::engines(Rights const* rights) const {
     return states;
 }
 
-EngineStatistics Documents::statistics(Principal const* asker) const {
+HttpAnswer Documents::floor_map(RequestHead const& head, Rights const* rights) const {
+    if (site_.floor_map.empty()) return not_found("this engine has no floor map");
+    bool const sees_everything = rights == nullptr || rights->sees_everything();
+    return versioned_xml(sees_everything ? site_.floor_map : site_.floor_map_without_robots, head);
+}
+
+// Those who may not see everything learn nothing about sessions.
+EngineStatistics Documents::statistics(Rights const* rights) const {
     auto all = gateway_.statistics();
-    for (auto& session : all.each_session) session.bound = seen_by(asker, std::move(session.bound));
+    if (rights == nullptr || rights->sees_everything()) return all;
+    all.each_session.clear();
+    all.components = gateway_.components(rights).size();
     return all;
 }
 

@@ -20,6 +20,7 @@ struct Site {
     std::string_view page;  // HTML with one <style> element, and the marks {{origin}}, {{components}} and {{schemas}}
     WebFiles console{{}};   // at "/"; if it is empty, the page is at "/"
     std::string floor_map;  // an XML document (schemas/map.xsd); empty: the engine has no map
+    std::string floor_map_without_robots{};  // for clients that may not see everything
     std::function<std::vector<EngineState>()> engines = [] { return std::vector<EngineState>{}; };  // any thread
 };
 
@@ -39,7 +40,8 @@ private:
     HttpAnswer page(RequestHead const&, Rights const*) const;
     HttpAnswer component_profile(std::string const& ref, RequestHead const&, Rights const*) const;
     std::vector<EngineState> engines(Rights const*) const;
-    EngineStatistics statistics(Principal const*) const;
+    EngineStatistics statistics(Rights const*) const;
+    HttpAnswer floor_map(RequestHead const&, Rights const*) const;
     HttpAnswer readiness(Principal const*) const;
     HttpAnswer schema(std::string const& file, RequestHead const&) const;
 

@@ -160,7 +160,7 @@ std::optional<std::string> RequestHead::token() const {
         std::string_view const value = each.value();
         if (each.name() == http::field::authorization)
             note(equal_ignoring_case(value.substr(0, scheme.size()), scheme) ? trimmed(value.substr(scheme.size())) : "");
-        if (each.name() == http::field::sec_websocket_protocol)
+        if (each.name() == http::field::sec_websocket_protocol && lists("Upgrade", "websocket"))
             any_member(value, [&](std::string_view member) {
                 if (!member.starts_with(subprotocol)) return false;
                 auto const token = member.substr(subprotocol.size());

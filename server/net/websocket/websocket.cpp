@@ -269,7 +269,7 @@ void WebSocket::sweep(Steady at) {
     bool const without_session = at >= session_due_ && !ending_;
     bool const is_over = client_->principal && client_->principal->is_over() && !ending_;
     if (late) close({CloseCode::policy_violation, "the message did not arrive within request_timeout"});
-    if (is_over) close({CloseCode::policy_violation, "the token was revoked or has expired"});
+    if (is_over) close({CloseCode::policy_violation, "the token was revoked or changed, or has expired"});
     if (without_session) close({CloseCode::policy_violation, "no session was opened or resumed within connect_timeout"});
     bool const proof_due = at >= proof_due_ && reading_ && reading_->wants_signs_of_life(at);
     if (proof_due) proof_due_ = std::max(proof_due_ + proof_interval, at + proof_interval / 2);

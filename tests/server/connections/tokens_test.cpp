@@ -142,6 +142,14 @@ TEST_F(Tokens, HideComponentsFromTheirHolders) {
         EXPECT_THAT(desk.get(path).body, HasSubstr("navigation")) << path;
     }
     EXPECT_THAT(speaker.get("/rois/profile").body, HasSubstr("speech_synthesis"));
+    EXPECT_THAT(desk.get("/rois/map").body, HasSubstr("<robot "));
+    EXPECT_THAT(speaker.get("/rois/map").body, AllOf(HasSubstr("<place "), Not(HasSubstr("<robot "))));
+    auto const metrics = speaker.get("/metrics").body;
+    EXPECT_THAT(metrics, AllOf(HasSubstr("rois_components 3\n"), Not(HasSubstr("session=\"1\""))));
+    EXPECT_EQ(speaker.say(post("/rois/stop", "Authorization: Bearer " + token + "\r\n")).status, 200);
+    EXPECT_EQ(speaker.say(post("/rois/clear", "Authorization: Bearer " + token + "\r\n")).status, 403)
+        << "others may need the stop";
+    EXPECT_EQ(desk.say(post("/rois/clear", "Authorization: Bearer " + all + "\r\n")).status, 200);
     EXPECT_EQ(speaker.get("/rois/profile/speech_synthesis").status, 200);
     EXPECT_EQ(speaker.get("/rois/profile/navigation").status, 404);
     EXPECT_THAT(speaker.call("get_profile").body, AllOf(HasSubstr("speech_synthesis"), Not(HasSubstr("navigation"))));
@@ -229,6 +237,7 @@ TEST_F(Tokens, ThatAreWrongGet429AfterTenInAMinute) {
     auto const guess = [&] { return stranger.get("/rois/profile", {{"Authorization", "Bearer guess"}}).status; };
     for (int i = 0; i < 10; ++i) EXPECT_EQ(guess(), 401) << i;
     EXPECT_EQ(guess(), 429);
+    EXPECT_EQ(stranger.get("/rois/profile", {{"Authorization", "Bearer guess"}}).header("Retry-After"), "60");
     EXPECT_EQ(stranger.get("/rois/profile").status, 401) << "without a token";
     EXPECT_EQ(stranger.get("/rois/profile", {{"Authorization", "Bearer " + token}}).status, 200)
         << "another client behind this address must be able to stop the robot";

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -70,12 +71,24 @@ TEST(TokenCommand, SaysWhatIsWrong) {
     expect_complaint(file.run({"add", "x", "--role", "observer", "--expires", "2001-01-01"}),
                      "--expires must be a time in the future");
     expect_complaint(file.run({"add", "x", "--role", "observer", "--components", ""}), "--components must be a pattern");
+    expect_complaint(file.run({"add", "x", "--role", "observer", "--commands", "move"}),
+                     "--commands has no effect with --role observer");
     expect_complaint(file.run({"revoke", "nobody"}), "there is no token with the name 'nobody'");
     expect_complaint(file.run({}), "A subcommand is required");
     expect_complaint(run_gateway({"token", "list"}), "expected the file of tokens in --tokens FILE");
     expect_complaint(run_gateway({"token", "list", "--tokens", "/nowhere/at.all"}), "cannot read '/nowhere/at.all'");
     expect_complaint(run_gateway({"token", "add", "x", "--role", "observer", "--tokens", "/nowhere/at.all"}),
                      "cannot change '/nowhere/at.all': No such file or directory");
+}
+
+TEST(TokenCommand, ChangesTheFileThatALinkStandsFor) {
+    TokenFile const file;
+    file.add("desk", "operator");
+    auto const link = file.folder() + "/link.json";
+    std::filesystem::create_symlink(file.name(), link);
+    EXPECT_EQ(run_gateway({"token", "revoke", "desk", "--tokens", link}).exit_code, 0);
+    EXPECT_TRUE(std::filesystem::is_symlink(link));
+    EXPECT_THAT(content_of(file.name()), Not(HasSubstr("desk")));
 }
 
 TEST(TokenCommand, LosesNoTokenWhenManyAreAddedAtOnce) {
@@ -106,8 +119,22 @@ TEST(FileOfTokens, MustBeValidAndForItsOwnerOnly) {
             "components must be a list of patterns");
     refused(R"({"tokens": [{"name": "x", "role": "observer", "sha256": ")" + hash + R"(", "rights": 1}]})",
             "'rights' is not a key of a token");
+    auto const entry = [&](std::string const& name) {
+        return R"({"name": ")" + name + R"(", "role": "observer", "sha256": ")" + hash + R"("})";
+    };
+    refused(R"({"tokens": [)" + entry("x") + ", " + entry("x") + "]}", "there are two tokens with the name 'x'");
+    refused(R"({"tokens": [)" + entry("x") + ", " + entry("y") + "]}", "there are two entries for one token");
     std::filesystem::permissions(file.name(), std::filesystem::perms::group_write, std::filesystem::perm_options::add);
     refused(R"({"tokens": []})", "others may write");
+    expect_complaint(run_gateway({"--tokens", file.folder()}), "is not a file");
+    auto const pipe = file.folder() + "/pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    expect_complaint(run_gateway({"--tokens", pipe}), "'" + pipe + "' is not a file");
+    if (::geteuid() == 0) {
+        std::filesystem::permissions(file.name(), std::filesystem::perms::group_write, std::filesystem::perm_options::remove);
+        ASSERT_EQ(::chown(file.name().c_str(), 65534, 65534), 0);
+        refused(R"({"tokens": []})", "belongs to another user");
+    }
     expect_complaint(run_gateway({"--tokens", "/nowhere/at.all"}), "cannot read '/nowhere/at.all': No such file or directory");
 }
 

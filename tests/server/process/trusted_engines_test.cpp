@@ -71,6 +71,19 @@ TEST_F(TrustedEngines, JoinWithATokenUntilItIsRevoked) {
     EXPECT_THAT(robot.log_with("401"), HasSubstr("401")) << "the link was cut, and another one is refused";
 }
 
+TEST_F(TrustedEngines, JoinOnlyByTheNamesThatTheirTokensCover) {
+    put("engines.json", R"({"engines": [{"name": "one", "joins": "one"}, {"name": "two", "joins": "two"}]})");
+    put("one.token", file.add("one", "engine", {"--components", "one.*"}));
+    GatewayProcess gateway{main()};
+    auto const joining = [&](std::string const& name) {
+        return std::vector<std::string>{"--join", gateway.url(), "--join-as", name, "--join-token-file", path("one.token")};
+    };
+    GatewayProcess thief{joining("two")};
+    EXPECT_THAT(thief.log_with("refuses"), HasSubstr("the token does not allow to join as 'two'"));
+    GatewayProcess const robot{joining("one")};
+    gateway.log_with("sub engine one: present with");
+}
+
 TEST_F(TrustedEngines, AreProgramsOfTheGatewayWithoutAnyConfiguration) {
     Certificates const certificates;
     certificates.make("own");
@@ -92,16 +105,23 @@ TEST_F(TrustedEngines, AreProgramsOfTheGatewayWithoutAnyConfiguration) {
 
 TEST_F(TrustedEngines, HaveAPortWhereOthersCanOnlyBeRefused) {
     put("engines.json",
-        R"({"engines": [{"name": "p", "joins": "p", "command": ["sh", "-c", "echo url $ROIS_URL; sleep 600"]}]})");
+        R"({"engines": [{"name": "p", "joins": "p", "command": ["sh", "-c", "echo token $ROIS_TOKEN; echo url $ROIS_URL; sleep 600"]}]})");
     GatewayProcess gateway{main()};
     std::string const mark = "url http://127.0.0.1:";
     auto const log = gateway.log_with(mark);
     auto address = with_token(engine, gateway);
     address.port = static_cast<std::uint16_t>(std::stoi(log.substr(log.find(mark) + mark.size())));
     EXPECT_NE(address.port, gateway.port());
+    std::string const before = "token ";
+    auto const begin = log.find(before) + before.size();
+    address.token = log.substr(begin, log.find('\n', begin) - begin);
+    EXPECT_EQ(kit::HttpClient{rois::test::with_token(address.token, gateway)}.get("/rois/profile").status, 401)
+        << "a program's token is not one of the gateway's port";
     kit::HttpClient with_token{address};
     for (auto const* path : {"/rois/profile", "/healthz", "/"}) EXPECT_EQ(with_token.get(path).status, 403) << path;
     EXPECT_EQ(kit::shake_hands(with_token).status, 403);
+    address.token = engine;
+    EXPECT_EQ(kit::shake_hands(*std::make_unique<kit::HttpClient>(address), {}, "/rois/engines").status, 401);
     address.token.clear();
     kit::HttpClient without{address};
     for (auto const* path : {"/rois/profile", "/healthz", "/", "/rois/engines"}) EXPECT_EQ(without.get(path).status, 401) << path;
