@@ -6,12 +6,14 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "main/settings.hpp"
 #include "types/instant.hpp"
+#include "types/text/texts.hpp"
 
 namespace rois {
 
@@ -39,7 +41,11 @@ spdlog::file_event_handlers for_owner_only() {
     return handlers;
 }
 
+// spdlog would make a missing folder, also for a name with a mistake.
 spdlog::sinks::rotating_file_sink_st opened(std::string const& file, AuditFile::Limits const& limits) try {
+    auto const folder = std::filesystem::absolute(file).parent_path();
+    if (!std::filesystem::is_directory(folder))
+        throw BadSettings{"audit_log: the folder " + rois::quoted(folder.string()) + " does not exist"};
     return {file, limits.bytes, limits.files, false, for_owner_only()};
 } catch (spdlog::spdlog_ex const& problem) {
     throw BadSettings{std::string{"audit_log: "} + problem.what()};
@@ -47,8 +53,7 @@ spdlog::sinks::rotating_file_sink_st opened(std::string const& file, AuditFile::
 
 }  // namespace
 
-AuditFile::AuditFile(std::string const& file, Limits const& limits)
-    : limits_{limits}, sink_{opened(file, limits)} {
+AuditFile::AuditFile(std::string const& file, Limits const& limits) : limits_{limits}, sink_{opened(file, limits)} {
     sink_.set_formatter(std::make_unique<spdlog::pattern_formatter>("%v"));
     thread_ = std::jthread{[this](std::stop_token const& stop) { run(stop); }};
 }

@@ -192,9 +192,8 @@ public:
         auto const age = t.age_of_last_tick(std::chrono::steady_clock::now());
         gauge("rois_last_tick_age_seconds", "Time since the last tick of the engine.",
               std::chrono::duration<double>(age).count());
-        if (t.lost_of_audit_)
-            counter("rois_audit_lines_lost_total", "Lines of the audit log that could not be written.",
-                    static_cast<double>(t.lost_of_audit_()));
+        counter("rois_audit_lines_lost_total", "Lines of the audit log that could not be written.",
+                t.lost_of_audit_ ? static_cast<double>(t.lost_of_audit_()) : 0);
         if (!t.log_) return;
         counter("rois_log_lines_dropped_total", "Lines of the log that could not be written.",
                 static_cast<double>(t.log_->dropped()));

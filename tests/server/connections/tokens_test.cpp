@@ -269,10 +269,11 @@ TEST_F(Tokens, AreNamedInTheAuditLogAndNeverShown) {
         desk.call("connect");
         session = desk.session;
         desk.call("bind", component_ref("navigation"));
-        desk.call("execute", unit({.component = "navigation",
-                                   .type = "start",
-                                   .id = "my-secret-id",
-                                   .arguments = {{"target_position", "string", {"desk"}}}}));
+        Command const drive{.component = "navigation",
+                            .type = "start",
+                            .id = "my-secret-id",
+                            .arguments = {{"target_position", "string[]", {"desk"}}}};
+        EXPECT_EQ(outcome(desk, "execute", sequence(unit(drive))), "OK");
         chief.call("connect");
         chief.call("bind", component_ref("navigation"), {{"take_over", "true"}});
         desk.call("bind", component_ref("<script>"));

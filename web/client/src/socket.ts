@@ -56,7 +56,7 @@ export function socket_url(url: string, token?: string): string {
   if (!/^(https?|wss?):$/.test(at.protocol)) throw new RoisError('invalid', `'${url}': unknown scheme, expected http, https, ws or wss`);
   const is_here = /^(localhost|127(\.\d+){3}|\[::1\])$/.test(at.hostname);
   if (token !== undefined && !is_here && /^(http|ws):$/.test(at.protocol))
-    throw new RoisError('invalid', `a token is not sent to '${at.hostname}' without TLS, because others could read it: expected https or wss`);
+    throw new RoisError('invalid', `a token is not sent to '${at.hostname}' without TLS, which others could read: expected https or wss`);
   const path = at.pathname.replace(/\/+$/, '');
   return `${at.protocol.replace('http', 'ws')}//${at.host}${path.endsWith('/rois') ? path : `${path}/rois`}`;
 }
