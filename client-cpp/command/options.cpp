@@ -400,6 +400,8 @@ void check(Options const& options, Raw const& raw) {
         throw Trouble{Exit::usage, "release needs components; only with --session-file may REF be left out"};
     if (!options.wait && options.session.empty())
         throw Trouble{Exit::usage, "--no-wait: without --session the command would end with the program"};
+    if (options.take_over && (!options.where.empty() || !options.condition_file.empty()))
+        throw Trouble{Exit::usage, "bind: --take-over needs the names of components, not a condition"};
     if (options.command == "bind" && options.words.empty() && options.where.empty() && options.condition_file.empty())
         throw Trouble{Exit::usage, "bind needs components: give REF or --where CONDITION"};
     bool const unasked = options.command == "replay" || needs_no_session(options) || options.check;  // these open no session

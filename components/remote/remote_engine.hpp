@@ -162,6 +162,7 @@ private:
     std::string fresh_id() { return "c" + std::to_string(++last_command_); }  // of a command
     void command(std::shared_ptr<ComponentRecord> const&, std::string const& command_type, ParameterList arguments,
                  std::string const& id, std::function<void(CompletedStatus, std::string const& reason)> const& then);
+    void judge_failed_halt(std::shared_ptr<ComponentRecord> const&);
     void halt_by_release(std::shared_ptr<ComponentRecord> const&);
     void ask_to_stop();
     void clear_stop_there();

@@ -148,11 +148,9 @@ private:
                                                                      JoinAcceptor::MayJoin const& may_join) {
         auto const found =
             std::ranges::find_if(engines_, [&](auto const& each) { return each.second->settings().joins == join.name; });
-        if (join.name.empty() || found == engines_.end())
-            return "unknown name " + quoted(join.name) + ": expected the \"joins\" of an entry in the engines file";
-        if (!may_join(found->first))
-            return "the token does not allow to join as " + quoted(join.name) + ": its patterns do not cover the components " +
-                   quoted(found->first + ".*");
+        if (join.name.empty() || found == engines_.end() || !may_join(found->first))
+            return "unknown name " + quoted(join.name) +
+                   ": expected the \"joins\" of an entry in the engines file, which the token allows";
         auto& [instance, often] = joined_[join.name];
         if (found->second->has_link() && instance != join.instance) return "another engine has joined as " + quoted(join.name);
         if (often.is_exceeded(now())) return quoted(join.name) + " joins too often: expected at most once a second";

@@ -171,10 +171,20 @@ void RemoteEngine::halt(std::shared_ptr<ComponentRecord> const& record, Ticket t
     command(record, "stop", {}, id, [self = shared_from_this(), record, id](CompletedStatus status, std::string const&) {
         bool const is_current = std::erase(record->stops, id) > 0;
         if (!is_current) return;
-        if (status == CompletedStatus::error) return record->fail_halt();
+        if (status == CompletedStatus::error) return self->judge_failed_halt(record);
         if (status != CompletedStatus::ok) return;
         record->stops.clear();
         self->confirm_halt(record);
+    });
+}
+
+// The halt has failed there, or another session there has taken the component over. `bind` tells which: it changes nothing if the
+// binding is still that of this engine.
+void RemoteEngine::judge_failed_halt(std::shared_ptr<ComponentRecord> const& record) {
+    ask(Bind{{.code = record->entry.ref}, record->switching}, [record](Reply const* reply) {
+        if (reply == nullptr || outcome_of(*reply).return_code != ReturnCode::out_of_resources) return record->fail_halt();
+        record->is_held = false;
+        record->end_activity();
     });
 }
 

@@ -40,61 +40,6 @@ AuditEntry entry(std::string_view what, Client const& client) {
 
 }  // namespace
 
-Hold::Hold(Gateway& gateway, std::shared_ptr<NotificationQueue> queue)
-    : gateway_{&gateway}, queue_{std::move(queue)}, place_{queue_->hold()} {}
-
-Hold& Hold::operator=(Hold&& other) noexcept {
-    release();
-    gateway_ = std::exchange(other.gateway_, nullptr);
-    queue_ = std::move(other.queue_);
-    place_ = other.place_;
-    return *this;
-}
-
-void Hold::release() {
-    auto* const gateway = std::exchange(gateway_, nullptr);
-    if (gateway && queue_->release(place_)) notify(*gateway);
-}
-
-void Hold::delay() {
-    if (gateway_ && queue_->delay(place_)) notify(*gateway_);
-}
-
-void Hold::resume() {
-    if (gateway_) queue_->resume(place_);
-}
-
-void Hold::notify(Gateway& gateway) {
-    Gateway::Lock const lock{gateway};
-    gateway.readers_.notify(*queue_);
-}
-
-// Must not fail: neither call allocates.
-Reading::~Reading() {
-    if (!queue_) return;
-    Gateway::Lock const lock{gateway_};
-    gateway_.readers_.leave(session(), reader_);
-    gateway_.engine_.link_closed(session(), link_, closing_, present());
-}
-
-void Reading::note_pong() {
-    Gateway::Lock const lock{gateway_};
-    gateway_.engine_.note_pong(session(), present());
-}
-
-Reading::Then Reading::take(std::size_t most, std::vector<Numbered>& into) {
-    auto const before = into.size();
-    auto const then = queue_->read(after_, most, into);
-    if (into.size() > before) after_ = into.back().sequence;
-    return then;
-}
-
-Reading::Taken Reading::take(std::size_t most) {
-    Taken taken;
-    taken.then = take(most, taken.notifications);
-    return taken;
-}
-
 Fault shutting_down() { return {FaultCode::shutting_down, "the gateway is shutting down"}; }
 
 Fault no_memory_for_document(MemoryBudget& memory) {
@@ -157,6 +102,11 @@ public:
         come();
     }
     void refuse(Refusal refusal) override {
+        if (refusal == Refusal::not_allowed && rights)
+            gateway_.audit_({.what = "refused",
+                             .token = rights->holder(),
+                             .operation = std::string{operation_name(operation())},
+                             .outcome = std::string{to_text(FaultCode::not_allowed)}});
         fault_ = gateway_.fault_of(refusal);
         fault_->request_id = request_.request_id;
         come();
@@ -506,22 +456,6 @@ std::vector<ComponentEntry> Gateway::components(Rights const* rights) const {
 EngineStatistics Gateway::statistics() const {
     std::lock_guard const lock{mutex_};
     return engine_.statistics();
-}
-
-Farewell::Farewell(Gateway& gateway, SessionId session, Reader& reader)
-    : gateway_{gateway}, session_{std::move(session)}, reader_{reader} {
-    std::lock_guard const lock{gateway_.mutex_};
-    gateway_.readers_.join(session_, reader_);
-}
-
-Farewell::~Farewell() {
-    std::lock_guard const lock{gateway_.mutex_};
-    gateway_.readers_.leave(session_, reader_);
-}
-
-bool Farewell::alone() const {
-    std::lock_guard const lock{gateway_.mutex_};
-    return gateway_.readers_.count(session_) == 1;
 }
 
 }  // namespace rois

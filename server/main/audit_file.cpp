@@ -1,12 +1,16 @@
 #include "main/audit_file.hpp"
 
+#include <fcntl.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
+#include <cstring>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -14,6 +18,7 @@
 #include "main/settings.hpp"
 #include "types/instant.hpp"
 #include "types/text/texts.hpp"
+#include "types/unique_descriptor.hpp"
 
 namespace rois {
 
@@ -34,26 +39,34 @@ std::string line_of(AuditEntry const& entry, std::uint64_t left_out) {
     return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-// Only its owner may read a file that says who did what.
-spdlog::file_event_handlers for_owner_only() {
+// Makes the file if it does not exist. spdlog would open whatever has this name, and make a missing folder.
+std::string usable(std::string const& file) {
+    UniqueDescriptor const made{
+        ::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, S_IRUSR | S_IWUSR)};
+    struct stat found {};
+    if (made.get() < 0 || ::fstat(made.get(), &found) != 0)
+        throw BadSettings{"audit_log: cannot write " + rois::quoted(file) + ": " + std::strerror(errno)};
+    if (!S_ISREG(found.st_mode)) throw BadSettings{"audit_log: " + rois::quoted(file) + " is not a file"};
+    return file;
+}
+
+spdlog::file_event_handlers calling(std::function<void(std::FILE*)> opened) {
     spdlog::file_event_handlers handlers;
-    handlers.after_open = [](spdlog::filename_t const&, std::FILE* file) { ::fchmod(::fileno(file), S_IRUSR | S_IWUSR); };
+    handlers.after_open = [opened = std::move(opened)](spdlog::filename_t const&, std::FILE* file) { opened(file); };
     return handlers;
 }
 
-// spdlog would make a missing folder, also for a name with a mistake.
-spdlog::sinks::rotating_file_sink_st opened(std::string const& file, AuditFile::Limits const& limits) try {
-    auto const folder = std::filesystem::absolute(file).parent_path();
-    if (!std::filesystem::is_directory(folder))
-        throw BadSettings{"audit_log: the folder " + rois::quoted(folder.string()) + " does not exist"};
-    return {file, limits.bytes, limits.files, false, for_owner_only()};
-} catch (spdlog::spdlog_ex const& problem) {
-    throw BadSettings{std::string{"audit_log: "} + problem.what()};
+::off_t size_of(std::FILE* file) {
+    struct stat found {};
+    return ::fstat(::fileno(file), &found) == 0 ? found.st_size : 0;
 }
 
 }  // namespace
 
-AuditFile::AuditFile(std::string const& file, Limits const& limits) : limits_{limits}, sink_{opened(file, limits)} {
+AuditFile::AuditFile(std::string const& file, Limits const& limits)
+    : limits_{limits}, sink_{usable(file), limits.bytes, limits.files, false, calling([this](std::FILE* present) {
+                                 opened(present);
+                             })} {
     sink_.set_formatter(std::make_unique<spdlog::pattern_formatter>("%v"));
     thread_ = std::jthread{[this](std::stop_token const& stop) { run(stop); }};
 }
@@ -100,13 +113,28 @@ void AuditFile::run(std::stop_token const& stop) {
     }
 }
 
+// Only its owner may read a file that says who did what.
+void AuditFile::opened(std::FILE* file) {
+    ::fchmod(::fileno(file), S_IRUSR | S_IWUSR);
+    present_ = file;
+    whole_ = size_of(file);
+}
+
+// Removes the part of a line that was written before the disk was full.
+void AuditFile::cut_off() {
+    std::clearerr(present_);
+    if (::ftruncate(::fileno(present_), whole_) != 0) spdlog::error("audit_log: its last line is incomplete");
+}
+
 void AuditFile::write(std::string const& line) {
     try {
         sink_.log({{}, "audit", spdlog::level::info, line});
         sink_.flush();
+        whole_ = size_of(present_);
     } catch (std::exception const& problem) {
         ++lost_;
         spdlog::error("audit_log: a line was lost: {}", problem.what());
+        cut_off();
     }
 }
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <spdlog/sinks/rotating_file_sink.h>
+#include <sys/types.h>
 
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <cstdio>
 #include <deque>
 #include <map>
 #include <mutex>
@@ -52,7 +54,12 @@ private:
     void run(std::stop_token const&);
     void write(std::string const& line);
 
+    void opened(std::FILE*);
+    void cut_off();
+
     Limits const limits_;
+    std::FILE* present_ = nullptr;               // the sink's file; the constructor and the thread use it, and the next one
+    ::off_t whole_ = 0;                          // its size without a line that was written in part
     spdlog::sinks::rotating_file_sink_st sink_;  // only the thread uses it
     std::atomic<std::uint64_t> lost_ = 0;
     std::mutex mutex_;  // guards the next three

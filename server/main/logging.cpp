@@ -43,6 +43,7 @@ spdlog::level::level_enum level_of(LogLevel level) {
 
 void protect_standard_files() {
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);  // writing beyond the limit of a file then fails
     for (int file = STDIN_FILENO; file <= STDERR_FILENO; ++file)
         if (::fcntl(file, F_GETFD) < 0) ::open("/dev/null", O_RDWR);  // takes the lowest free number, which is `file`
 }

@@ -8,7 +8,7 @@
 
 namespace rois {
 
-// Ignores SIGPIPE and opens standard input, output and error if they are closed, so that no socket takes their place. Call this
+// Ignores SIGPIPE and SIGXFSZ, and opens standard input, output and error if they are closed, so that no socket takes their place. Call this
 // before anything else is opened.
 void protect_standard_files();
 

@@ -147,6 +147,23 @@ TEST_F(HaltingThere, OfItselfJustBeforeItIsStoppedEndsTheBindingThere) {
     EXPECT_THAT(engines.asked(), testing::Contains("release"));
 }
 
+TEST_F(HaltingThere, EndsIfSomebodyThereHasTakenTheComponentOver) {
+    auto chief = engines.hall.connect();
+    EXPECT_EQ(chief.ask(Bind{Application::identifier("navigation"), Switching::none, true}).return_code, ReturnCode::ok);
+    engines.settle();
+    EXPECT_EQ(desk.result_of("go"), "ABORT");
+    auto const received = desk.received();
+    ASSERT_FALSE(received.empty());
+    auto const error = desk.last_received<ReceiveError>();
+    EXPECT_THAT(in_words(desk.detail_of(error.error_id).results.parameters), HasSubstr("was taken over by"));
+    stop("stop");
+    engines.advance(1s);
+    EXPECT_THAT(engines.main.engine->not_halted(), IsEmpty()) << "it is not this engine's affair any more";
+    EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::out_of_resources);
+    chief.release("navigation");
+    EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::ok);
+}
+
 TEST_F(HaltingThere, IsReportedAtEachLoss) {
     for (int loss = 0; loss < 3; ++loss) {
         engines.cut();

@@ -17,7 +17,7 @@ sample="$prefix/share/doc/rois-gateway/rois-gateway.json"
 cmake --install "$build" --component gateway --prefix "$prefix" >"$work/install.log"
 [[ $("$program" --version) == "rois-gateway "* ]] || fail "--version says '$("$program" --version)'"
 
-flags=$("$program" --help | grep -oE '^ +(-h,)?--[a-z-]+' | grep -oE -- '--.*')
+flags=$({ "$program" --help && "$program" token add --help; } | grep -oE '^ +(-h,)?--[a-z-]+' | grep -oE -- '--.*')
 page=$(sed 's/\\-/-/g' "$prefix/share/man/man1/rois-gateway.1")
 for flag in $flags; do
     grep -qwF -- "$flag" <<<"$page" || fail "the manual page does not explain $flag"
@@ -36,6 +36,8 @@ completed() {
         echo "${COMPREPLY[*]}"' - "$prefix" "$@"
 }
 [[ $(completed --log-f) == --log-format ]] || fail "--log-f is completed with '$(completed --log-f)'"
+[[ $(completed token a) == add ]] || fail "token a is completed with '$(completed token a)'"
+[[ $(completed token add x --ro) == --role ]] || fail "token add x --ro is completed with '$(completed token add x --ro)'"
 [[ $(completed --log-level de) == debug ]] || fail "--log-level de is completed with '$(completed --log-level de)'"
 [[ $(completed --config "$sample") == "$sample" ]] || fail "a file is not completed"
 [[ $(completed '') == *--listen*--version* || $(completed '') == *--version*--listen* ]] || fail "not every flag is offered"

@@ -79,7 +79,7 @@ TEST_F(TrustedEngines, JoinOnlyByTheNamesThatTheirTokensCover) {
         return std::vector<std::string>{"--join", gateway.url(), "--join-as", name, "--join-token-file", path("one.token")};
     };
     GatewayProcess thief{joining("two")};
-    EXPECT_THAT(thief.log_with("refuses"), HasSubstr("the token does not allow to join as 'two'"));
+    EXPECT_THAT(thief.log_with("refuses"), HasSubstr("unknown name 'two'"));
     GatewayProcess const robot{joining("one")};
     gateway.log_with("sub engine one: present with");
 }
