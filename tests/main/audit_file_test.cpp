@@ -7,6 +7,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "main/settings.hpp"
@@ -67,14 +68,26 @@ TEST_F(OfAudit, CountsLinesThatCannotBeWritten) {
     ::getrlimit(RLIMIT_FSIZE, &before);
     auto small = before;
     small.rlim_cur = 300;  // as on a full disk
-    AuditFile audit{file.name(), {}};
-    ::setrlimit(RLIMIT_FSIZE, &small);
-    for (int i = 0; i < 20; ++i) audit.note({.what = "bound", .component = "navigation"});
-    while (audit.lost() == 0) std::this_thread::yield();
-    ::setrlimit(RLIMIT_FSIZE, &before);
-    EXPECT_GT(lines(content(file.name())), 0u);
+    {
+        AuditFile audit{file.name(), {}};
+        ::setrlimit(RLIMIT_FSIZE, &small);
+        for (int i = 0; i < 20; ++i) audit.note({.what = "bound", .component = "navigation"});
+        while (audit.lost() == 0) std::this_thread::yield();
+        ::setrlimit(RLIMIT_FSIZE, &before);
+        audit.note({.what = "released", .component = "navigation"});
+    }
+    std::istringstream text{content(file.name())};
+    std::string last;
+    for (std::string line; std::getline(text, line); last = line) EXPECT_TRUE(nlohmann::json::accept(line)) << line;
+    EXPECT_THAT(last, testing::HasSubstr("released"));
 }
 
-TEST_F(OfAudit, MustBeWritable) { EXPECT_THROW((AuditFile{"/nowhere/at.all", {}}), BadSettings); }
+TEST_F(OfAudit, MustBeAFile) {
+    auto const link = file.name() + "-link";
+    std::filesystem::create_symlink(file.name(), link);
+    for (auto const& name : {std::string{"/nowhere/at.all"}, std::string{"/dev/null"}, std::string{"/tmp"}, link})
+        EXPECT_THROW((AuditFile{name, {}}), BadSettings) << name;
+    std::filesystem::remove(link);
+}
 
 }  // namespace rois::test
