@@ -175,7 +175,8 @@ Bind::Reply Context::bound(Identifier component) {
     // In a shared session, another bind would replace the `switching` of the present binding.
     if (session().is_joined() && !options_.switching && owns(component)) return {};
     auto const ref = component.code;
-    return ok(Bind{std::move(component), options_.switching.value_or(Switching::none), options_.take_over}, [&] { return hint_for_component(ref); });
+    return ok(Bind{std::move(component), options_.switching.value_or(Switching::none), options_.take_over},
+              [&] { return hint_for_component(ref); });
 }
 
 bool Context::owns(Identifier const& component) {

@@ -1,6 +1,7 @@
 #include "gateway/gateway.hpp"
 
 #include <charconv>
+#include <new>
 #include <thread>
 #include <utility>
 
@@ -33,9 +34,17 @@ std::optional<Fault> why_not_allowed(Principal const& principal, Request const& 
     return fault;
 }
 
-// An entry of the audit log with the client's name and address.
-AuditEntry entry(std::string_view what, Client const& client) {
-    return {.what = what, .token = client.name(), .address = text_of(Network{client.address})};
+// Notes what a client has done. Without memory for its address, the entry has none.
+void note(Audit const& audit, std::string_view what, Client const& client, AuditEntry entry = {}) {
+    entry.what = what;
+    entry.token = client.name();
+    std::string address;
+    try {
+        address = text_of(Network{client.address});
+        entry.address = address;
+    } catch (std::bad_alloc const&) {
+    }
+    audit(entry);
 }
 
 }  // namespace
@@ -105,8 +114,8 @@ public:
         if (refusal == Refusal::not_allowed && rights)
             gateway_.audit_({.what = "refused",
                              .token = rights->holder(),
-                             .operation = std::string{operation_name(operation())},
-                             .outcome = std::string{to_text(FaultCode::not_allowed)}});
+                             .operation = operation_name(operation()),
+                             .outcome = to_text(FaultCode::not_allowed)});
         fault_ = gateway_.fault_of(refusal);
         fault_->request_id = request_.request_id;
         come();
@@ -260,9 +269,7 @@ PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via 
     exchange->session_opened(number);
     if (number != 0 && client) {
         log_.session_is_of(number, client->name());
-        auto joined = entry(connects ? "connected" : "resumed", *client);
-        joined.session = number;
-        audit_(joined);
+        note(audit_, connects ? "connected" : "resumed", *client, {.what = {}, .session = number});
     }
     if (opens && number != 0) quota_.opened(number, client);
     // The `connect` of a session counts as a sign of life (decision 2).
@@ -322,10 +329,7 @@ void Gateway::audit_to(Audit audit) {
 }
 
 void Gateway::note_refusal(Client const& client, std::string_view operation, FaultCode code) const {
-    auto refused = entry("refused", client);
-    refused.operation = operation;
-    refused.outcome = to_text(code);
-    audit_(refused);
+    note(audit_, "refused", client, {.what = {}, .operation = operation, .outcome = to_text(code)});
 }
 
 void Gateway::begin() {
@@ -408,7 +412,7 @@ StopState Gateway::stop_everything(Client const* asked_by) {
     Attempts attempts;
     attempts([&] { engine_.stop_everything(now); });
     attempts([&] { engine_.work(lock, now); });
-    if (asked_by != nullptr) attempts([&] { audit_(entry("stopped everything", *asked_by)); });
+    if (asked_by != nullptr) note(audit_, "stopped everything", *asked_by);
     attempts.rethrow();
     return {engine_.everything_is_stopped(), engine_.not_halted()};
 }
@@ -416,7 +420,7 @@ StopState Gateway::stop_everything(Client const* asked_by) {
 StopState Gateway::clear(Client const* asked_by) {
     Lock const lock{*this};
     engine_.clear();
-    if (asked_by != nullptr) audit_(entry("cleared the stop", *asked_by));
+    if (asked_by != nullptr) note(audit_, "cleared the stop", *asked_by);
     return {engine_.everything_is_stopped(), engine_.not_halted()};
 }
 

@@ -26,7 +26,7 @@ namespace {
 
 std::string line_of(AuditEntry const& entry, std::uint64_t left_out) {
     nlohmann::ordered_json line{{"time", to_text(std::chrono::system_clock::now())}, {"what", entry.what}};
-    auto const add = [&](char const* key, std::string const& value) {
+    auto const add = [&](char const* key, std::string_view value) {
         if (!value.empty()) line[key] = value;
     };
     add("token", entry.token);
@@ -92,7 +92,7 @@ void AuditFile::note(AuditEntry const& entry) noexcept {
 bool AuditFile::may_say(AuditEntry const& entry, std::uint64_t& left_out) {
     if (entry.what != "refused") return true;
     auto const now = limits_.now();
-    auto& second = refused_[entry.token];
+    auto& second = refused_[std::string{entry.token}];
     if (now - second.since >= std::chrono::seconds{1}) second = {now, 0, second.left_out};
     if (++second.refusals <= limits_.refusals_a_second) {
         left_out = std::exchange(second.left_out, 0);

@@ -45,19 +45,19 @@ std::string clean(std::string_view reason) {
 
 std::uint64_t EngineLog::take_joined() { return std::exchange(joined_, 0); }
 
-std::string EngineLog::token_of(std::uint64_t session) const {
+std::string_view EngineLog::token_of(std::uint64_t session) const {
     auto const found = tokens_.find(session);
-    return found == tokens_.end() ? std::string{} : found->second;
+    return found == tokens_.end() ? std::string_view{} : found->second;
 }
 
-void EngineLog::audit(std::string_view what, std::uint64_t session, std::string const& component, std::string operation,
+void EngineLog::audit(std::string_view what, std::uint64_t session, std::string_view component, std::string_view operation,
                       std::string_view outcome) const {
     audit_({.what = what,
             .token = token_of(session),
             .session = session,
             .component = component,
-            .operation = std::move(operation),
-            .outcome = std::string{outcome}});
+            .operation = operation,
+            .outcome = outcome});
 }
 
 void EngineLog::audit(std::string_view what, Command const& command, std::string_view outcome) const {
@@ -93,7 +93,7 @@ void EngineLog::halt_failed(std::string const& ref, std::string_view why) {
 void EngineLog::halted_at_last(std::string const& ref) { spdlog::warn("{} has confirmed that it stands still", ref); }
 
 void EngineLog::refused(std::uint64_t session, Operation const& operation, Outcome const& outcome) {
-    audit("refused", session, {}, std::string{operation_name(operation)}, to_text(outcome.return_code));
+    audit("refused", session, {}, operation_name(operation), to_text(outcome.return_code));
     if (!is_debugging()) return;
     spdlog::debug("session {}: {} refused with {}: {}", session, operation_name(operation), to_text(outcome.return_code),
                   clean(outcome.reason));

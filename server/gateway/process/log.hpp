@@ -24,10 +24,10 @@ public:
     // Call it before the first request.
     void audit_to(Audit audit) { audit_ = std::move(audit); }
     // The session belongs to the holder of this token; empty: the client has none.
-    void session_is_of(std::uint64_t session, std::string const& token) {
+    void session_is_of(std::uint64_t session, std::string_view token) {
         if (!token.empty()) tokens_[session] = token;
     }
-    std::string token_of(std::uint64_t session) const;
+    std::string_view token_of(std::uint64_t session) const;
 
     // The number of the session that the last operation opened or resumed; 0 if it did neither.
     std::uint64_t take_joined();
@@ -44,7 +44,7 @@ private:
     void refused(std::uint64_t session, Operation const&, Outcome const&) override;
     void command_begun(Command const&) override;
     void command_ended(Command const&) override;
-    void audit(std::string_view what, std::uint64_t session, std::string const& component, std::string operation = {},
+    void audit(std::string_view what, std::uint64_t session, std::string_view component, std::string_view operation = {},
                std::string_view outcome = {}) const;
     void audit(std::string_view what, Command const&, std::string_view outcome) const;
 
