@@ -43,6 +43,7 @@ void note(Audit const& audit, std::string_view what, Client const& client, Audit
         address = text_of(Network{client.address});
         entry.address = address;
     } catch (std::bad_alloc const&) {
+        entry.address = {};
     }
     audit(entry);
 }

@@ -34,11 +34,7 @@ std::optional<Role> read_role(std::string_view text) {
 }
 
 std::string const& names_of_roles() {
-    static std::string const names = [] {
-        std::vector<std::string> all;
-        for (auto const& [name, role] : roles) all.emplace_back(name);
-        return listed(all);
-    }();
+    static std::string const names = [] { return listed(roles, &std::pair<std::string_view, Role>::first); }();
     return names;
 }
 

@@ -23,7 +23,9 @@ struct Client {
 
     Rights const* rights() const { return principal ? principal->rights.get() : nullptr; }
     bool sees_everything() const { return !principal || principal->rights->sees_everything(); }
-    std::string_view name() const { return principal ? std::string_view{principal->name()} : ""; }  // of its token; empty: it has none
+    std::string_view name() const {
+        return principal ? std::string_view{principal->name()} : "";
+    }  // of its token; empty: it has none
 };
 
 // A session counts for the connection that opened it, and for its token, or else for that connection's address, until the session
@@ -43,10 +45,10 @@ public:
         return full ? Verdict::full_address : Verdict::open;
     }
 
-    void opened(std::uint64_t session, std::shared_ptr<Client> client) {
+    void opened(std::uint64_t session, std::shared_ptr<Client> const& client) {
         auto holder = holder_of(*client);
         auto& of_holder = of_holder_[holder];
-        auto& opened = openers_.try_emplace(session, std::move(client), std::move(holder)).first->second;
+        auto& opened = openers_.try_emplace(session, client, std::move(holder)).first->second;
         ++opened.client->sessions;
         ++of_holder;
     }
