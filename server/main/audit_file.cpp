@@ -78,15 +78,15 @@ void AuditFile::note(AuditEntry const& entry) noexcept {
         std::lock_guard const lock{mutex_};
         std::uint64_t left_out = 0;
         if (!may_say(entry, left_out)) return;
-        if (lines_.size() < limits_.waiting) {
-            lines_.push_back(line_of(entry, left_out));
-            news_.notify_one();
+        if (lines_.size() >= limits_.waiting) {
+            ++lost_;
             return;
         }
+        lines_.push_back(line_of(entry, left_out));
+        news_.notify_one();
     } catch (...) {
-        // There is no memory.
+        ++lost_;  // there is no memory
     }
-    ++lost_;
 }
 
 bool AuditFile::may_say(AuditEntry const& entry, std::uint64_t& left_out) {
