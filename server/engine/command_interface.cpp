@@ -131,8 +131,8 @@ Engine::Core::Later Engine::Core::perform(Session& session, Bind const& bind_, S
                     now.steady + settings_.question_deadline, now);
 }
 
-// Releases the component for the session that has bound it, which is told why. Returns why that is not possible, or nullopt. The
-// `bind` then waits until the component has confirmed its halt.
+// Releases the component for the session that has bound it, and notifies that session of the reason. Returns why that is not
+// possible, or nullopt. The `bind` then waits until the component has confirmed its halt.
 std::optional<std::string> Engine::Core::take_over(Session const& session, RegisteredComponent& component, Instant now) {
     auto* const previous = component.bound_to;
     if (previous == nullptr || previous == &session) return {};

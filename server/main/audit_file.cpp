@@ -104,7 +104,7 @@ bool AuditFile::may_say(AuditEntry const& entry, std::uint64_t& left_out) {
 
 void AuditFile::run(std::stop_token const& stop) {
     std::unique_lock lock{mutex_};
-    while (news_.wait(lock, stop, [this] { return !lines_.empty(); }) || !lines_.empty()) {
+    while (news_.wait(lock, stop, [this] { return !lines_.empty(); })) {
         auto const line = std::move(lines_.front());
         lines_.pop_front();
         lock.unlock();

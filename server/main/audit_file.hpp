@@ -27,7 +27,7 @@ public:
         std::size_t files = 10;                     // that are kept besides the present one
         std::size_t waiting = 10'000;               // lines
         // Refusals of one token, or of all clients without one, in a second. Others are counted in the next line about them, so
-        // that refusals do not drive out what has happened.
+        // that refusals do not drive out the other lines.
         std::size_t refusals_a_second = 10;
         Steady (*now)() = std::chrono::steady_clock::now;
     };

@@ -46,7 +46,7 @@ void check_exposure(GatewaySettings const& settings) {
         if (host.empty() || is_only_here(host)) return;
         throw BadSettings{
             key + ": other machines can reach " + host_and_port(host, port) +
-            ", and nobody needs a token: make one with 'rois-gateway token add NAME --role operator --tokens FILE' and "
+            ", and no client needs a token: make one with 'rois-gateway token add NAME --role operator --tokens FILE' and "
             "set tokens = FILE, or allow everyone with --allow-anyone"};
     };
     check("listen", settings.net.host, settings.net.port);

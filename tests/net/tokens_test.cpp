@@ -61,13 +61,14 @@ TEST_F(TokensOverTime, StayTheSameIfTheirEntriesDo) {
     EXPECT_TRUE(tokens.end_expired(now.utc));
 }
 
-TEST_F(TokensOverTime, OfProgramsOutliveAChangeOfTheFile) {
+TEST_F(TokensOverTime, AreAddedUntilTheirRightsAreWithdrawn) {
     auto const program = holder("program");
     tokens.add(program);
-    tokens.set({holder("file")});
+    tokens.add(holder("another"));
     EXPECT_EQ(find("program"), program);
     program->rights->withdraw();
     EXPECT_EQ(find("program"), nullptr);
+    EXPECT_NE(find("another"), nullptr);
 }
 
 TEST_F(TokensOverTime, AreGuessedTooOftenForAMinute) {

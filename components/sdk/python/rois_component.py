@@ -739,7 +739,7 @@ async def keep_joined(service, url):
 
 
 def is_safe(url):
-    """Whether a token can be sent there: nobody else on the network can read it."""
+    """Whether others on the network cannot read a token that is sent there."""
     parts = urllib.parse.urlsplit(url)
     host = parts.hostname or ""
     return parts.scheme in ("wss", "https") or host in ("localhost", "::1") or host.startswith("127.")

@@ -34,7 +34,7 @@ std::optional<Role> read_role(std::string_view text) {
 }
 
 std::string const& names_of_roles() {
-    static std::string const names = [] { return listed(roles, &std::pair<std::string_view, Role>::first); }();
+    static std::string const names = listed(roles, &std::pair<std::string_view, Role>::first);
     return names;
 }
 

@@ -23,9 +23,8 @@ struct Client {
 
     Rights const* rights() const { return principal ? principal->rights.get() : nullptr; }
     bool sees_everything() const { return !principal || principal->rights->sees_everything(); }
-    std::string_view name() const {
-        return principal ? std::string_view{principal->name()} : "";
-    }  // of its token; empty: it has none
+    // Of its token; empty: it has none.
+    std::string_view name() const { return principal ? std::string_view{principal->name()} : ""; }
 };
 
 // A session counts for the connection that opened it, and for its token, or else for that connection's address, until the session

@@ -25,30 +25,29 @@ void Tokens::set(std::vector<std::shared_ptr<Principal>> tokens) {
     next.reserve(tokens.size());
     for (auto& token : tokens) {
         auto const known =
-            std::ranges::find_if(of_file_, [&](Holder const& each) { return !each->is_over() && is_same(*each, *token); });
-        next.push_back(known == of_file_.end() ? Holder{std::move(token)} : *known);
+            std::ranges::find_if(all_, [&](Holder const& each) { return !each->is_over() && is_same(*each, *token); });
+        next.push_back(known == all_.end() ? Holder{std::move(token)} : *known);
     }
-    for (auto const& each : of_file_) {
+    for (auto const& each : all_) {
         if (std::ranges::find(next, each) != next.end()) continue;
         each->rights->withdraw();
         some_ended_ = true;
     }
-    of_file_ = std::move(next);
+    all_ = std::move(next);
 }
 
 void Tokens::add(std::shared_ptr<Principal> token) {
     std::lock_guard const lock{mutex_};
-    std::erase_if(added_, [](Holder const& each) { return each->is_over(); });
-    added_.push_back(std::move(token));
+    std::erase_if(all_, [](Holder const& each) { return each->is_over(); });
+    all_.push_back(std::move(token));
 }
 
 std::variant<Tokens::Holder, Tokens::Refused> Tokens::holder(std::string_view token, Address const& from, Instant now) {
     auto const hash = sha256(token);
     std::lock_guard const lock{mutex_};
     Holder found;
-    for (auto const* tokens : {&of_file_, &added_})
-        for (auto const& each : *tokens)
-            if (CRYPTO_memcmp(each->hash.data(), hash.data(), hash.size()) == 0) found = each;
+    for (auto const& each : all_)
+        if (CRYPTO_memcmp(each->hash.data(), hash.data(), hash.size()) == 0) found = each;
     bool const expired = found && found->expires && *found->expires <= now.utc;
     if (found && !found->is_over() && !expired) return found;
     return is_too_many(from, now.steady) ? Refused::too_many : Refused::wrong;
@@ -65,7 +64,7 @@ bool Tokens::is_too_many(Address const& from, Steady now) {
 
 bool Tokens::end_expired(std::chrono::system_clock::time_point now) {
     std::lock_guard const lock{mutex_};
-    for (auto const& each : of_file_) {
+    for (auto const& each : all_) {
         if (!each->expires || *each->expires > now || each->is_over()) continue;
         each->rights->withdraw();
         some_ended_ = true;

@@ -27,7 +27,7 @@ public:
 
     // Replaces all tokens. Withdraws the rights of those that are not among them, or have changed.
     void set(std::vector<std::shared_ptr<Principal>>);
-    // Adds a token that `set` does not touch, until its rights are withdrawn.
+    // Adds a token. It is removed some time after its rights were withdrawn.
     void add(std::shared_ptr<Principal>);
 
     enum class Refused : std::uint8_t {
@@ -51,8 +51,7 @@ private:
 
     std::size_t const most_wrong_;
     std::mutex mutex_;  // guards all below
-    std::vector<Holder> of_file_;
-    std::vector<Holder> added_;
+    std::vector<Holder> all_;
     std::map<Address, Wrong> wrong_;
     bool some_ended_ = false;
 };

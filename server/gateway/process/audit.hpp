@@ -1,4 +1,4 @@
-// What clients did and what they were refused, for the audit log (docs/trust.md).
+// Actions and refusals of clients, for the audit log (docs/trust.md).
 #pragma once
 
 #include <cstdint>

@@ -14,7 +14,7 @@
 
 namespace rois {
 
-// Sessions are logged at the level info, the rest at debug. What clients do also goes to the audit log. Called with the engine
+// Sessions are logged at the level info, the rest at debug. Actions of clients also go to the audit log. Called with the engine
 // locked.
 class EngineLog : public Journal {
 public:

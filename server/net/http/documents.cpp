@@ -99,7 +99,7 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head, Princi
     }
 }
 
-// Someone without a token does not learn what is served.
+// A client without a token does not learn the names of components.
 HttpAnswer Documents::readiness(Principal const* asker) const {
     if (gateway_.shutting_down()) return answer_of(shutting_down());
     auto trouble = why_not_ready(gateway_, telemetry_, asker);

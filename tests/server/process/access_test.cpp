@@ -73,7 +73,7 @@ TEST(TokenCommand, SaysWhatIsWrong) {
     expect_complaint(file.run({"add", "x", "--role", "observer", "--components", ""}), "--components must be a pattern");
     expect_complaint(file.run({"add", "x", "--role", "observer", "--commands", "move"}),
                      "--commands has no effect with --role observer");
-    expect_complaint(file.run({"revoke", "nobody"}), "there is no token with the name 'nobody'");
+    expect_complaint(file.run({"revoke", "unknown"}), "there is no token with the name 'unknown'");
     expect_complaint(file.run({}), "A subcommand is required");
     expect_complaint(run_gateway({"token", "list"}), "expected the file of tokens in --tokens FILE");
     expect_complaint(run_gateway({"token", "list", "--tokens", "/nowhere/at.all"}), "cannot read '/nowhere/at.all'");
@@ -152,7 +152,7 @@ TEST(WithoutTokens, OnlyThisMachineIsServed) {
     for (auto const* flag : {"--listen", "--media"})
         for (auto const* address : {"0.0.0.0:0", "[::]:0", "192.0.2.1:1"}) {
             auto const wanted =
-                std::string{flag}.substr(2) + ": other machines can reach " + address + ", and nobody needs a token";
+                std::string{flag}.substr(2) + ": other machines can reach " + address + ", and no client needs a token";
             expect_complaint(run_gateway({flag, address}), wanted);
             expect_complaint(run_gateway({flag, address, "--check-config"}), wanted);
         }
