@@ -60,6 +60,16 @@ std::optional<Objection> why_not_prepared(Preparation& command, std::optional<Co
     return {};
 }
 
+// The results that the command may have. After a restart its component may be absent: then those that it has.
+std::vector<ParameterProfile> results_of(Command const& command) {
+    if (command.component) return find_message(command.component->profile(), MessageKind::command, command.type)->results;
+    std::vector<ParameterProfile> results;
+    for (auto const& each : command.results.parameters)
+        results.push_back(
+            {.name = each.name, .data_type_ref = each.data_type_ref, .default_value = {}, .description = {}});
+    return results;
+}
+
 // Gives an id to each command that has none.
 class IdFiller {
 public:
@@ -107,7 +117,8 @@ Reply Engine::Core::bind(Session& session, ToBindNow const& wanted, Instant now)
         case Registry::Bound::ok:
             component.switching = wanted.as.switching;
             component.preference = component.is_logical() ? wanted.condition : nullptr;
-            if (!mine) journal_->bound(session.number, component.ref().code);
+            recorder_.changed(session);
+            if (!mine) trace_->bound(session.number, component.ref().code);
             return Bind::Reply{};
         case Registry::Bound::not_halted:
             return refused<Bind::Reply>(ReturnCode::error, why_not_halted(component));
@@ -143,7 +154,7 @@ std::optional<std::string> Engine::Core::take_over(Session const& session, Regis
     auto const reason = "its component was taken over by " + by;
     Attempts attempts;
     attempts([&] { executor_.release(*previous, component, now, reason); });
-    attempts([&] { journal_->taken_over(session.number, previous->number, component.ref().code); });
+    attempts([&] { trace_->taken_over(session.number, previous->number, component.ref().code); });
     attempts([&] { unbind(*previous, component, now); });
     attempts([&] {
         FoundError const found{component.shared_from_this(), ErrorType::user_defined_error,
@@ -164,7 +175,7 @@ Engine::Core::Later Engine::Core::bind_one(Session& session, SharedAsked const& 
         return refused<Bind::Reply>(ReturnCode::bad_parameter, "the component " + quoted(component.ref().code) + " has left");
     if (component.is_being_halted()) {
         component.halting->over.emplace_back([this, asked, wanted, until](Instant when) {
-            answer_later(*asked, [&](Session& asker) { return bind_one(asker, asked, wanted, until, when); });
+            answer_later(asked, [&](Session& asker) { return bind_one(asker, asked, wanted, until, when); });
         });
         return {};
     }
@@ -188,7 +199,7 @@ Engine::Core::Later Engine::Core::bind_one(Session& session, SharedAsked const& 
             return bind(asker, wanted, when);
         };
         --bound.binds_asked;
-        answer_later(*asked, make);
+        answer_later(asked, make);
         notify_of_release(bound, when);
     };
     auto const ticket = questions_.ask(component, until, "the component did not answer whether it can be bound", std::move(then));
@@ -237,7 +248,7 @@ Engine::Core::Later Engine::Core::bind_first(Session& session, SharedAsked const
     auto& candidate = *wanted.component;
     if (candidate.is_being_halted()) {
         candidate.halting->over.emplace_back([this, asked, candidates = std::move(candidates), until](Instant when) {
-            answer_later(*asked, [&](Session& asker) { return bind_first(asker, asked, candidates, until, when); });
+            answer_later(asked, [&](Session& asker) { return bind_first(asker, asked, candidates, until, when); });
         });
         return {};
     }
@@ -276,7 +287,7 @@ Engine::Core::Later Engine::Core::bind_first(Session& session, SharedAsked const
             return refused<BindAny::Reply>(ReturnCode::error, "no component that matches the condition can be bound now");
         };
         --component->binds_asked;
-        answer_later(*asked, make);
+        answer_later(asked, make);
         notify_of_release(*component, when);
     };
     auto const ticket = questions_.ask(candidate, due, "the component did not answer whether it can be bound", std::move(then));
@@ -300,9 +311,10 @@ void Engine::Core::unbind(Session& session, RegisteredComponent& component, Inst
     component.bound_to = nullptr;
     component.switching = Switching::none;
     component.preference = nullptr;
+    recorder_.changed(session);
     component.restore_defaults(now);
     notify_of_release(component, now);
-    journal_->released(session.number, component.ref().code);
+    trace_->released(session.number, component.ref().code);
 }
 
 // Notifies a component that confirms its bindings that it has none.
@@ -342,7 +354,7 @@ Engine::Core::Later Engine::Core::prepare(Session& session, SharedAsked const& a
     auto const round = questions_.begin(
         now.steady + settings_.question_deadline, questions,
         [this, asked, prepared, then = std::move(then)](Questions::Answers& answers, Instant when) mutable {
-            answer_later(*asked, [&](Session& asker) -> Later {
+            answer_later(asked, [&](Session& asker) -> Later {
                 auto next = answers.begin();
                 for (auto& each : *prepared)
                     if (auto objection =
@@ -370,14 +382,15 @@ Engine::Core::Later Engine::Core::perform(Session& session, SetParameter const& 
     SequenceCheck check{session, registry_};
     if (auto problem = check.objection(message))
         return refused<SetParameter::Reply>(problem->return_code, std::move(problem->reason));
-    auto then = [this, message = std::move(message), only_check = set.check_only](
-                    Session& asker, std::vector<Preparation> prepared, Instant when) mutable {
-        if (only_check) return Reply{SetParameter::Reply{}};
+    auto then = [this, asked, message = std::move(message), only_check = set.check_only](
+                    Session& asker, std::vector<Preparation> prepared, Instant when) mutable -> Later {
+        if (only_check) return SetParameter::Reply{};
+        if (auto problem = recorder_.why_no_commands(); !problem.empty())
+            return refused<SetParameter::Reply>(ReturnCode::out_of_resources, std::move(problem));
         message.command_id = executor_.fresh_id(asker, {});
         SetParameter::Reply reply;
         reply.command_id = message.command_id;
-        executor_.run_alone(asker, message, std::move(prepared.front()), when);
-        return Reply{std::move(reply)};
+        return run_when_stored(asker, asked, {{{.delay_time = {}, .unit = message}}}, std::move(prepared), std::move(reply), when);
     };
     return prepare<SetParameter>(session, asked, std::move(check.preparations()), std::move(then), now);
 }
@@ -390,20 +403,21 @@ Engine::Core::Later Engine::Core::perform(Session& session, Execute const& execu
     bool const begins = check.begins_something(), lasts = begins || check.delays_something();
     if (auto problem = why_not_now(session, begins, lasts, check.commands()))
         return refused<Execute::Reply>(problem->return_code, std::move(problem->reason));
-    auto then = [this, asked, begins, lasts, ids = check.ids()](Session& asker, std::vector<Preparation> prepared, Instant when) {
+    auto then = [this, asked, begins, lasts, ids = check.ids()](Session& asker, std::vector<Preparation> prepared,
+                                                               Instant when) -> Later {
         if (auto problem = why_not_now(asker, begins, lasts, prepared.size()))
-            return Reply{refused<Execute::Reply>(problem->return_code, std::move(problem->reason))};
+            return refused<Execute::Reply>(problem->return_code, std::move(problem->reason));
         for (auto const& id : ids)
             if (asker.commands.contains(id))
-                return Reply{refused<Execute::Reply>(ReturnCode::bad_parameter,
-                                                     "the command_id " + quoted(id.text) + " is in use in this session")};
+                return refused<Execute::Reply>(ReturnCode::bad_parameter,
+                                               "the command_id " + quoted(id.text) + " is in use in this session");
         auto const& operation = std::get<Execute>(asked->operation());
         Execute::Reply reply;
         reply.command_unit_list = operation.command_unit_list;
-        if (operation.check_only) return Reply{std::move(reply)};
+        if (operation.check_only) return reply;
         IdFiller{executor_, asker, ids}.fill(reply.command_unit_list.command_unit_list);
-        executor_.execute(asker, reply.command_unit_list, std::move(prepared), when);
-        return Reply{std::move(reply)};
+        auto const sequence = reply.command_unit_list;
+        return run_when_stored(asker, asked, sequence, std::move(prepared), std::move(reply), when);
     };
     return prepare<Execute>(session, asked, std::move(check.preparations()), std::move(then), now);
 }
@@ -412,6 +426,8 @@ Engine::Core::Later Engine::Core::perform(Session& session, Execute const& execu
 std::optional<Objection> Engine::Core::why_not_now(Session const& session, bool begins, bool lasts, std::size_t commands) {
     if (everything_is_stopped_ && begins)
         return Objection{ReturnCode::error, "everything was stopped; nothing starts until it is cleared (POST /rois/clear)"};
+    if (auto problem = lasts ? recorder_.why_no_commands() : std::string{}; !problem.empty())
+        return Objection{ReturnCode::out_of_resources, std::move(problem)};
     // Each of these commands may add a `completed` to the session's queue (decisions 12, 23).
     constexpr std::size_t most_without_memory = 16;
     auto const most = settings_.max_waiting_notifications;
@@ -431,9 +447,9 @@ Reply Engine::Core::perform(Session& session, GetCommandResult const& get, Insta
         return refused<GetCommandResult::Reply>(
             ReturnCode::bad_parameter, "unknown command_id " + quoted(get.command_id.text) + ", or its results have expired");
     auto const& command = *found->second;
-    auto const* message = find_message(command.component->profile(), MessageKind::command, command.type);
+    auto const declared = results_of(command);
     // If the profile has a result of this name, it belongs to the component.
-    bool const has_reason = !command.reason.empty() && find_parameter(message->results, "reason") == nullptr;
+    bool const has_reason = !command.reason.empty() && find_parameter(declared, "reason") == nullptr;
     Results results;
     switch (command.state) {
         case Command::State::waiting:
@@ -451,7 +467,7 @@ Reply Engine::Core::perform(Session& session, GetCommandResult const& get, Insta
     Declarations known;
     for (auto const* name : {"status", "reason"})
         known.add({.name = name, .data_type_ref = {"string", {}, {}, {}}, .default_value = {}, .description = {}});
-    known.add(message->results);
+    known.add(declared);
     if (auto problem = choose(results, get.condition, known, get.command_id.text))
         return refused<GetCommandResult::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     GetCommandResult::Reply reply;

@@ -202,7 +202,8 @@ void Engine::Core::leave(SharedComponent const& component, Instant now) {
     attempts([&] { executor_.part(*component, now); });
     if (auto* session = std::exchange(component->bound_to, nullptr)) {
         session->bound.erase(component.get());
-        attempts([&] { journal_->released(session->number, component->ref().code); });
+        recorder_.changed(*session);
+        attempts([&] { trace_->released(session->number, component->ref().code); });
     }
     attempts([&] { forget_in_sessions_of_engines(*component, now); });
     attempts([&] { questions_.fail_all(*component, now); });
@@ -334,6 +335,7 @@ std::vector<std::string> Engine::Core::change(ComponentChange change, Instant no
     for (auto const& component : coming)
         attempts([&] { executor_.halt(*component, CompletedStatus::abort, "it was just added", now); });
     profile_change_unreported_ = true;
+    attempts([&] { restore_absent(now); });
     attempts([&] { report_profile_change(now); });
     attempts([&] { settle(now); });
     if (attempts.failure()) unsettled_ = attempts.failure();

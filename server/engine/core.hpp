@@ -20,7 +20,7 @@
 #include "engine/conditions/filter.hpp"
 #include "engine/engine.hpp"
 #include "engine/frames/perspective.hpp"
-#include "engine/journal.hpp"
+#include "engine/journal/recorder.hpp"
 #include "engine/notifications/details.hpp"
 #include "engine/notifications/kept_events.hpp"
 #include "engine/notifications/notifier.hpp"
@@ -30,6 +30,7 @@
 #include "engine/questions.hpp"
 #include "engine/registry.hpp"
 #include "engine/session.hpp"
+#include "engine/trace.hpp"
 
 namespace rois {
 
@@ -38,13 +39,21 @@ public:
     Core(EngineProfile profile, std::vector<ComponentProfile> known_profiles, EngineSettings const& settings, Outbox& outbox,
          FreshSecret fresh_secret);
 
-    void report_to(Journal& journal) { journal_ = &journal; }
+    void report_to(Trace& trace) { trace_ = &trace; }
     void keep_within(MemoryBudget& memory) { memory_ = &memory; }
     void add(std::unique_ptr<Component>);
     std::vector<std::string> change(ComponentChange, Instant now);
     ~Core();
     void add(std::shared_ptr<Device>, std::string const& provider, bool returns_at_once);
     void describe(Places places) { own_places_ = places_ = std::move(places); }
+
+    void keep_in(Journal& journal) { recorder_.keep_in(journal); }
+    void restore(StoredState, RightsOf const&, Instant now);
+    void stored(Instant now);
+    void not_stored(Instant now);
+    void when_stored(std::function<void()> then);
+    void flush() noexcept;
+    void published(NotificationQueue& queue) { recorder_.notify(queue); }
 
     void on_report(std::function<void()> wake) { inbox_->on_arrival(std::move(wake)); }
     void handle(std::shared_ptr<Asked> const&, Instant now);
@@ -111,8 +120,10 @@ private:
     void publish(RegisteredComponent const&, MemberSwitched&&);
 
     // System interface (system_interface.cpp)
-    void connect(Asked&, Connect const&, Instant now);
+    using SharedAsked = std::shared_ptr<Asked>;
+    void connect(SharedAsked const&, Connect const&, Instant now);
     Session& open(std::unique_ptr<Session>, Instant now);
+    Session& enter(std::unique_ptr<Session>);
     Reply perform(Session&, Connect const&, Instant now);
     Reply perform(Session&, Resume const&, Instant now);
     Reply perform(Session&, Disconnect const&, Instant now);
@@ -130,7 +141,6 @@ private:
     Reply perform(Session&, GetCommandResult const&, Instant now);
     // These may have to ask components: nullopt means that the answer comes later.
     using Later = std::optional<Reply>;
-    using SharedAsked = std::shared_ptr<Asked>;
     Later perform(Session&, Bind const&, SharedAsked const&, Instant now);
     Later perform(Session&, BindAny const&, SharedAsked const&, Instant now);
     Later perform(Session&, SetParameter const&, SharedAsked const&, Instant now);
@@ -156,8 +166,21 @@ private:
 
     // Answers an operation when the components that had to be asked have answered. `make` makes the reply, while the operation's
     // hold is in force, or asks again. Without the session, the operation is refused.
-    void answer_later(Asked&, std::function<Later(Session&)> const& make);
-    void answer(Asked&, Session const&, Reply&&);
+    void answer_later(SharedAsked const&, std::function<Later(Session&)> const& make);
+    void answer(SharedAsked const&, Session const&, Reply&&);
+
+    // The journal (journal/restoring.cpp)
+    StoredEngine stored_engine() const;
+    // Answers when the changes of the operation are stored, or cannot be stored now.
+    void answer_when_stored(SharedAsked const&, Reply&&);
+    // Runs the commands of a sequence when they are stored. `reply` is the answer then. A sequence that only stops or suspends
+    // runs at once.
+    Later run_when_stored(Session&, SharedAsked const&, CommandUnitSequence const&, std::vector<Preparation>, Reply, Instant now);
+    void restore(StoredSession&&, StoredState&, RightsOf const&, Instant now);
+    void restore(Session&, StoredCommand&&, Instant now);
+    void restore(Session&, StoredBinding const&, Instant now);
+    bool restore(StoredSubscription const&);
+    void restore_absent(Instant now);
 
     // Event interface (event_interface.cpp)
     Reply perform(Session&, Subscribe const&, Instant now);
@@ -231,8 +254,8 @@ private:
     void unbind(Session&, RegisteredComponent&, Instant now);
     void notify_of_release(RegisteredComponent&, Instant now);
 
-    Journal no_journal_;
-    Journal* journal_ = &no_journal_;               // never null
+    Trace no_trace_;
+    Trace* trace_ = &no_trace_;               // never null
     MemoryBudget* memory_ = &MemoryBudget::none();  // never null
     EngineSettings settings_;
     FreshSecret fresh_secret_;
@@ -264,7 +287,9 @@ private:
     int turns_ = 0;  // of the devices in this tick
     Questions questions_;
     std::unordered_map<SessionId, std::unique_ptr<Session>, IdHash> sessions_;
+    Recorder recorder_;
     Subscriptions subscriptions_;
+    std::vector<StoredSubscription> absent_subscriptions_;  // from before a restart, to events that no component has yet
     Deadlines deadlines_;
     Deadlines::Ticket last_due_ = Deadlines::first();  // of the deadlines that were carried out since the last tick
     Notifier notifier_;

@@ -1,6 +1,7 @@
 #include "engine/engine.hpp"
 
 #include <algorithm>
+#include <concepts>
 #include <utility>
 
 #include "engine/core.hpp"
@@ -16,8 +17,9 @@ Engine::Core::Core(EngineProfile profile, std::vector<ComponentProfile> known_pr
       fresh_secret_{std::move(fresh_secret)},
       belongings_{{"", {std::move(known_profiles), {}, {}}}},
       profile_{std::move(profile)},
-      notifier_{outbox},
-      executor_{settings_, registry_, agenda_, deadlines_, notifier_, questions_, journal_},
+      recorder_{outbox, sessions_},
+      notifier_{recorder_},
+      executor_{settings_, registry_, agenda_, deadlines_, notifier_, questions_, trace_, recorder_},
       events_{"e-", settings_.event_details},
       kept_events_{settings_.max_kept_events},
       errors_{"x-", settings_.error_details} {}
@@ -33,6 +35,18 @@ namespace {
 // A tick asks for pings for this long, so that they continue if the next tick is late.
 constexpr std::chrono::milliseconds signs_of_life_wanted{1'000};
 
+// Whether the answer tells something that must still be true after a restart. `execute` and `set_parameter` have waited for the
+// journal before they ran. `disconnect` needs no promise: without its application, the session ends anyway.
+bool is_lasting(Operation const& operation) {
+    return std::visit(
+        []<class Known>(Known const&) {
+            return std::same_as<Known, Connect> || std::same_as<Known, Bind> || std::same_as<Known, BindAny> ||
+                   std::same_as<Known, Release> || std::same_as<Known, Subscribe> || std::same_as<Known, Unsubscribe> ||
+                   std::same_as<Known, GetCommandResult> || std::same_as<Known, StopEverything> || std::same_as<Known, ClearStop>;
+        },
+        operation);
+}
+
 }  // namespace
 
 void Engine::Core::handle(std::shared_ptr<Asked> const& asked, Instant now) {
@@ -45,7 +59,7 @@ void Engine::Core::handle(std::shared_ptr<Asked> const& asked, Instant now) {
 void Engine::Core::take(std::shared_ptr<Asked> const& asked, Instant now) {
     auto const& operation = asked->operation();
     if (shutting_down_) return asked->refuse(Refusal::shutting_down);
-    if (auto const* connection = std::get_if<Connect>(&operation)) return connect(*asked, *connection, now);
+    if (auto const* connection = std::get_if<Connect>(&operation)) return connect(asked, *connection, now);
     auto const* resumed = std::get_if<Resume>(&operation);
     auto* session = resumed != nullptr ? find(resumed->session) : session_of(*asked);
     if (session == nullptr || session->rights != asked->rights) return asked->refuse(Refusal::no_session);
@@ -60,27 +74,32 @@ void Engine::Core::take(std::shared_ptr<Asked> const& asked, Instant now) {
                 return perform(*session, known, now);
         },
         operation);
-    if (reply) answer(*asked, *session, std::move(*reply));
+    if (reply) answer(asked, *session, std::move(*reply));
 }
 
-void Engine::Core::answer(Asked& asked, Session const& session, Reply&& reply) {
+void Engine::Core::answer(SharedAsked const& asked, Session const& session, Reply&& reply) {
     auto const& outcome = outcome_of(reply);
-    Attempts attempts;
-    if (outcome.return_code != ReturnCode::ok) attempts([&] { journal_->refused(session.number, asked.operation(), outcome); });
-    asked.answer(std::move(reply));
+    if (outcome.return_code != ReturnCode::ok) {
+        Attempts attempts;
+        attempts([&] { trace_->refused(session.number, asked->operation(), outcome); });
+    }
+    if (outcome.return_code == ReturnCode::ok && is_lasting(asked->operation()))
+        answer_when_stored(asked, std::move(reply));
+    else
+        asked->answer(std::move(reply));
 }
 
-void Engine::Core::answer_later(Asked& asked, std::function<Later(Session&)> const& make) {
-    auto* session = session_of(asked);
-    if (session == nullptr) return asked.refuse(Refusal::no_session);
-    auto const& queue = asked.notifications;
+void Engine::Core::answer_later(SharedAsked const& asked, std::function<Later(Session&)> const& make) {
+    auto* session = session_of(*asked);
+    if (session == nullptr) return asked->refuse(Refusal::no_session);
+    auto const& queue = asked->notifications;
     auto const before = queue->current();
-    queue->enter(asked.hold);
+    queue->enter(asked->hold);
     try {
         if (auto reply = make(*session)) answer(asked, *session, std::move(*reply));
     } catch (...) {
         queue->enter(before);
-        asked.refuse(Refusal::no_memory);
+        asked->refuse(Refusal::no_memory);
         throw;
     }
     queue->enter(before);
@@ -103,6 +122,7 @@ void Engine::Core::tick(Instant now) {
     turns_ = 0;
     attempts([&] { advance_devices(now); });
     attempts([&] { questions_.expire(now); });
+    recorder_.look(now, attempts);
     last_due_ = Deadlines::first();
     attempts([&] { executor_.repair(now, inbox_->take_lost_reports()); });
     end_marked_sessions(now, attempts);
@@ -224,7 +244,8 @@ void Engine::Core::remove(Session& session, Instant now) {
     pass_on_unread(session, now);
     executor_.forget(session);
     notifier_.close(session);
-    journal_->session_ended(session.number, session.why_it_ends);
+    recorder_.ended(session);
+    trace_->session_ended(session.number, session.why_it_ends);
     free_slots_.push_back(session.events.slot);  // cannot throw: `connect` reserved the room
     std::erase(engines_, &session);
     if (owns_present_stop(session)) ++stops_of_ended_sessions_;
@@ -237,6 +258,7 @@ void Engine::Core::stop_everything(Instant now) {
     stop_unreported_ = true;
     stops_of_ended_sessions_ = 0;
     ++last_stop_;
+    recorder_.changed_engine();
     Attempts attempts;
     attempts([&] { on_stop_(true); });  // before the components are halted
     attempts([&] { executor_.stop_all("everything was stopped", now); });
@@ -247,7 +269,9 @@ void Engine::Core::stop_everything(Instant now) {
 }
 
 void Engine::Core::clear() {
-    if (std::exchange(everything_is_stopped_, false)) on_stop_(false);
+    if (!std::exchange(everything_is_stopped_, false)) return;
+    recorder_.changed_engine();
+    on_stop_(false);
 }
 
 // Any client can stop everything, as often as it likes. Reporting each stop would fill the queues of the sessions.
@@ -423,7 +447,16 @@ Engine::Engine(EngineProfile profile, std::vector<ComponentProfile> known_profil
 
 Engine::~Engine() = default;
 
-void Engine::report_to(Journal& journal) { core_->report_to(journal); }
+void Engine::keep_in(Journal& journal) { core_->keep_in(journal); }
+void Engine::restore(StoredState state, RightsOf const& rights_of, Instant now) {
+    core_->restore(std::move(state), rights_of, now);
+}
+void Engine::stored(Instant now) { core_->stored(now); }
+void Engine::not_stored(Instant now) { core_->not_stored(now); }
+void Engine::when_stored(std::function<void()> then) { core_->when_stored(std::move(then)); }
+void Engine::flush() noexcept { core_->flush(); }
+void Engine::published(NotificationQueue& queue) { core_->published(queue); }
+void Engine::report_to(Trace& trace) { core_->report_to(trace); }
 void Engine::keep_within(MemoryBudget& memory) { core_->keep_within(memory); }
 void Engine::add(std::unique_ptr<Component> component) { core_->add(std::move(component)); }
 std::vector<std::string> Engine::change(ComponentChange change, Instant now) { return core_->change(std::move(change), now); }

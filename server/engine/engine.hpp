@@ -14,7 +14,8 @@
 #include "engine/commands/motion_lease.hpp"
 #include "engine/component.hpp"
 #include "engine/frames/places.hpp"
-#include "engine/journal.hpp"
+#include "engine/journal/journal.hpp"
+#include "engine/trace.hpp"
 #include "engine/memory_budget.hpp"
 #include "engine/notifications/notification_queue.hpp"
 #include "engine/providers/provider.hpp"
@@ -42,10 +43,10 @@ class Asked {
 public:
     // `from`: the notifications of the session that asks; null: the client has none. Notifications that the operation causes wait
     // until the hold is released (decision 22). 0: there is no hold. A session can only be used with the rights with which it was
-    // opened, which are compared by address. Null: no limits.
+    // opened, which are compared by address. Null: no limits. `over_http`: the client may have no link to its session.
     Asked(std::shared_ptr<NotificationQueue> from, NotificationQueue::Hold until_answered,
-          std::shared_ptr<Rights const> of_client = nullptr)
-        : notifications{std::move(from)}, hold{until_answered}, rights{std::move(of_client)} {}
+          std::shared_ptr<Rights const> of_client = nullptr, bool over_http = false)
+        : notifications{std::move(from)}, hold{until_answered}, rights{std::move(of_client)}, is_over_http{over_http} {}
     virtual ~Asked() = default;
     Asked(Asked const&) = delete;
     Asked& operator=(Asked const&) = delete;
@@ -58,6 +59,7 @@ public:
     std::shared_ptr<NotificationQueue> const notifications;
     NotificationQueue::Hold const hold;
     std::shared_ptr<Rights const> const rights;
+    bool const is_over_http;
 };
 
 // The profiles, frames and places of a provider of components. The engine knows them while the provider has components.
@@ -129,8 +131,26 @@ public:
     Engine(Engine const&) = delete;
     Engine& operator=(Engine const&) = delete;
 
-    // Sets the journal, which must outlive the last call to the engine.
-    void report_to(Journal&);
+    // Sets the trace, which must outlive the last call to the engine.
+    void report_to(Trace&);
+
+    // Stores in the journal what the engine acknowledges. Without a journal, nothing is stored. It must outlive the last call to
+    // the engine. Call it before the first session.
+    void keep_in(Journal&);
+    // Continues with what was stored, after `add` and before `begin`. The commands that waited or ran have ended with ABORT.
+    // `rights_of` returns the rights with this id; null: they have been withdrawn, and the session does not return.
+    using RightsOf = std::function<std::shared_ptr<Rights const>(std::string const& id)>;
+    void restore(StoredState, RightsOf const& rights_of, Instant now);
+    // Called by the journal, with the engine locked; call `work` afterwards.
+    void stored(Instant now);
+    void not_stored(Instant now);
+    // Calls `then` when all changes until now are stored, or cannot be stored now: at once without a journal, otherwise with the
+    // engine locked.
+    void when_stored(std::function<void()> then);
+    // Call it before the lock is released: gives changes to the journal, and flushes the outbox.
+    void flush() noexcept;
+    // The queue has notifications that readers were not notified of.
+    void published(NotificationQueue&);
 
     // Sets the memory budget, which the engine checks before it stores data. Without a budget there is no limit. The owner of the
     // budget measures the memory. The budget must outlive the last call to the engine.

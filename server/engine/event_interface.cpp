@@ -23,6 +23,7 @@ Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instan
         return refused<Subscribe::Reply>(ReturnCode::out_of_resources, *std::move(problem));
     Subscribe::Reply reply;
     reply.subscribe_id = subscriptions_.add(session, subscribe.event_type, std::move(wanted), subscribe.inline_results).id;
+    recorder_.subscribed(session, reply.subscribe_id, subscribe);
     deliver_kept(subscribe.event_type, now);
     return reply;
 }
@@ -46,6 +47,7 @@ std::optional<std::string> Engine::Core::no_room_for(Session const& session, Fil
 
 Reply Engine::Core::perform(Session& session, Unsubscribe const& unsubscribe, Instant) {
     subscriptions_.remove(session, unsubscribe.subscribe_id);
+    recorder_.unsubscribed(session, unsubscribe.subscribe_id);
     return Unsubscribe::Reply{};
 }
 

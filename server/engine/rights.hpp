@@ -11,9 +11,9 @@ namespace rois {
 // Thread-safe. Patterns are those of a shell, and match refs: "robot1.*", "*_detection".
 class Rights {
 public:
-    // `holder`: whose rights they are, for the log.
-    Rights(std::string holder, std::vector<std::string> sees, std::vector<std::string> commands)
-        : holder_{std::move(holder)}, sees_{std::move(sees)}, commands_{std::move(commands)} {}
+    // `holder`: whose rights they are, for the log. `id` identifies the same rights after a restart; empty: they do not return.
+    Rights(std::string holder, std::vector<std::string> sees, std::vector<std::string> commands, std::string id = {})
+        : holder_{std::move(holder)}, sees_{std::move(sees)}, commands_{std::move(commands)}, id_{std::move(id)} {}
 
     // Whether the component exists for the client: in profiles, conditions, events, errors and metrics.
     bool sees(std::string const& ref) const { return matches(sees_, ref); }
@@ -28,6 +28,7 @@ public:
     std::string const& holder() const { return holder_; }
     std::vector<std::string> const& seen() const { return sees_; }
     std::vector<std::string> const& commanded() const { return commands_; }
+    std::string const& id() const { return id_; }
 
 private:
     static bool matches(std::vector<std::string> const& patterns, std::string const& ref);
@@ -35,6 +36,7 @@ private:
     std::string holder_;
     std::vector<std::string> sees_;
     std::vector<std::string> commands_;
+    std::string id_;
     mutable std::atomic<bool> is_withdrawn_ = false;
 };
 

@@ -10,10 +10,12 @@
 #include <set>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "engine/commands/command.hpp"
 #include "engine/commands/deadlines.hpp"
 #include "engine/commands/motion_lease.hpp"
+#include "engine/journal/journal.hpp"
 #include "engine/notifications/details.hpp"
 #include "engine/notifications/notification_queue.hpp"
 #include "types/codes.hpp"
@@ -40,6 +42,7 @@ struct Session {
     Details::Asker errors;
 
     std::set<RegisteredComponent*> bound;
+    std::vector<StoredBinding> absent;  // bindings from before a restart, to components that have not returned yet
     std::set<Subscription*> subscriptions;
     std::size_t predicates = 0;                                                // total in the conditions of the subscriptions
     std::size_t condition_bytes = 0;                                           // total length of the texts in these conditions
@@ -60,6 +63,8 @@ struct Session {
     bool owns_stop = false;       // that stop does not end before this session has cleared it
 
     bool receives_switches = false;  // of all components
+
+    bool is_stored = false;  // in the journal
 
     // The client is another engine (decision 39), or a logical component.
     bool is_engine = false;

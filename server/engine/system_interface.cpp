@@ -34,28 +34,29 @@ std::optional<std::string> agree(MotionLease::Terms& terms, Connect const& asked
 
 }  // namespace
 
-void Engine::Core::connect(Asked& asked, Connect const& connection, Instant now) {
-    auto* const known = session_of(asked);
+void Engine::Core::connect(SharedAsked const& asked, Connect const& connection, Instant now) {
+    auto* const known = session_of(*asked);
     auto terms =
         known != nullptr ? known->lease.terms() : MotionLease::Terms{settings_.motion_lease, settings_.motion_lease_http};
     if (auto problem = agree(terms, connection, settings_))
-        return asked.answer(refused<Connect::Reply>(ReturnCode::bad_parameter, *problem));
+        return asked->answer(refused<Connect::Reply>(ReturnCode::bad_parameter, *problem));
     auto const window = connection.window.value_or(settings_.resume_window);
     if (window < std::min(shortest_lease, settings_.resume_window) || window > settings_.resume_window)
-        return asked.answer(refused<Connect::Reply>(ReturnCode::bad_parameter,
-                                                    must_be("window", shortest_lease, settings_.resume_window, window)));
+        return asked->answer(refused<Connect::Reply>(ReturnCode::bad_parameter,
+                                                     must_be("window", shortest_lease, settings_.resume_window, window)));
     if (known != nullptr) {
         known->lease.agree(terms);
         if (connection.window) known->window = window;
         known->lease.request_received(now.steady);
-        return asked.answer(perform(*known, connection, now));
+        recorder_.changed(*known);
+        return answer_when_stored(asked, perform(*known, connection, now));
     }
-    if (memory_->tight()) return asked.refuse(Refusal::no_memory);
+    if (memory_->tight()) return asked->refuse(Refusal::no_memory);
     if (sessions_.size() >= settings_.max_sessions) {
         auto* const idle = longest_idle();
         if (idle == nullptr) {
             ++refused_.sessions;
-            return asked.refuse(Refusal::too_many_sessions);
+            return asked->refuse(Refusal::too_many_sessions);
         }
         ++sessions_replaced_;
         end(*idle, "it was idle, and a new session needed its place", now);
@@ -65,28 +66,18 @@ void Engine::Core::connect(Asked& asked, Connect const& connection, Instant now)
     session->window = window;
     session->is_engine = connection.is_engine;
     session->receives_switches = connection.switches;
-    session->rights = asked.rights;
-    asked.answer(perform(open(std::move(session), now), connection, now));
+    session->rights = asked->rights;
+    if (asked->is_over_http) session->quiet_until += settings_.session_timeout;  // `connect` is a sign of life (decision 2)
+    answer_when_stored(asked, perform(open(std::move(session), now), connection, now));
 }
 
 Session& Engine::Core::open(std::unique_ptr<Session> session, Instant now) {
     session->id.text = fresh_secret_();
     session->number = ++last_session_;
-    if (session->is_engine) engines_.reserve(engines_.size() + 1);
-    bool const new_slot = free_slots_.empty();
-    auto const slot = new_slot ? static_cast<std::uint32_t>(sessions_.size()) : free_slots_.back();
-    if (new_slot) free_slots_.reserve(slot + 1);  // the end of a session must not allocate
-    session->events = {slot, events_.next()};
-    session->errors = {slot, errors_.next()};
     session->notifications =
         std::make_shared<NotificationQueue>(session->id, settings_.max_waiting_notifications, settings_.max_sent_notifications);
-    await_end_of_window(*session);
-    auto& place = sessions_[session->id];
-    place = std::move(session);
-    auto& opened = *place;
-    if (!new_slot) free_slots_.pop_back();
-    if (opened.is_engine) engines_.push_back(&opened);
-    journal_->session_opened(opened.number);
+    auto& opened = enter(std::move(session));
+    trace_->session_opened(opened.number);
     if (everything_is_stopped_) {
         auto const stop = everything_was_stopped();
         auto error = noted(stop, now);
@@ -94,6 +85,23 @@ Session& Engine::Core::open(std::unique_ptr<Session> session, Instant now) {
         errors_.add_receiver(opened.errors.slot);
         notifier_.notify(opened, std::move(error));
     }
+    return opened;
+}
+
+Session& Engine::Core::enter(std::unique_ptr<Session> session) {
+    if (session->is_engine) engines_.reserve(engines_.size() + 1);
+    bool const new_slot = free_slots_.empty();
+    auto const slot = new_slot ? static_cast<std::uint32_t>(sessions_.size()) : free_slots_.back();
+    if (new_slot) free_slots_.reserve(slot + 1);  // the end of a session must not allocate
+    session->events = {slot, events_.next()};
+    session->errors = {slot, errors_.next()};
+    await_end_of_window(*session);
+    auto& place = sessions_[session->id];
+    place = std::move(session);
+    auto& opened = *place;
+    if (!new_slot) free_slots_.pop_back();
+    if (opened.is_engine) engines_.push_back(&opened);
+    recorder_.opened(opened);
     return opened;
 }
 
@@ -106,7 +114,7 @@ Reply Engine::Core::perform(Session& session, Connect const& connection, Instant
 
 Reply Engine::Core::perform(Session& session, Resume const& resume, Instant) {
     if (resume.last_sequence <= session.notifications->last_sequence()) {
-        journal_->session_resumed(session.number);
+        trace_->session_resumed(session.number);
         return Resume::Reply{};
     }
     return refused<Resume::Reply>(ReturnCode::bad_parameter, "last_sequence must be at most " +
@@ -139,6 +147,7 @@ Reply Engine::Core::perform(Session& session, StopEverything const&, Instant now
             stops_of_ended_sessions_ = of_ended_sessions - std::min<std::size_t>(of_ended_sessions, 1);
         }
         session.last_stop = last_stop_;
+        recorder_.changed(session);
         if (session.owns_stop) reply.stop = last_stop_;
     }
     reply.not_halted = not_halted();
@@ -148,6 +157,8 @@ Reply Engine::Core::perform(Session& session, StopEverything const&, Instant now
 
 Reply Engine::Core::perform(Session& session, ClearStop const& asked, Instant) {
     if (asked.stop != last_stop_ || !present_stop_has_owners()) return ClearStop::Reply{};
+    recorder_.changed(session);
+    recorder_.changed_engine();
     if (owns_present_stop(session))
         session.owns_stop = false;
     else if (stops_of_ended_sessions_ > 0)

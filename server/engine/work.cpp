@@ -16,7 +16,7 @@ void Engine::Core::work(std::unique_lock<std::mutex>& lock, Instant now, Provide
         auto provider = to_run_.take();
         if (!provider && runner == Provider::Runner::clock) provider = left_for_clock_.take();
         if (provider) {
-            notifier_.flush();
+            flush();
             lock.unlock();
             bool const left = provider->run(runner);
             lock.lock();
@@ -26,7 +26,7 @@ void Engine::Core::work(std::unique_lock<std::mutex>& lock, Instant now, Provide
                 inbox_->wake();
                 break;
             }
-            notifier_.flush();
+            flush();
             lock.unlock();
             std::this_thread::yield();
             lock.lock();
@@ -37,6 +37,7 @@ void Engine::Core::work(std::unique_lock<std::mutex>& lock, Instant now, Provide
         }
         if (!attempts([&] { settle(now); })) break;
     }
+    flush();
     if (runner == Provider::Runner::clock) attempts.rethrow();
     if (!attempts.failure()) return;
     if (is_handled_again_)

@@ -95,8 +95,8 @@ Gateway::Gateway(Engine& engine, Readers& readers, Telemetry& telemetry, ClientL
 class Exchange final : public Asked {
 public:
     Exchange(Gateway& gateway, std::shared_ptr<NotificationQueue> of, NotificationQueue::Hold until_answered, Request&& request,
-             Instant begun, std::weak_ptr<Reader> waits, std::shared_ptr<Rights const> of_client)
-        : Asked{std::move(of), until_answered, std::move(of_client)},
+             Instant begun, std::weak_ptr<Reader> waits, std::shared_ptr<Rights const> of_client, Via via)
+        : Asked{std::move(of), until_answered, std::move(of_client), via == Via::http},
           gateway_{gateway},
           request_{std::move(request)},
           begun_{begun},
@@ -132,7 +132,6 @@ public:
     }
 
     void session_opened(std::uint64_t number) { session_number_ = number; }
-    Reply const* reply() const { return reply_ ? &*reply_ : nullptr; }
 
     Answer take() {
         Answer taken;
@@ -264,7 +263,7 @@ PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via 
     // `disconnect` holds nothing: the readers receive the last notifications before the answer (decision 3).
     if (known && !std::holds_alternative<Disconnect>(request.operation)) hold = Hold{*this, queue};
     auto exchange =
-        std::make_shared<Exchange>(*this, std::move(queue), hold.number(), std::move(request), now, std::move(waits), rights);
+        std::make_shared<Exchange>(*this, std::move(queue), hold.number(), std::move(request), now, std::move(waits), rights, via);
     engine_.handle(exchange, now);
     auto const number = log_.take_joined();
     exchange->session_opened(number);
@@ -273,9 +272,6 @@ PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via 
         note(audit_, connects ? "connected" : "resumed", *client, {.what = {}, .session = number});
     }
     if (opens && number != 0) quota_.opened(number, client);
-    // The `connect` of a session counts as a sign of life (decision 2).
-    if (auto const* reply = exchange->reply(); reply && via == Via::http && !known && connects)
-        engine_.note_request(std::get<Connect::Reply>(*reply).session, now, rights.get());
     engine_.work(lock, now);
     hold.leave();
     exchange->wait();
@@ -364,6 +360,15 @@ void Gateway::handle_reports() {
     engine_.work(lock, now, Provider::Runner::clock);
 }
 
+void Gateway::stored(bool all) {
+    auto const now = present();
+    Lock lock{*this};
+    Attempts attempts;
+    attempts([&] { all ? engine_.stored(now) : engine_.not_stored(now); });
+    journal_done_.notify_all();
+    attempts([&] { engine_.work(lock, now); });
+}
+
 // Returns freed memory to the system. Otherwise it would count against the budget until the process ends.
 void Gateway::save_memory(Steady now) {
     MemoryReserve::refill();
@@ -414,14 +419,25 @@ StopState Gateway::stop_everything(Client const* asked_by) {
     attempts([&] { engine_.stop_everything(now); });
     attempts([&] { engine_.work(lock, now); });
     if (asked_by != nullptr) note(audit_, "stopped everything", *asked_by);
+    attempts([&] { await_journal(lock); });
     attempts.rethrow();
     return {engine_.everything_is_stopped(), engine_.not_halted()};
 }
 
+// A stop, or its end, is answered when it is stored. A slow disk does not keep the answer back.
+void Gateway::await_journal(Lock& lock) {
+    constexpr std::chrono::milliseconds longest{20};
+    auto const is_done = std::make_shared<bool>(false);
+    engine_.when_stored([is_done] { *is_done = true; });
+    engine_.flush();
+    journal_done_.wait_for(lock, longest, [&] { return *is_done; });
+}
+
 StopState Gateway::clear(Client const* asked_by) {
-    Lock const lock{*this};
+    Lock lock{*this};
     engine_.clear();
     if (asked_by != nullptr) note(audit_, "cleared the stop", *asked_by);
+    await_journal(lock);
     return {engine_.everything_is_stopped(), engine_.not_halted()};
 }
 

@@ -198,6 +198,9 @@ public:
     // Lets the engine handle what components have reported.
     void handle_reports();
 
+    // Called by the journal: the engine's changes were stored, or could not be.
+    void stored(bool all);
+
     // Halts every component before the process ends in an emergency. Gives up if the engine stays locked for a second.
     void halt_at_last() noexcept;
 
@@ -230,15 +233,16 @@ private:
     // Locks the engine. Its end wakes the readers that were notified meanwhile.
     class Lock : public std::unique_lock<std::mutex> {
     public:
-        explicit Lock(Gateway& gateway) : unique_lock{gateway.mutex_}, readers_{gateway.readers_} {}
-        ~Lock() { readers_.flush(); }
+        explicit Lock(Gateway& gateway) : unique_lock{gateway.mutex_}, engine_{gateway.engine_} {}
+        ~Lock() { engine_.flush(); }
         Lock(Lock const&) = delete;
         Lock& operator=(Lock const&) = delete;
 
     private:
-        Readers& readers_;
+        Engine& engine_;
     };
 
+    void await_journal(Lock&);
     PendingAnswer perform(SessionId const&, Request&&, Via, std::weak_ptr<Reader> waits, std::shared_ptr<Client> const&,
                           Reading const*, Instant now);
     PendingAnswer refused(Fault);
@@ -270,6 +274,7 @@ private:
     std::size_t streams_per_session_;
     EngineLog log_;
     Audit audit_ = [](AuditEntry const&) {};
+    std::condition_variable journal_done_;
     std::atomic<bool> shutting_down_ = false;
 };
 

@@ -38,7 +38,7 @@ void Hold::resume() {
 
 void Hold::notify(Gateway& gateway) {
     Gateway::Lock const lock{gateway};
-    gateway.readers_.notify(*queue_);
+    gateway.engine_.published(*queue_);
 }
 
 // Must not fail: neither call allocates.

@@ -18,12 +18,11 @@ bool await_halts(Gateway const& gateway, Steady until, std::chrono::milliseconds
     return not_halted.empty();
 }
 
-void halt_and_exit(Gateway& gateway, Telemetry const& telemetry) {
+void halt_and_exit(Gateway& gateway, Telemetry const& telemetry, std::string_view why) {
     constexpr int internal_software_error = 70;  // EX_SOFTWARE
-    constexpr std::string_view why = "too many exceptions in a second: all components were halted, and the gateway ends";
     gateway.halt_at_last();
     auto const dropped = telemetry.dropped_log_lines();
-    spdlog::critical(why);
+    spdlog::critical("{}: all components were halted, and the gateway ends", why);
     spdlog::default_logger_raw()->flush();
     bool const logged = telemetry.dropped_log_lines() == dropped;  // false if there was no memory for the line
     if (!logged) std::ignore = ::write(STDERR_FILENO, why.data(), why.size());

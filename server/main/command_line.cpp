@@ -33,7 +33,7 @@ constexpr auto examples =
     "  0  stopped by a signal, or did what an option asked for\n"
     "  1  cannot start, is not healthy, or a profile was refused\n"
     "  2  invalid configuration\n"
-    "  70 too many exceptions in a second; all components were halted\n"
+    "  70 too many exceptions in a second, or the journal cannot be trusted; all components were halted\n"
     "  71 stopped by a signal, but a component did not confirm that it stands still";
 
 struct Flags {

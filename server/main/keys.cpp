@@ -255,6 +255,12 @@ std::vector<Key> access_keys() {
         whole_number<std::size_t>(
             "audit_log_files", "number of earlier files of the audit log that are kept",
             [](GatewaySettings & s) -> auto& { return s.audit_log_files; }, 1, 1'000),
+        {"state", "folder of the journal, from which the gateway continues after a crash; empty: none", "DIR", "a text",
+         Key::Kind::text, [](GatewaySettings& s, std::string const& text) { return s.state = text, true; },
+         [](GatewaySettings const& s) { return s.state; }},
+        whole_number<std::size_t>(
+            "state_bytes", "maximum size of the journal",
+            [](GatewaySettings & s) -> auto& { return s.state_bytes; }, 1e7, 1e12),
     };
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <map>
 #include <memory>
@@ -19,6 +20,10 @@
 #include "gateway/access/secrets.hpp"
 #include "gateway/gateway.hpp"
 #include "gateway/process/memory.hpp"
+#include "gateway/shutdown.hpp"
+#include "journal/journal_file.hpp"
+#include "journal/journal_writer.hpp"
+#include "journal/records.hpp"
 #include "main/audit_file.hpp"
 #include "main/choosing_section.hpp"
 #include "main/command_line.hpp"
@@ -42,6 +47,7 @@
 #include "simulation/plan/floor_plan_file.hpp"
 #include "simulation/scenario/scenario_file.hpp"
 #include "simulation/world/simulation.hpp"
+#include "types/text/texts.hpp"
 #include "wire/credentials.hpp"
 #include "xml/codec/codec.hpp"
 #include "xml/profiles/profile_document.hpp"
@@ -276,6 +282,25 @@ private:
     std::map<std::string, std::shared_ptr<Rights const>> given_;
 };
 
+// The journal of an earlier start, and its file.
+struct OpenedJournal {
+    std::unique_ptr<journal::JournalFile> file;
+    StoredState state;
+};
+
+// Returns an empty one if nothing is stored.
+OpenedJournal opened_journal(GatewaySettings const& settings, std::shared_ptr<xml::Schemas const> const& schemas) {
+    OpenedJournal opened;
+    if (settings.state.empty()) return opened;
+    opened.file = std::make_unique<journal::JournalFile>(settings.state, settings.state_bytes);
+    try {
+        opened.state = journal::state_of(opened.file->read(), schemas);
+    } catch (journal::BadRecord const& problem) {
+        throw journal::BadJournal{"state: " + rois::quoted(opened.file->name()) + " is damaged: " + problem.what()};
+    }
+    return opened;
+}
+
 // Makes all parts in the order of their dependencies, and serves until a signal arrives.
 int serve(CommandLine const& command) {
     auto const& settings = command.settings;
@@ -295,6 +320,7 @@ int serve(CommandLine const& command) {
         std::puts("configuration ok");
         return done;
     }
+    auto opened = opened_journal(settings, schemas);
     auto const log = set_up_logging(settings.log_format, settings.log_level);
     LogFlush const flush;
     release_large_blocks_at_once();
@@ -330,6 +356,19 @@ int serve(CommandLine const& command) {
     if (audit_file) {
         gateway.audit_to([&](AuditEntry const& entry) { audit_file->note(entry); });
         telemetry.show_audit([&] { return audit_file->lost(); });
+    }
+    std::optional<journal::JournalWriter> journal;
+    if (opened.file) {
+        journal.emplace(std::move(opened.file),
+                        journal::JournalWriter::Calls{
+                            .done = [&](bool stored) { gateway.stored(stored); },
+                            .broken = [&](std::string const& why) { halt_and_exit(gateway, telemetry, "journal: " + why); },
+                            .say = [](std::string const& line) { spdlog::warn("journal: {}", line); }});
+        engine.keep_in(*journal);
+        telemetry.show_journal([&] {
+            auto const numbers = journal->numbers();
+            return Telemetry::JournalNumbers{numbers.stored, numbers.not_stored, numbers.has_room};
+        });
     }
     UserComponents user_components{
         schemas, {robots, schemas}, profiles, own_refs(settings, simulation->hall().plan()), settings.profiles};
@@ -370,6 +409,12 @@ int serve(CommandLine const& command) {
                 return may_see(rights.get(), name + ".any");
             });
         };
+    if (journal) {
+        if (!opened.state.sessions.empty())
+            spdlog::info("journal: {} sessions of the last start can be resumed", opened.state.sessions.size());
+        engine.restore(std::move(opened.state), [&](std::string const& id) { return tokens.rights_of(id); },
+                       {std::chrono::steady_clock::now(), std::chrono::system_clock::now()});
+    }
     net::Server server{net_settings, gateway, telemetry, documents, schemas};
     server.on_hang_up([&] {
         if (!credentials && !tokens_file && settings.profiles.empty() && settings.engines.empty())
@@ -390,9 +435,14 @@ int serve(CommandLine const& command) {
     }
     if (media) spdlog::info("media are served under {}", media->url());
     spdlog::info("listening on {}", server.url());
-    bool const halted = server.run();
+    auto const exit_code = server.run() ? done : not_halted;
+    if (journal && !journal->finish(std::chrono::seconds{2})) {
+        spdlog::error("journal: the disk does not answer: the end of the sessions may not be stored");
+        spdlog::default_logger_raw()->flush();
+        std::_Exit(exit_code);  // a thread that waits for the disk cannot be ended
+    }
     spdlog::info("stopped");
-    return halted ? done : not_halted;
+    return exit_code;
 }
 
 int check_health(GatewaySettings const& settings) {
@@ -460,6 +510,8 @@ int main(int argc, char** argv) {
         rois::xml::Platform const platform;
         return rois::run(argc, argv);
     } catch (rois::BadSettings const& error) {
+        return rois::complain(error, rois::bad_configuration);
+    } catch (rois::journal::BadJournal const& error) {
         return rois::complain(error, rois::bad_configuration);
     } catch (rois::xml::BadDocument const& error) {
         return rois::complain(error, rois::bad_configuration);

@@ -32,6 +32,8 @@ struct GatewaySettings {
     std::string audit_log;                                // a file; empty: none
     std::size_t audit_log_bytes = std::size_t{10} << 20;  // of one file
     std::size_t audit_log_files = 10;                     // earlier ones that are kept
+    std::string state;                                    // the journal's folder; empty: nothing is stored
+    std::size_t state_bytes = std::size_t{512} << 20;     // of its files
     std::string engine_name = "reception";
     double sim_speed = 1;  // 0: simulated time stands still, and there is steering
     Steering steering = Steering::off;

@@ -151,7 +151,8 @@ std::string version_of(std::string const& file) {
 std::shared_ptr<Principal> principal_of(TokenEntry const& entry) {
     auto principal = std::make_shared<Principal>();
     principal->role = entry.role;
-    principal->rights = std::make_shared<Rights const>(entry.name, entry.components, entry.commands);
+    principal->rights =
+        std::make_shared<Rights const>(entry.name, entry.components, entry.commands, to_text(sha256(object_of(entry).dump())));
     principal->expires = entry.expires;
     principal->hash = entry.sha256;
     return principal;

@@ -138,7 +138,7 @@ private:
         for (auto& loop : loops_) loop.shut_down({});
     }
 
-    std::function<void()> give_up_ = [this] { halt_and_exit(shared_.gateway, shared_.telemetry); };
+    std::function<void()> give_up_ = [this] { halt_and_exit(shared_.gateway, shared_.telemetry, "too many exceptions in a second"); };
     Troubles troubles_;
     Shared shared_;
     Admission admission_;

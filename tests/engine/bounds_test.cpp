@@ -68,7 +68,7 @@ TEST(LikePatterns, WithAThousandCharactersMatchCorrectly) {
 }
 
 TEST(EndedCommands, KeepNoArguments) {
-    struct LastEnded : Journal {
+    struct LastEnded : Trace {
         Command const* command = nullptr;
         std::size_t arguments = 0;
         void command_ended(Command const& ended) override {
@@ -83,7 +83,7 @@ TEST(EndedCommands, KeepNoArguments) {
     desk.execute(go("a"));
     world["navigation"].finishes();
     ASSERT_NE(ended.command, nullptr);
-    EXPECT_EQ(ended.arguments, 1U) << "the journal may show them";
+    EXPECT_EQ(ended.arguments, 1U) << "the log may show them";
     EXPECT_EQ(desk.result_of("a"), "OK") << "it is kept";
     EXPECT_TRUE(ended.command->arguments.empty());
 }

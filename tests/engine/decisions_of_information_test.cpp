@@ -100,7 +100,7 @@ TEST(Decision22, NotificationsAreNumberedAsThingsHappen) {
     auto const answer = desk.notifications().hold();
     desk.execute(named("a", stop("navigation")), go("b"));
     EXPECT_THAT(desk.received(), IsEmpty()) << "the answer comes before the notifications that it causes";
-    desk.notifications().release(answer);
+    desk.answered(answer);
     world["detection"].fires("person_detected");
     world["navigation"].finishes();
     world["navigation"].reports(ErrorType::user_defined_error, "tired");
@@ -117,12 +117,12 @@ TEST(Decision22, WhatAComponentReportsComesAfterTheAnswerToItsCommand) {
     auto const answer = desk.notifications().hold();
     desk.execute(named("a", stop("navigation")));
     desk.notifications().leave(answer);
-    desk.notifications().delay(answer);
+    desk.answer_is_late(answer);
     world["navigation"].fires("reached_target");
     world["navigation"].reports(ErrorType::user_defined_error, "tired");
     world["detection"].fires("person_detected");
     EXPECT_THAT(desk.received(), ElementsAre("1 person_detected detection")) << "other components do not wait for it";
-    desk.notifications().release(answer);
+    desk.answered(answer);
     EXPECT_THAT(desk.received(),
                 ElementsAre("2 completed a OK", "3 reached_target navigation", "4 USER_DEFINED_ERROR navigation"));
     world["navigation"].fires("reached_target");

@@ -10,6 +10,7 @@
 
 #include "engine/attempts.hpp"
 #include "engine/engine.hpp"
+#include "engine/memory_journal.hpp"
 
 namespace rois {
 
@@ -39,6 +40,12 @@ private:
 class WorkingEngine : public Engine {
 public:
     using Engine::Engine;
+
+    // The journal must outlive the engine.
+    void keep_in(MemoryJournal& journal) {
+        journal_ = &journal;
+        Engine::keep_in(journal);
+    }
 
     // The answer may come later.
     std::shared_ptr<TestedOperation> begin_to_handle(SessionId const& session, Operation const& operation, Instant now,
@@ -89,10 +96,17 @@ public:
         attempts(what);
         std::unique_lock lock{mutex_};
         attempts([&] { work(lock, now, runner); });
+        while (journal_ != nullptr && journal_->has_waiting() && journal_->then != MemoryJournal::Then::later) {
+            bool const stored = journal_->then == MemoryJournal::Then::stored;
+            journal_->settle(stored);
+            attempts([&] { stored ? Engine::stored(now) : Engine::not_stored(now); });
+            attempts([&] { work(lock, now, runner); });
+        }
         attempts.rethrow();
     }
 
 private:
+    MemoryJournal* journal_ = nullptr;
     std::mutex mutex_;
 };
 

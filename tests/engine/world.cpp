@@ -1,6 +1,7 @@
 #include "engine/world.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace rois {
 
@@ -101,7 +102,23 @@ std::vector<std::string> Application::received(std::size_t most) {
     return words;
 }
 
-World::World(std::vector<Part> const& parts, EngineSettings settings) { restart(parts, settings); }
+void Application::answered(NotificationQueue::Hold hold) { show_published(notifications_->release(hold)); }
+void Application::answer_is_late(NotificationQueue::Hold hold) { show_published(notifications_->delay(hold)); }
+
+void Application::show_published(bool some) {
+    if (some) world_->engine->and_work([&] { world_->engine->published(*notifications_); }, world_->now);
+}
+
+World::World(std::vector<Part> const& parts, EngineSettings settings) {
+    if (std::getenv("ROIS_TEST_JOURNAL") != nullptr) journal = std::make_unique<MemoryJournal>();
+    restart(parts, settings);
+}
+
+void World::keep_journal() {
+    if (journal) return;
+    journal = std::make_unique<MemoryJournal>();
+    engine->keep_in(*journal);
+}
 
 void World::restart(std::vector<Part> const& parts, EngineSettings settings) {
     components_.clear();
@@ -122,6 +139,9 @@ void World::restart(std::vector<Part> const& parts, EngineSettings settings) {
         engine->add(std::move(component));
     }
     engine->add(stage_);
+    if (!journal) return;
+    engine->keep_in(*journal);
+    engine->restore(journal->take_state(), rights_of, now);
 }
 
 void World::change(std::vector<std::string> going, std::vector<Part> const& coming) {

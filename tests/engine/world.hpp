@@ -84,6 +84,10 @@ public:
         return std::get_if<Kind>(&last_);
     }
 
+    // An answer that keeps its notifications back (decision 22) was sent, or is sent later.
+    void answered(NotificationQueue::Hold);
+    void answer_is_late(NotificationQueue::Hold);
+
     bool notifications_closed() const { return notifications_->closed(); }
     NotificationQueue& notifications() { return *notifications_; }
 
@@ -92,6 +96,8 @@ public:
     }
 
 private:
+    void show_published(bool some);
+
     World* world_;
     std::shared_ptr<NotificationQueue> notifications_;
     std::uint64_t after_ = 0;
@@ -113,7 +119,8 @@ public:
     ScriptedComponent& operator[](std::string_view ref) { return *components_.at(std::string{ref}); }
     void advance(std::chrono::milliseconds);
 
-    // The process has died and begun again: the engine has no sessions, and components in their first state.
+    // The process has died and begun again: the engine has no sessions but those in the journal, and components in their first
+    // state.
     void restart(std::vector<Part> const& parts, EngineSettings settings = {});
 
     // Removes and adds components in one step. `between` may add to the change.
@@ -141,6 +148,11 @@ public:
     std::uint64_t stray_answers() const { return engine->statistics().stray_answers; }
 
     void notify(NotificationQueue& queue) override { ++notified[queue.session()]; }
+
+    // Without a journal, or with one: the variable ROIS_TEST_JOURNAL lets all tests use one.
+    std::unique_ptr<MemoryJournal> journal;
+    void keep_journal();
+    Engine::RightsOf rights_of = [](std::string const&) { return nullptr; };
 
     Instant now{Steady{std::chrono::hours{1}}, Utc{std::chrono::hours{24 * 20'777 + 12}}};  // 2026-11-20, noon
     std::map<SessionId, int> notified;  // number of Outbox::notify calls, by session

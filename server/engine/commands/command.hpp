@@ -25,12 +25,14 @@ struct Command {
     CommandHandle handle{};
     CommandId id;
     std::string type;
+    std::string ref;                                 // of the component
     ParameterList arguments;                         // with the profile's names
     Begin begin;                                     // what the component has prepared; empty for stop, suspend and resume
     ParameterList prepared_for;                      // the parameters that were prepared
     std::uint64_t hold = 0;                          // the answer of `execute`, which is sent before the command's notifications
     Session* session = nullptr;                      // receives the notifications; null once the session has ended
-    std::shared_ptr<RegisteredComponent> component;  // valid also after it has left the engine
+    std::shared_ptr<RegisteredComponent> component;  // valid also after it has left the engine; null: not seen since a restart
+    std::uint64_t halts = 0;                         // RegisteredComponent::halts, when the command was checked
     bool binding_lost = false;                       // released before the command's turn came (decision 13)
 
     State state = State::waiting;
@@ -39,10 +41,12 @@ struct Command {
     Results results;
     std::string reason;  // why the status is not OK, for people; may be empty
     Steady ended_at;
+    Utc ended_utc;
 
     // The steps that end the command, each done once. If one fails, a later tick repeats it.
-    bool reported = false;  // the journal and the session were notified
+    bool reported = false;  // the trace and the session were notified
     bool kept = false;      // the result is among the session's results
+    bool notified = false;  // its `completed` was given to the journal
     bool finished = false;  // no step is left
     bool given_up = false;  // it failed for lack of memory: the next tick ends it
 

@@ -31,7 +31,7 @@ Completed notice_of(Command const& command) {
     if (!command.session->is_engine) return notice;
     notice.results = std::make_shared<Results const>(command.results);
     notice.reason = command.reason;
-    notice.active = command.component->activity == RegisteredComponent::Activity::active;
+    notice.active = command.component && command.component->activity == RegisteredComponent::Activity::active;
     return notice;
 }
 
@@ -61,6 +61,8 @@ Executor::SharedCommand Executor::make(Session& session, CommandMessage const& m
     command->handle = CommandHandle{++last_handle_};
     command->id = message.command_id;
     command->type = message.command_type;
+    command->ref = component->ref().code;
+    command->halts = prepared.halts;
     command->session = &session;
     command->hold = component->answer = session.notifications->current();
     command->component = component;
@@ -70,10 +72,12 @@ Executor::SharedCommand Executor::make(Session& session, CommandMessage const& m
     command->prepared_for = std::move(prepared.parameters);
     live_.emplace(last_handle_, command);
     session.commands.emplace(command->id, command);
+    recorder_.changed(command);
     return command;
 }
 
-void Executor::execute(Session& session, CommandUnitSequence const& sequence, std::vector<Preparation> prepared, Instant now) {
+std::shared_ptr<Execution> Executor::make(Session& session, CommandUnitSequence const& sequence,
+                                          std::vector<Preparation> prepared) {
     auto const before = last_handle_;
     // When the sequence ends, cancels the delays that are not over.
     auto const give_up = [this](Execution* over) {
@@ -91,6 +95,10 @@ void Executor::execute(Session& session, CommandUnitSequence const& sequence, st
         throw;
     }
     for (auto const& command : execution->commands()) command->execution = execution;
+    return execution;
+}
+
+void Executor::begin(std::shared_ptr<Execution> const& execution, Instant now) {
     try {
         give_turns(execution, execution->begin(0), now);
     } catch (...) {
@@ -100,17 +108,21 @@ void Executor::execute(Session& session, CommandUnitSequence const& sequence, st
     run_ready(now);
 }
 
-void Executor::run_alone(Session& session, CommandMessage const& message, Preparation prepared, Instant now) {
-    auto const before = last_handle_;
-    SharedCommand command;
-    try {
-        command = make(session, message, std::move(prepared));
-    } catch (...) {
-        forget_made(session, before);
-        throw;
+void Executor::restore(Session& session, SharedCommand const& command, Instant now) {
+    session.commands.emplace(command->id, command);
+    command->reported = command->notified;
+    finish(command, now);
+}
+
+void Executor::drop(Session& session, Execution const& execution) {
+    for (auto const& command : execution.commands()) {
+        if (command->state == Command::State::ended) continue;
+        command->state = Command::State::ended;
+        command->finished = true;
+        recorder_.forgot(session, command->id);
+        withdraw(session, *command);
+        command->execution.reset();
     }
-    attempt(command, [&] { run(command, now); });
-    run_ready(now);
 }
 
 void Executor::give_turns(std::shared_ptr<Execution> const& execution, std::vector<Execution::Turn> const& turns, Instant now) {
@@ -152,7 +164,7 @@ void Executor::run(SharedCommand const& command, Instant now) {
     if (command->binding_lost || command->component->bound_to != command->session)
         return end(command, CompletedStatus::abort, "the component was released before the command's turn came", now);
     command->state = Command::State::running;
-    journal_->command_begun(*command);
+    trace_->command_begun(*command);
     if (command->component->moves() && begins_action(command->type) && !is_proven_alive(command->session, now))
         return end(command, CompletedStatus::abort, "the application gave no sign of life before the command's turn came", now);
     if (command->type == "set_parameter") return run_set_parameter(command, now);
@@ -331,6 +343,7 @@ void Executor::end(SharedCommand const& command, CompletedStatus status, std::st
     command->status = status;
     command->results = std::move(results);
     command->ended_at = now.steady;
+    command->ended_utc = now.utc;
     if (command->start_deadline) deadlines_.cancel(*command->start_deadline);
     ++completed_by_status_.at(static_cast<std::size_t>(status));
     attempt(command, [&] {
@@ -342,7 +355,8 @@ void Executor::end(SharedCommand const& command, CompletedStatus status, std::st
 // Notifies the session, keeps the results, and continues the sequence.
 void Executor::finish(SharedCommand const& command, Instant now) {
     if (!command->reported) {
-        journal_->command_ended(*command);
+        trace_->command_ended(*command);
+        recorder_.changed(command);
         if (command->session != nullptr) notifier_.notify(*command->session, notice_of(*command), command->hold);
         command->reported = true;
     }
@@ -396,6 +410,7 @@ void Executor::forget_while(Session& session, std::function<bool(Command const&)
     if (session.ended.empty() || !is_old(*session.ended.front())) return;
     forget(session);
     while (!session.ended.empty() && is_old(*session.ended.front())) {
+        recorder_.forgot(session, session.ended.front()->id);
         session.commands.erase(session.ended.front()->id);
         session.ended.pop_front();
     }

@@ -16,7 +16,8 @@
 #include "engine/commands/deadlines.hpp"
 #include "engine/commands/execution.hpp"
 #include "engine/commands/sequence_check.hpp"
-#include "engine/journal.hpp"
+#include "engine/journal/recorder.hpp"
+#include "engine/trace.hpp"
 #include "engine/notifications/notifier.hpp"
 #include "engine/questions.hpp"
 #include "engine/registry.hpp"
@@ -27,23 +28,24 @@ namespace rois {
 class Executor {
 public:
     Executor(EngineSettings const& settings, Registry const& registry, Agenda& agenda, Deadlines& deadlines, Notifier& notifier,
-             Questions& questions, Journal* const& journal)
+             Questions& questions, Trace* const& trace, Recorder& recorder)
         : settings_{settings},
           registry_{registry},
           agenda_{agenda},
           deadlines_{deadlines},
           notifier_{notifier},
           questions_{questions},
-          journal_{journal} {}
+          trace_{trace},
+          recorder_{recorder} {}
     ~Executor();
     Executor(Executor const&) = delete;
     Executor& operator=(Executor const&) = delete;
 
-    // Begins a sequence. It must have passed SequenceCheck, all its commands must have ids, and be prepared.
-    void execute(Session&, CommandUnitSequence const&, std::vector<Preparation>, Instant now);
-
-    // Runs a single command.
-    void run_alone(Session&, CommandMessage const&, Preparation, Instant now);
+    // Makes the commands of a sequence, which then wait. It must have passed SequenceCheck, and all its commands must have ids,
+    // and be prepared. `begin` lets them run; `drop` forgets those that have not ended.
+    std::shared_ptr<Execution> make(Session&, CommandUnitSequence const&, std::vector<Preparation>);
+    void begin(std::shared_ptr<Execution> const&, Instant now);
+    void drop(Session&, Execution const&);
 
     // Returns an id that is new to this session and not in `taken`.
     CommandId fresh_id(Session const&, std::set<CommandId> const& taken);
@@ -95,6 +97,12 @@ public:
     // Call when the session ends: forget_old_results() no longer looks at its results.
     void forget(Session&);
 
+    // Adds a command from before a restart, which has ended.
+    void restore(Session&, std::shared_ptr<Command> const&, Instant now);
+    // The ids of commands that the engine chooses continue after the last one.
+    std::uint64_t last_id() const { return last_id_; }
+    void continue_ids(std::uint64_t last) { last_id_ = last; }
+
     std::array<std::uint64_t, 5> const& completed_by_status() const { return completed_by_status_; }
     std::uint64_t stray_answers() const { return stray_answers_; }
 
@@ -107,6 +115,7 @@ private:
     using Suspended = RegisteredComponent::Suspended;
 
     SharedCommand make(Session&, CommandMessage const&, Preparation&&);
+    void withdraw(Session&, Command const&) noexcept;
     void give_turns(std::shared_ptr<Execution> const&, std::vector<Execution::Turn> const&, Instant now);
     void run_ready(Instant now);
     void run(SharedCommand const&, Instant now);
@@ -155,7 +164,8 @@ private:
     Deadlines& deadlines_;
     Notifier& notifier_;
     Questions& questions_;
-    Journal* const& journal_;                                // the engine's; may be replaced before the first session
+    Trace* const& trace_;  // the engine's; may be replaced before the first session
+    Recorder& recorder_;
     std::unordered_map<std::uint64_t, SharedCommand> live_;  // waiting or running, by handle
     std::deque<std::pair<std::shared_ptr<Execution>, std::size_t>> ready_;  // units whose turn has come
     bool running_ready_ = false;

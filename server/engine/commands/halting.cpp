@@ -77,7 +77,7 @@ void Executor::halt_failed(RegisteredComponent& component, CompletedStatus statu
     if (!component.halting) component.halting.emplace();
     bool const first = !std::exchange(component.halting->failed, true);
     Attempts attempts;
-    if (first) attempts([&] { journal_->halt_failed(component.ref().code, reason); });
+    if (first) attempts([&] { trace_->halt_failed(component.ref().code, reason); });
     attempts([&] { halt_again_later(component, now); });
     auto& waiting = component.halting->waiting;
     attempts([&] {
@@ -122,7 +122,7 @@ void Executor::go_on(RegisteredComponent& component, Instant now) {
     Attempts attempts;
     if (halting->failed) {
         component.clear_failure();
-        attempts([&] { journal_->halted_at_last(component.ref().code); });
+        attempts([&] { trace_->halted_at_last(component.ref().code); });
     }
     for (auto const& command : halting->waiting) {
         attempts([&] {

@@ -28,10 +28,16 @@ void Executor::forget_made(Session& session, std::uint64_t after) noexcept {
     for (auto handle = after + 1; handle <= last_handle_; ++handle) {
         auto const made = live_.find(handle);
         if (made == live_.end()) continue;
-        auto const known = session.commands.find(made->second->id);
-        if (known != session.commands.end() && known->second == made->second) session.commands.erase(known);
-        live_.erase(made);
+        auto const command = made->second;
+        recorder_.never_mind(command);
+        withdraw(session, *command);
     }
+}
+
+void Executor::withdraw(Session& session, Command const& command) noexcept {
+    auto const known = session.commands.find(command.id);
+    if (known != session.commands.end() && known->second.get() == &command) session.commands.erase(known);
+    live_.erase(static_cast<std::uint64_t>(command.handle));
 }
 
 void Executor::end_each(std::vector<SharedCommand> const& commands, CompletedStatus status, std::string_view reason,

@@ -42,6 +42,9 @@ public:
     // The number that the next id will have.
     std::uint64_t next() const { return first_ + kept_.size(); }
 
+    // Lets the numbers continue from here, after a restart. The ids before it count as expired.
+    void begin_with(std::uint64_t next) { first_ = next; }
+
     // Keeps the results of a message (an event; null for an error) under a new id. No session counts as notified yet.
     std::string add(std::shared_ptr<Results const> results, std::shared_ptr<MessageProfile const> message, Instant now) {
         kept_.push_back({now.steady + kept_for_, std::move(results), std::move(message), {}});

@@ -34,7 +34,7 @@ NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotifi
         ++waiting_;
         return overflowed_ ? Pushed::overflow : Pushed::held;
     }
-    bool const first = sent_ == entries_.size();
+    bool const first = shown_ == all ? sent_ == entries_.size() : given_ == last_sequence_;
     entries_.push_back({++last_sequence_, std::move(notification)});
     ++waiting_;
     if (overflowed_) return Pushed::overflow;
@@ -134,14 +134,15 @@ std::vector<Numbered> NotificationQueue::read(std::uint64_t after, std::size_t m
 NotificationQueue::Next NotificationQueue::read(std::uint64_t after, std::size_t most, std::vector<Numbered>& into) {
     std::lock_guard const lock{mutex_};
     auto entry = first_after(after);
+    auto const end = end_of_shown();
     auto const begin = into.size();
-    if (entry != entries_.end() && before(*entry) != after) {
+    if (entry < end && before(*entry) != after) {
         // The position is before the oldest entry, or inside a gap: begin with a `Lost` that counts from the position.
         auto const missing_until = as_lost(*entry) == nullptr ? before(*entry) : entry->sequence;
         if (missing_until > after) into.push_back(gap_until(missing_until, missing_until - after));
         if (as_lost(*entry) != nullptr) ++entry;
     }
-    for (; entry != entries_.end() && into.size() - begin < most; ++entry) into.push_back(*entry);
+    for (; entry < end && into.size() - begin < most; ++entry) into.push_back(*entry);
     if (into.size() == begin) return after_locked(after);
     mark_sent(into.back().sequence);
     forget();
@@ -156,14 +157,18 @@ std::vector<Numbered>::const_iterator NotificationQueue::first_after(std::uint64
                             [](std::uint64_t s, Numbered const& entry) { return s < entry.sequence; });
 }
 
+std::vector<Numbered>::const_iterator NotificationQueue::end_of_shown() const {
+    if (shown_ == all || last_sequence_ <= shown_) return entries_.end();
+    return std::ranges::upper_bound(entries_, shown_, {}, &Numbered::sequence);
+}
+
 NotificationQueue::Next NotificationQueue::next(std::uint64_t after) const {
     std::lock_guard const lock{mutex_};
     return after_locked(after);
 }
 
 NotificationQueue::Next NotificationQueue::after_locked(std::uint64_t sequence) const {
-    auto const entry = first_after(sequence);
-    if (entry != entries_.end()) return Next::more;
+    if (first_after(sequence) < end_of_shown()) return Next::more;
     if (!shows_closed()) return Next::wait;
     return overflowed_ ? Next::overflowed : Next::ended;
 }
@@ -219,6 +224,7 @@ std::uint64_t NotificationQueue::last_sequence() const {
 void NotificationQueue::close() {
     std::lock_guard const lock{mutex_};
     closed_ = true;
+    shown_ = all;  // the session does not return after a restart
 }
 
 std::size_t NotificationQueue::waiting() const {
@@ -235,6 +241,52 @@ std::vector<std::shared_ptr<OutgoingNotification const>> NotificationQueue::unre
     for (auto entry = sent_; entry < entries_.size(); ++entry) add(entries_[entry].notification);
     for (auto const& held : held_) add(held.notification);
     return events;
+}
+
+void NotificationQueue::show_when_stored() {
+    std::lock_guard const lock{mutex_};
+    shown_ = given_ = last_sequence_;
+}
+
+bool NotificationQueue::shows_when_stored() const {
+    std::lock_guard const lock{mutex_};
+    return shown_ != all;
+}
+
+NotificationQueue::Unstored NotificationQueue::unstored() const {
+    std::lock_guard const lock{mutex_};
+    auto const first = std::ranges::upper_bound(entries_, given_, {}, &Numbered::sequence);
+    if (first == entries_.end()) return {};
+    return {{first, entries_.end()}, before(entries_[forgotten_])};
+}
+
+void NotificationQueue::being_stored(std::uint64_t until) noexcept {
+    std::lock_guard const lock{mutex_};
+    given_ = until;
+}
+
+bool NotificationQueue::show(std::uint64_t until) noexcept {
+    std::lock_guard const lock{mutex_};
+    if (shown_ >= until) return false;
+    shown_ = until;
+    return true;
+}
+
+void NotificationQueue::not_stored() noexcept {
+    std::lock_guard const lock{mutex_};
+    given_ = std::min(given_, shown_);
+}
+
+// A `Lost` that was stored may count notifications that were stored before it.
+void NotificationQueue::restore(std::vector<Numbered> entries) {
+    std::lock_guard const lock{mutex_};
+    for (auto& entry : entries) {
+        while (!entries_.empty() && entries_.back().sequence > before(entry)) entries_.pop_back();
+        entries_.push_back(std::move(entry));
+    }
+    sent_ = entries_.size();
+    if (!entries_.empty()) shown_ = given_ = last_sequence_ = entries_.back().sequence;
+    forget();
 }
 
 bool NotificationQueue::closed() const {

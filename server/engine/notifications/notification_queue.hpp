@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -112,6 +113,23 @@ public:
 
     bool closed() const;
 
+    // --- With a journal (docs/journal.md): readers see a notification when it is stored. ---
+    void show_when_stored();
+    bool shows_when_stored() const;
+    // The notifications that were not given to the journal yet. Those until `forgotten_until` cannot be read any more.
+    struct Unstored {
+        std::vector<Numbered> notifications;
+        std::uint64_t forgotten_until = 0;
+    };
+    Unstored unstored() const;
+    // The notifications until this one were given to the journal. Cannot fail.
+    void being_stored(std::uint64_t until) noexcept;
+    // They are stored; returns whether notifications became visible. Or they could not be stored. Neither can fail.
+    bool show(std::uint64_t until) noexcept;
+    void not_stored() noexcept;
+    // Sets the notifications from before a restart. Call it before the first `push`.
+    void restore(std::vector<Numbered>);
+
     // Until this time the engine needs signs of life from the application (decision 33), so WebSockets send pings.
     void want_signs_of_life(Steady until) { signs_of_life_until_.store(until, std::memory_order_relaxed); }
     bool wants_signs_of_life(Steady now) const { return now < signs_of_life_until_.load(std::memory_order_relaxed); }
@@ -125,6 +143,7 @@ private:
     void reserve_for_held(std::size_t more);
     bool shows_closed() const { return closed_ && holds_.empty(); }
     std::vector<Numbered>::const_iterator first_after(std::uint64_t sequence) const;
+    std::vector<Numbered>::const_iterator end_of_shown() const;
     Next after_locked(std::uint64_t sequence) const;
     void mark_sent(std::uint64_t until);
     void forget();
@@ -140,6 +159,9 @@ private:
     std::size_t waiting_ = 0;          // waiting and held entries, without `Lost`
     std::uint64_t last_sequence_ = 0;  // of the newest entry
     std::uint64_t lost_ = 0;
+    static constexpr std::uint64_t all = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t shown_ = all;  // readers see the notifications until this one
+    std::uint64_t given_ = 0;    // to the journal
     struct Held {
         Hold by;  // 0, or released: it only waits for those before it
         std::shared_ptr<OutgoingNotification const> notification;

@@ -54,13 +54,22 @@ Subscription* Subscriptions::find(std::string_view event_type, Filter const& fil
     return known == alike->second.by_meaning.end() ? nullptr : known->second;
 }
 
-// Once the subscription is in the session's own list, no step can throw.
 Subscription& Subscriptions::add(Session& session, std::string const& event_type, Filter filter, bool inline_results) {
+    return add(session, event_type, std::move(filter), inline_results, {"s-" + std::to_string(last_ + 1)});
+}
+
+Subscription& Subscriptions::restore(Session& session, SubscribeId const& id, Subscribe const& asked, Filter filter) {
+    return add(session, asked.event_type, std::move(filter), asked.inline_results, id);
+}
+
+// Once the subscription is in the session's own list, no step can throw.
+Subscription& Subscriptions::add(Session& session, std::string const& event_type, Filter filter, bool inline_results,
+                                 SubscribeId const& id) {
     auto* subscription = find(event_type, filter);
     if (subscription == nullptr) {
         auto made = std::make_unique<Subscription>();
         made->number = ++last_;
-        made->id.text = "s-" + std::to_string(last_);
+        made->id = id;
         made->event_type = event_type;
         made->filter = std::move(filter);
         subscription = &keep(std::move(made));

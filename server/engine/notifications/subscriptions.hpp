@@ -51,6 +51,12 @@ public:
     // Subscribes a session. The same event type and condition give the same subscription; the last `inline_results` wins.
     Subscription& add(Session&, std::string const& event_type, Filter, bool inline_results);
 
+    // The same, with the id from before a restart, unless the pair has an id already.
+    Subscription& restore(Session&, SubscribeId const&, Subscribe const&, Filter);
+    // New ids continue after the last one.
+    std::uint64_t last_id() const { return last_; }
+    void continue_ids(std::uint64_t last) { last_ = last; }
+
     // Has no effect if the session has no subscription with this id.
     void remove(Session&, SubscribeId const&);
     void remove_all(Session&);
@@ -82,6 +88,7 @@ private:
         void remove(Subscription&) noexcept;
     };
 
+    Subscription& add(Session&, std::string const& event_type, Filter, bool inline_results, SubscribeId const& id);
     Subscription& keep(std::unique_ptr<Subscription>);
     static void part(Session&, Subscription&);
     void remove_if_unused(Subscription&) noexcept;

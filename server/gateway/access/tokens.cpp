@@ -53,6 +53,13 @@ std::variant<Tokens::Holder, Tokens::Refused> Tokens::holder(std::string_view to
     return is_too_many(from, now.steady) ? Refused::too_many : Refused::wrong;
 }
 
+std::shared_ptr<Rights const> Tokens::rights_of(std::string const& id) {
+    std::lock_guard const lock{mutex_};
+    auto const is_it = [&](Holder const& each) { return !each->is_over() && each->rights->id() == id; };
+    auto const found = std::ranges::find_if(all_, is_it);
+    return found == all_.end() ? nullptr : (*found)->rights;
+}
+
 bool Tokens::is_too_many(Address const& from, Steady now) {
     auto const is_old = [&](auto const& each) { return now - each.second.since >= minute; };
     if (wrong_.size() >= most_addresses) std::erase_if(wrong_, is_old);

@@ -38,6 +38,9 @@ public:
     // operator from `stop`.
     std::variant<Holder, Refused> holder(std::string_view token, Address const& from, Instant now);
 
+    // Returns the rights with this id (Rights::id); null: no token has them any more.
+    std::shared_ptr<Rights const> rights_of(std::string const& id);
+
     // Withdraws the rights of expired tokens. Returns whether any rights were withdrawn since the last call.
     bool end_expired(std::chrono::system_clock::time_point now);
 

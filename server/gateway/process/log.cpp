@@ -30,7 +30,7 @@ spdlog::level::level_enum level_of(FaultCode code) {
 // "session 3: the command 'c-1', start of navigation"
 std::string name_of(Command const& command) {
     auto const session = command.session == nullptr ? "an ended session" : "session " + std::to_string(command.session->number);
-    return session + ": the command " + quoted(command.id.text) + ", " + command.type + " of " + command.component->ref().code;
+    return session + ": the command " + quoted(command.id.text) + ", " + command.type + " of " + command.ref;
 }
 
 // Prepares a reason for a line of the log. Cutting a long reason may remove the end of a quotation: the mark that then ends it
@@ -61,7 +61,7 @@ void EngineLog::audit(std::string_view what, std::uint64_t session, std::string_
 }
 
 void EngineLog::audit(std::string_view what, Command const& command, std::string_view outcome) const {
-    audit(what, command.session == nullptr ? 0 : command.session->number, command.component->ref().code, command.type, outcome);
+    audit(what, command.session == nullptr ? 0 : command.session->number, command.ref, command.type, outcome);
 }
 
 void EngineLog::session_ended(std::uint64_t session, std::string_view why) {

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "engine/journal.hpp"
+#include "engine/trace.hpp"
 #include "gateway/process/audit.hpp"
 #include "types/messages.hpp"
 
@@ -16,7 +16,7 @@ namespace rois {
 
 // Sessions are logged at the level info, the rest at debug. Actions of clients also go to the audit log. Called with the engine
 // locked.
-class EngineLog : public Journal {
+class EngineLog : public Trace {
 public:
     // `ended` is called with the number of each session that ends, with the engine locked.
     explicit EngineLog(std::function<void(std::uint64_t session)> ended) : ended_{std::move(ended)} {}

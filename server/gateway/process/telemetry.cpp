@@ -194,6 +194,7 @@ public:
               std::chrono::duration<double>(age).count());
         counter("rois_audit_lines_lost_total", "Lines of the audit log that could not be written.",
                 t.lost_of_audit_ ? static_cast<double>(t.lost_of_audit_()) : 0);
+        journal(t);
         if (!t.log_) return;
         counter("rois_log_lines_dropped_total", "Lines of the log that could not be written.",
                 static_cast<double>(t.log_->dropped()));
@@ -202,6 +203,15 @@ public:
     }
 
 private:
+    void journal(Telemetry const& t) {
+        if (!t.journal_) return;
+        auto const numbers = t.journal_();
+        counter("rois_journal_stored_total", "How often changes were stored in the journal.", static_cast<double>(numbers.stored));
+        counter("rois_journal_failures_total", "How often changes could not be stored in the journal.",
+                static_cast<double>(numbers.not_stored));
+        gauge("rois_journal_has_room", "1 if the disk has room for the journal, so that commands may begin.", numbers.has_room);
+    }
+
     void begin(std::string name, std::string help, MetricType type) {
         families_.push_back({std::move(name), std::move(help), type, {}});
     }

@@ -74,6 +74,14 @@ public:
 
     // Shows the lines that this queue has dropped. Call it before the first `text`.
     void show(std::shared_ptr<LogQueue const> log) { log_ = std::move(log); }
+    // Shows what the journal has done. Call it before the first `text`.
+    struct JournalNumbers {
+        std::uint64_t stored = 0;      // how often changes were stored
+        std::uint64_t not_stored = 0;  // how often they could not be
+        bool has_room = true;
+    };
+    void show_journal(std::function<JournalNumbers()> numbers) { journal_ = std::move(numbers); }
+
     // Shows how many lines of the audit log were lost. Call it before the first `text`.
     void show_audit(std::function<std::uint64_t()> lost) { lost_of_audit_ = std::move(lost); }
     // The number of lines that this queue has dropped.
@@ -102,6 +110,7 @@ private:
     std::array<std::atomic<std::uint64_t>, 6> survived_{};
     std::atomic<Steady> last_tick_{Steady{}};
     std::shared_ptr<LogQueue const> log_;           // null: none is shown
+    std::function<JournalNumbers()> journal_;       // empty: there is no journal
     std::function<std::uint64_t()> lost_of_audit_;  // empty: there is no audit log
     struct Reached {
         std::atomic<std::size_t> most = 0;

@@ -1,6 +1,6 @@
 // Decision 35: `stop` always reaches the component, and returns OK only when that stands still.
 #include "engine/asynchronous.hpp"
-#include "engine/journal.hpp"
+#include "engine/trace.hpp"
 #include "engine/world.hpp"
 
 namespace rois {
@@ -398,22 +398,22 @@ TEST_F(Halting, OfEverythingByTheOperatorIsClearedByNoSession) {
     EXPECT_TRUE(world.engine->everything_is_stopped());
 }
 
-TEST_F(Halting, ThatFailsIsInTheJournalOnceUntilItSucceeds) {
-    struct Halts : Journal {
+TEST_F(Halting, ThatFailsIsReportedOnceUntilItSucceeds) {
+    struct Halts : Trace {
         std::vector<std::string> said;
         void halt_failed(std::string const& ref, std::string_view why) override {
             said.push_back(ref + " failed: " + std::string{why});
         }
         void halted_at_last(std::string const& ref) override { said.push_back(ref + " halted"); }
-    } journal;
-    world.engine->report_to(journal);
+    } trace;
+    world.engine->report_to(trace);
     robot.throws_in = {"halt"};
     desk.execute(named("stop", stop("navigation")));
     world.advance(1s);
     robot.throws_in = {};
     world.advance(200ms);
     desk.execute(named("again", stop("navigation")));
-    EXPECT_THAT(journal.said, ElementsAre("navigation failed: the component failed to halt", "navigation halted"));
+    EXPECT_THAT(trace.said, ElementsAre("navigation failed: the component failed to halt", "navigation halted"));
 }
 
 TEST_F(Halting, OfEverythingReportsTheComponentsThatHaveNotConfirmed) {

@@ -13,9 +13,9 @@ struct Command;
 
 // The engine calls it from within its own calls; implementations must not call the engine. Sessions are identified by their
 // numbers, because their ids are secrets. A command's id may be any text that the application chose.
-class Journal {
+class Trace {
 public:
-    virtual ~Journal() = default;
+    virtual ~Trace() = default;
     virtual void session_opened(std::uint64_t /*session*/) {}
     virtual void session_resumed(std::uint64_t /*session*/) {}
     virtual void session_ended(std::uint64_t /*session*/, std::string_view /*why*/) {}

@@ -1,0 +1,218 @@
+#include "engine/journal/recorder.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <new>
+
+#include "engine/attempts.hpp"
+#include "engine/registry.hpp"
+#include "engine/rights.hpp"
+
+namespace rois {
+
+namespace {
+
+constexpr std::chrono::seconds too_long{1};  // for the journal to store changes
+constexpr std::chrono::milliseconds between_tries{200};
+
+StoredSession to_store(Session const& session) {
+    auto const& terms = session.lease.terms();
+    StoredSession stored{.session = session.number,
+                         .id = session.id,
+                         .rights = session.rights ? session.rights->id() : std::string{},
+                         .window = session.window,
+                         .lease = terms.linked,
+                         .lease_http = terms.http,
+                         .links_count = terms.links_count,
+                         .is_engine = session.is_engine,
+                         .receives_switches = session.receives_switches,
+                         .last_stop = session.last_stop,
+                         .owns_stop = session.owns_stop,
+                         .bindings = session.absent};
+    for (auto const* component : session.bound)
+        stored.bindings.push_back({component->ref().code, component->switching, component->preference});
+    return stored;
+}
+
+StoredCommand to_store(Command const& command) {
+    StoredCommand stored{
+        .session = command.session->number, .id = command.id, .type = command.type, .ref = command.ref, .end = {}};
+    if (command.state == Command::State::ended)
+        stored.end = {.status = command.status,
+                      .reason = command.reason,
+                      .results = command.results,
+                      .at = command.ended_utc,
+                      .notified = command.notified};
+    return stored;
+}
+
+void append(auto& to, auto& from) {
+    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+}  // namespace
+
+bool Recorder::Collected::any() const {
+    return engine || !sessions.empty() || !with_news.empty() || !commands.empty() || !others.subscriptions.empty() ||
+           !others.ended.empty() || !others.unsubscribed.empty() || !others.forgotten_commands.empty();
+}
+
+void Recorder::Collected::forget(Session& session) {
+    sessions.erase(&session);
+    with_news.erase(&session);
+    std::erase_if(commands, [&](auto const& command) { return command->session == &session || command->session == nullptr; });
+}
+
+// The changes of `earlier` that are still true come before these.
+void Recorder::Collected::add(Collected&& earlier) {
+    engine = engine || earlier.engine;
+    sessions.merge(earlier.sessions);
+    with_news.merge(earlier.with_news);
+    commands.merge(earlier.commands);
+    auto const is_gone = [&](StoredSubscription const& one) {
+        return std::ranges::any_of(others.unsubscribed, [&](Changes::Gone const& gone) {
+            return gone.session == one.session && gone.id == one.id.text;
+        });
+    };
+    std::erase_if(earlier.others.subscriptions, is_gone);
+    append(others.subscriptions, earlier.others.subscriptions);
+    append(others.ended, earlier.others.ended);
+    append(others.unsubscribed, earlier.others.unsubscribed);
+    append(others.forgotten_commands, earlier.others.forgotten_commands);
+}
+
+void Recorder::opened(Session& session) {
+    bool const can_return = session.rights == nullptr || !session.rights->id().empty();
+    if (!is_on() || session.owner != nullptr || !can_return) return;
+    session.is_stored = true;
+    session.notifications->show_when_stored();
+    changed_.sessions.insert(&session);
+}
+
+void Recorder::changed(Session& session) {
+    if (stores(session)) changed_.sessions.insert(&session);
+}
+
+void Recorder::ended(Session& session) {
+    if (!stores(session)) return;
+    changed_.others.ended.push_back(session.number);
+    changed_.forget(session);
+    given_.forget(session);
+    session.is_stored = false;
+}
+
+void Recorder::subscribed(Session const& session, SubscribeId const& id, Subscribe const& asked) {
+    if (stores(session)) changed_.others.subscriptions.push_back({session.number, id, asked});
+}
+
+void Recorder::unsubscribed(Session const& session, SubscribeId const& id) {
+    if (!stores(session)) return;
+    std::erase_if(changed_.others.subscriptions,
+                  [&](StoredSubscription const& one) { return one.session == session.number && one.id == id; });
+    changed_.others.unsubscribed.push_back({session.number, id.text});
+}
+
+void Recorder::changed(std::shared_ptr<Command> const& command) {
+    if (command->session != nullptr && stores(*command->session)) changed_.commands.insert(command);
+}
+
+void Recorder::forgot(Session const& session, CommandId const& id) {
+    if (!stores(session)) return;
+    auto const is_it = [&](auto const& command) { return command->session == &session && command->id == id; };
+    std::erase_if(changed_.commands, is_it);
+    std::erase_if(given_.commands, is_it);
+    changed_.others.forgotten_commands.push_back({session.number, id.text});
+}
+
+std::string Recorder::why_no_commands() const {
+    if (!is_on()) return {};
+    if (is_failing_) return "the journal cannot be written now: no command begins until it can";
+    return journal_->why_no_commands();
+}
+
+void Recorder::when_stored(Then then) { (changed_.any() ? waiting_ : then_).push_back(std::move(then)); }
+
+void Recorder::notify(NotificationQueue& queue) {
+    if (!queue.shows_when_stored()) return readers_.notify(queue);
+    auto const session = sessions_.find(queue.session());
+    if (session != sessions_.end()) changed_.with_news.insert(session->second.get());
+}
+
+void Recorder::add_notifications(Session& session, Changes& changes, std::vector<Shown>& to_show) {
+    auto unstored = session.notifications->unstored();
+    if (unstored.notifications.empty()) return;
+    to_show.push_back({session.notifications, unstored.notifications.back().sequence});
+    if (unstored.forgotten_until > 0) changes.forgotten_notifications.push_back({session.number, unstored.forgotten_until});
+    for (auto& each : unstored.notifications) {
+        if (auto const* completed = std::get_if<Completed>(&each.notification->body)) {
+            auto const command = session.commands.find(completed->command_id);
+            if (command != session.commands.end()) {
+                command->second->notified = true;
+                changed_.commands.insert(command->second);
+            }
+        }
+        changes.notifications.push_back({session.number, std::move(each)});
+    }
+}
+
+std::shared_ptr<Changes> Recorder::changes(StoredEngine const& engine, std::vector<Shown>& to_show) {
+    auto changes = std::make_shared<Changes>(changed_.others);
+    changes->engine = engine;
+    for (auto* session : changed_.with_news) add_notifications(*session, *changes, to_show);
+    for (auto const* session : changed_.sessions) changes->sessions.push_back(to_store(*session));
+    for (auto const& command : changed_.commands) changes->commands.push_back(to_store(*command));
+    return changes;
+}
+
+void Recorder::give(StoredEngine const& engine) noexcept {
+    if (is_being_stored_ || next_try_ || !changed_.any()) return;
+    try {
+        std::vector<Shown> to_show;
+        auto all = changes(engine, to_show);
+        then_.reserve(then_.size() + waiting_.size());
+        // Nothing below throws.
+        for (auto const& each : to_show) each.queue->being_stored(each.until);
+        to_show_ = std::move(to_show);
+        given_ = std::exchange(changed_, {});
+        for (auto& then : waiting_) then_.push_back(std::move(then));
+        waiting_.clear();
+        is_being_stored_ = true;
+        since_.reset();
+        journal_->store(std::move(all));
+    } catch (std::bad_alloc const&) {
+        return;
+    }
+}
+
+void Recorder::call(std::vector<Then> list, bool stored, Instant now, Attempts& attempts) {
+    for (auto const& then : list) attempts([&] { then(stored, now); });
+}
+
+void Recorder::stored(Instant now, Attempts& attempts) {
+    is_being_stored_ = is_failing_ = false;
+    given_ = {};
+    for (auto const& each : std::exchange(to_show_, {}))
+        if (each.queue->show(each.until)) readers_.notify(*each.queue);
+    call(std::exchange(then_, {}), true, now, attempts);
+}
+
+void Recorder::not_stored(Instant now, Attempts& attempts) {
+    is_being_stored_ = false;
+    is_failing_ = true;
+    next_try_ = now.steady + between_tries;
+    for (auto const& each : std::exchange(to_show_, {})) each.queue->not_stored();
+    attempts([&] { changed_.add(std::exchange(given_, {})); });
+    call(std::exchange(then_, {}), false, now, attempts);
+}
+
+void Recorder::look(Instant now, Attempts& attempts) {
+    if (next_try_ && now.steady >= *next_try_) next_try_.reset();
+    if (is_being_stored_ && !since_) since_ = now.steady;
+    if (is_being_stored_ && now.steady - *since_ >= too_long) {
+        is_failing_ = true;
+        call(std::exchange(then_, {}), false, now, attempts);
+    }
+    if (is_failing_) call(std::exchange(waiting_, {}), false, now, attempts);
+}
+
+}  // namespace rois

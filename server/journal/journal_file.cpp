@@ -1,0 +1,271 @@
+#include "journal/journal_file.hpp"
+
+#include <fcntl.h>
+#include <sqlite3.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <boost/crc.hpp>
+#include <cerrno>
+#include <cstring>
+#include <string_view>
+#include <utility>
+
+#include "types/text/texts.hpp"
+#include "types/unique_descriptor.hpp"
+
+namespace rois::journal {
+
+namespace {
+
+constexpr std::int64_t application = 0x526f4953;  // "RoIS"
+constexpr std::int64_t version = 1;
+constexpr std::size_t page = 4'096;
+constexpr std::size_t of_log = std::size_t{8} << 20;  // bytes that SQLite's log may need besides the database
+constexpr int longest_log = 256;  // pages
+constexpr std::size_t reserve_bytes = std::size_t{4} << 20;
+
+constexpr auto settings =
+    "PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA wal_autocheckpoint = 0;"
+    "PRAGMA journal_size_limit = 1048576; PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON";
+constexpr auto table =
+    "CREATE TABLE record (kind TEXT NOT NULL, session INTEGER NOT NULL, key TEXT NOT NULL, value TEXT NOT NULL,"
+    " sum INTEGER NOT NULL, PRIMARY KEY (kind, session, key)) STRICT, WITHOUT ROWID";
+
+void put(sqlite3_stmt* statement, int place, std::string_view text) {
+    sqlite3_bind_text64(statement, place, text.data(), text.size(), SQLITE_STATIC, SQLITE_UTF8);
+}
+
+void put(sqlite3_stmt* statement, int place, std::uint64_t number) {
+    sqlite3_bind_int64(statement, place, static_cast<sqlite3_int64>(number));
+}
+
+// `first`: the place of the first of the three.
+void put(sqlite3_stmt* statement, int first, Key const& key) {
+    put(statement, first, key.kind);
+    put(statement, first + 1, key.session);
+    put(statement, first + 2, key.key);
+}
+
+// SQLite checks its pages, but not whether the bytes in them are those that were written.
+std::uint64_t sum_of(Record const& record) {
+    boost::crc_32_type sum;
+    auto const add = [&](std::string_view text) { sum.process_bytes(text.data(), text.size()); };
+    add(record.key.kind);
+    add(" ");
+    add(std::to_string(record.key.session));
+    add(" ");
+    add(record.key.key);
+    add(" ");
+    add(record.value);
+    return sum.checksum();
+}
+
+std::string text_at(sqlite3_stmt* row, int column) {
+    auto const* text = reinterpret_cast<char const*>(sqlite3_column_text(row, column));
+    return text == nullptr ? std::string{} : std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(row, column)));
+}
+
+void make_folder(std::string const& folder) {
+    if (::mkdir(folder.c_str(), S_IRWXU) != 0 && errno != EEXIST)
+        throw BadJournal{"state: cannot make the folder " + rois::quoted(folder) + ": " + std::strerror(errno)};
+}
+
+// Returns whether the file is empty. Makes it if it does not exist: SQLite would let everyone read it.
+bool make_file(std::string const& name) {
+    UniqueDescriptor const file{
+        ::open(name.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, S_IRUSR | S_IWUSR)};
+    struct stat found {};
+    if (file.get() < 0 || ::fstat(file.get(), &found) != 0)
+        throw BadJournal{"state: cannot write " + rois::quoted(name) + ": " + std::strerror(errno)};
+    if (!S_ISREG(found.st_mode)) throw BadJournal{"state: " + rois::quoted(name) + " is not a file"};
+    return found.st_size == 0;
+}
+
+}  // namespace
+
+void JournalFile::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
+void JournalFile::Close::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+
+JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
+    : name_{folder + "/journal.db"}, reserve_{folder + "/reserve"} {
+    make_folder(folder);
+    bool const is_new = make_file(name_);
+    open();
+    check_header(is_new);
+    auto const pages = most_bytes > 2 * of_log ? (most_bytes - of_log) / page : most_bytes / (2 * page);
+    number(("PRAGMA max_page_count = " + std::to_string(pages)).c_str());
+    begin_ = prepared("BEGIN IMMEDIATE");
+    commit_ = prepared("COMMIT");
+    rollback_ = prepared("ROLLBACK");
+    set_ = prepared("INSERT OR REPLACE INTO record VALUES (?, ?, ?, ?, ?)");
+    erase_ = prepared("DELETE FROM record WHERE kind = ? AND session = ? AND key = ?");
+    forget_ = prepared("DELETE FROM record WHERE kind = ? AND session = ? AND key <= ?");
+    end_ = prepared(
+        "DELETE FROM record WHERE kind IN ('command', 'notification', 'session', 'subscription') AND session = ?");
+    keep_reserve(Steady::clock::now());
+}
+
+JournalFile::~JournalFile() = default;
+
+void JournalFile::refuse(std::string const& why) const { throw BadJournal{"state: " + rois::quoted(name_) + " " + why}; }
+
+void JournalFile::open() {
+    sqlite3* opened = nullptr;
+    auto const result = sqlite3_open_v2(name_.c_str(), &opened, SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX, nullptr);
+    database_.reset(opened);
+    if (result != SQLITE_OK) refuse(std::string{"cannot be opened: "} + sqlite3_errstr(result));
+    sqlite3_extended_result_codes(opened, 1);
+    sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+}
+
+// Looks who made the file before it changes anything.
+void JournalFile::check_header(bool is_new) {
+    auto const refuse_by = [&](int code) {
+        if ((code & 0xff) == SQLITE_BUSY) refuse("is in use by another gateway");
+        if ((code & 0xff) == SQLITE_NOTADB) refuse("is not a journal of rois-gateway, or it is damaged");
+        refuse(std::string{"cannot be read, it may be damaged: "} + sqlite3_errmsg(database_.get()));
+    };
+    if (!run("PRAGMA locking_mode = EXCLUSIVE; BEGIN EXCLUSIVE")) refuse_by(sqlite3_extended_errcode(database_.get()));
+    auto const found = number("PRAGMA application_id");
+    auto const found_version = number("PRAGMA user_version");
+    if (is_new) {
+        auto const mark = "PRAGMA application_id = " + std::to_string(application) +
+                          "; PRAGMA user_version = " + std::to_string(version) + ";" + table;
+        if (!run(mark.c_str())) refuse(std::string{"cannot be written: "} + sqlite3_errmsg(database_.get()));
+    } else if (found != application) {
+        refuse("is not a journal of rois-gateway");
+    } else if (found_version != version) {
+        refuse("is of version " + std::to_string(found_version) + ": this gateway reads version " + std::to_string(version));
+    }
+    if (!run("COMMIT") || !run(settings)) refuse_by(sqlite3_extended_errcode(database_.get()));
+    auto const note_log = [](void* self, sqlite3*, char const*, int pages) {
+        static_cast<JournalFile*>(self)->log_pages_ = pages;
+        return SQLITE_OK;
+    };
+    sqlite3_wal_hook(database_.get(), note_log, this);
+    if (!is_new) check_pages();
+}
+
+void JournalFile::check_pages() {
+    auto const check = prepared("PRAGMA quick_check(1)");
+    auto const result = sqlite3_step(check.get());
+    if (result != SQLITE_ROW || text_at(check.get(), 0) != "ok") refuse("is damaged");
+}
+
+bool JournalFile::run(char const* sql) { return sqlite3_exec(database_.get(), sql, nullptr, nullptr, nullptr) == SQLITE_OK; }
+
+std::int64_t JournalFile::number(char const* pragma) {
+    auto const statement = prepared(pragma);
+    return sqlite3_step(statement.get()) == SQLITE_ROW ? sqlite3_column_int64(statement.get(), 0) : 0;
+}
+
+JournalFile::Statement JournalFile::prepared(char const* sql) {
+    sqlite3_stmt* statement = nullptr;
+    if (sqlite3_prepare_v2(database_.get(), sql, -1, &statement, nullptr) != SQLITE_OK)
+        refuse(std::string{"is damaged, or not a journal of rois-gateway: "} + sqlite3_errmsg(database_.get()));
+    return Statement{statement};
+}
+
+std::vector<Record> JournalFile::read() {
+    std::vector<Record> records;
+    auto const all = prepared("SELECT kind, session, key, value, sum FROM record ORDER BY kind, session, key");
+    int result = SQLITE_ROW;
+    while ((result = sqlite3_step(all.get())) == SQLITE_ROW) {
+        auto* const row = all.get();
+        auto& record = records.emplace_back();
+        record.key = {text_at(row, 0), static_cast<std::uint64_t>(sqlite3_column_int64(row, 1)), text_at(row, 2)};
+        record.value = text_at(row, 3);
+        if (static_cast<std::uint64_t>(sqlite3_column_int64(row, 4)) != sum_of(record))
+            refuse("is damaged: the bytes of the " + rois::quoted(record.key.kind) + " " + rois::quoted(record.key.key) + " of session " +
+                   std::to_string(record.key.session) + " have changed");
+    }
+    if (result != SQLITE_DONE) refuse(std::string{"is damaged: "} + sqlite3_errmsg(database_.get()));
+    return records;
+}
+
+bool JournalFile::step(Statement& statement) {
+    bool const done = sqlite3_step(statement.get()) == SQLITE_DONE || note_failure();
+    sqlite3_reset(statement.get());
+    return done;
+}
+
+// Returns false.
+bool JournalFile::note_failure() {
+    failure_ = sqlite3_extended_errcode(database_.get());
+    problem_ = sqlite3_errmsg(database_.get());
+    return false;
+}
+
+bool JournalFile::write(RecordChanges const& changes) {
+    if (!step(begin_)) return false;
+    for (auto const& key : changes.gone) {
+        put(erase_.get(), 1, key);
+        if (!step(erase_)) return false;
+    }
+    for (auto const& key : changes.forgotten) {
+        put(forget_.get(), 1, key);
+        if (!step(forget_)) return false;
+    }
+    for (auto const& record : changes.set) {
+        put(set_.get(), 1, record.key);
+        put(set_.get(), 4, record.value);
+        put(set_.get(), 5, sum_of(record));
+        if (!step(set_)) return false;
+    }
+    for (auto const session : changes.ended) {
+        put(end_.get(), 1, session);
+        if (!step(end_)) return false;
+    }
+    return step(commit_);
+}
+
+JournalFile::Result JournalFile::judged() {
+    if (sqlite3_get_autocommit(database_.get()) == 0) {
+        sqlite3_step(rollback_.get());
+        sqlite3_reset(rollback_.get());
+    }
+    switch (failure_) {
+        case SQLITE_FULL:
+        case SQLITE_NOMEM:
+        case SQLITE_IOERR_NOMEM:
+        case SQLITE_IOERR_WRITE:
+            return Result::no_room;
+        default:
+            return Result::broken;
+    }
+}
+
+JournalFile::Result JournalFile::store(RecordChanges const& changes) {
+    if (write(changes)) return Result::stored;
+    auto const result = judged();
+    if (result != Result::no_room || !has_reserve_) return result;
+    give_up_reserve();
+    return write(changes) ? Result::stored : judged();
+}
+
+JournalFile::Result JournalFile::tidy() {
+    if (log_pages_ < longest_log) return Result::stored;
+    if (sqlite3_wal_checkpoint_v2(database_.get(), nullptr, SQLITE_CHECKPOINT_PASSIVE, nullptr, nullptr) == SQLITE_OK) {
+        log_pages_ = 0;
+        return Result::stored;
+    }
+    note_failure();
+    return judged();
+}
+
+void JournalFile::give_up_reserve() {
+    ::unlink(reserve_.c_str());
+    has_reserve_ = false;
+    tried_ = Steady::clock::now();
+}
+
+void JournalFile::keep_reserve(Steady now) {
+    if (has_reserve_ || (tried_ && now - *tried_ < std::chrono::seconds{1})) return;
+    tried_ = now;
+    UniqueDescriptor const file{::open(reserve_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR)};
+    has_reserve_ = file.get() >= 0 && ::posix_fallocate(file.get(), 0, reserve_bytes) == 0;
+    if (!has_reserve_) ::unlink(reserve_.c_str());
+}
+
+}  // namespace rois::journal

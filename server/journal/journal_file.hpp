@@ -1,0 +1,89 @@
+// The journal's file: a database of SQLite with one table of records.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "journal/records.hpp"
+#include "types/instant.hpp"
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace rois::journal {
+
+// The journal cannot be used. The message is one line that names the file.
+class BadJournal : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+// Belongs to this process alone while it is open. Not thread-safe.
+class JournalFile {
+public:
+    // Makes the folder and the file if they do not exist. Throws BadJournal: the file is in use, damaged, of another program, or
+    // of a later version.
+    JournalFile(std::string const& folder, std::size_t most_bytes);
+    ~JournalFile();
+    JournalFile(JournalFile const&) = delete;
+    JournalFile& operator=(JournalFile const&) = delete;
+
+    std::string const& name() const { return name_; }
+
+    // Returns all records, ordered by their keys. Throws BadJournal if one is damaged.
+    std::vector<Record> read();
+
+    enum class Result : std::uint8_t {
+        stored,
+        no_room,  // the disk or the file is full: nothing was changed, and a later attempt may succeed
+        broken    // the system did not write what it was given: nothing may be acknowledged any more
+    };
+    // Makes all changes, or none of them. When it returns, they are on the disk.
+    Result store(RecordChanges const&);
+    // Moves what was stored from SQLite's log into the database, if the log has grown long.
+    Result tidy();
+    // Why the last `store` or `tidy` did not succeed.
+    std::string const& problem() const { return problem_; }
+
+    // A part of the disk is kept for the ends of commands. Without it no command should begin. `keep_reserve` makes it again, if
+    // it can, at most once a second.
+    bool has_reserve() const { return has_reserve_; }
+    void keep_reserve(Steady now);
+
+private:
+    struct Close {
+        void operator()(sqlite3*) const;
+        void operator()(sqlite3_stmt*) const;
+    };
+    using Statement = std::unique_ptr<sqlite3_stmt, Close>;
+
+    void open();
+    void check_header(bool is_new);
+    void check_pages();
+    bool run(char const* sql);
+    std::int64_t number(char const* pragma);
+    Statement prepared(char const* sql);
+    bool write(RecordChanges const&);
+    bool step(Statement&);
+    Result judged();
+    bool note_failure();
+    void give_up_reserve();
+    [[noreturn]] void refuse(std::string const& why) const;
+
+    std::string name_;
+    std::string reserve_;
+    std::unique_ptr<sqlite3, Close> database_;
+    int log_pages_ = 0;
+    Statement begin_, commit_, rollback_, set_, erase_, forget_, end_;
+    std::string problem_;
+    int failure_ = 0;  // SQLite's code for it
+    bool has_reserve_ = false;
+    std::optional<Steady> tried_;  // to make the reserve
+};
+
+}  // namespace rois::journal

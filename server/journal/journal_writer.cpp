@@ -1,0 +1,73 @@
+#include "journal/journal_writer.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace rois::journal {
+
+JournalWriter::JournalWriter(std::unique_ptr<JournalFile> file, Calls calls)
+    : file_{std::move(file)}, calls_{std::move(calls)}, has_room_{file_->has_reserve()} {
+    if (!has_room_) calls_.say("the disk has no room for the journal: no command begins until it has");
+    thread_ = std::jthread{[this](std::stop_token const& stop) { run(stop); }};
+}
+
+JournalWriter::~JournalWriter() = default;
+
+void JournalWriter::store(std::shared_ptr<Changes const> changes) noexcept {
+    {
+        std::lock_guard const lock{mutex_};
+        next_ = std::move(changes);
+    }
+    news_.notify_all();
+}
+
+bool JournalWriter::finish(std::chrono::milliseconds longest) {
+    std::unique_lock lock{mutex_};
+    return news_.wait_for(lock, longest, [this] { return next_ == nullptr && !is_writing_; });
+}
+
+std::string JournalWriter::why_no_commands() const {
+    if (has_room_) return {};
+    return "the disk has no room for the journal: no command begins until it has";
+}
+
+// Looks now and then whether a full disk has room again, also without changes.
+void JournalWriter::run(std::stop_token const& stop) {
+    std::unique_lock lock{mutex_};
+    while (true) {
+        news_.wait_for(lock, stop, std::chrono::seconds{1}, [this] { return next_ != nullptr; });
+        auto const changes = std::exchange(next_, nullptr);
+        if (changes == nullptr && stop.stop_requested()) return;
+        is_writing_ = true;
+        lock.unlock();
+        if (changes != nullptr) write(*changes);
+        note_room();
+        lock.lock();
+        is_writing_ = false;
+        news_.notify_all();
+    }
+}
+
+void JournalWriter::write(Changes const& changes) {
+    auto result = JournalFile::Result::no_room;
+    std::string problem = "there is no memory";
+    try {
+        result = file_->store(records_of(changes));
+        problem = file_->problem();
+    } catch (std::bad_alloc const&) {
+    }
+    if (result == JournalFile::Result::broken) return calls_.broken(file_->name() + ": " + problem);
+    bool const stored = result == JournalFile::Result::stored;
+    ++(stored ? stored_ : not_stored_);
+    calls_.done(stored);
+    if (file_->tidy() == JournalFile::Result::broken) calls_.broken(file_->name() + ": " + file_->problem());
+}
+
+void JournalWriter::note_room() {
+    file_->keep_reserve(std::chrono::steady_clock::now());
+    if (has_room_.exchange(file_->has_reserve()) == file_->has_reserve()) return;
+    calls_.say(file_->has_reserve() ? "the disk has room for the journal again"
+                                    : "the disk has no room for the journal: no command begins until it has");
+}
+
+}  // namespace rois::journal

@@ -1,0 +1,67 @@
+// Writes the engine's changes to the journal's file, on a thread of its own (docs/journal.md).
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "engine/journal/journal.hpp"
+#include "journal/journal_file.hpp"
+
+namespace rois::journal {
+
+class JournalWriter final : public Journal {
+public:
+    struct Calls {
+        // The changes were stored, or not. On the writer's thread. It must lock the engine and call it.
+        std::function<void(bool stored)> done;
+        // The file cannot be trusted any more: everything must be halted, and the process must end. On the writer's thread.
+        std::function<void(std::string const& why)> broken;
+        // For people: the disk is full, or not any more.
+        std::function<void(std::string const& line)> say;
+    };
+
+    // The destructor waits until the last changes are written.
+    JournalWriter(std::unique_ptr<JournalFile> file, Calls calls);
+    ~JournalWriter() override;
+    JournalWriter(JournalWriter const&) = delete;
+    JournalWriter& operator=(JournalWriter const&) = delete;
+
+    void store(std::shared_ptr<Changes const>) noexcept override;
+    std::string why_no_commands() const override;
+
+    // Waits until everything that was given is written. Returns false if the disk needs longer than this.
+    bool finish(std::chrono::milliseconds longest);
+
+    // For /metrics. Thread-safe.
+    struct Numbers {
+        std::uint64_t stored = 0;      // how often changes were stored
+        std::uint64_t not_stored = 0;  // how often they could not be
+        bool has_room = true;
+    };
+    Numbers numbers() const { return {stored_, not_stored_, has_room_}; }
+
+private:
+    void run(std::stop_token const& stop);
+    void write(Changes const&);
+    void note_room();
+
+    std::unique_ptr<JournalFile> file_;  // used only by the thread
+    Calls const calls_;
+    std::atomic<bool> has_room_ = true;
+    std::atomic<std::uint64_t> stored_ = 0;
+    std::atomic<std::uint64_t> not_stored_ = 0;
+    std::mutex mutex_;  // guards the members below
+    std::condition_variable_any news_;
+    std::shared_ptr<Changes const> next_;
+    bool is_writing_ = false;
+    std::jthread thread_;
+};
+
+}  // namespace rois::journal

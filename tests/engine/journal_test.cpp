@@ -1,0 +1,292 @@
+// What the engine stores, and how it continues after the process has died (docs/journal.md).
+#include "engine/world.hpp"
+
+namespace rois {
+
+namespace {
+
+struct Journaled : testing::Test {
+    Journaled() { world.keep_journal(); }
+
+    // The process dies, and begins again. Returns the application, whose client has reconnected.
+    Application die_and_resume(Application const& application, std::vector<Part> const& parts = {navigation, speech, detection}) {
+        world.restart(parts);
+        world.engine->begin(world.now);
+        Application resumed{world, application.session};
+        world.engine->link_opened(application.session, LinkKind::websocket, world.now);
+        return resumed;
+    }
+
+    MemoryJournal& journal() { return *world.journal; }
+    void store() {
+        journal().settle(true);
+        world.engine->and_work([&] { world.engine->stored(world.now); }, world.now);
+    }
+    void fail_to_store() {
+        journal().settle(false);
+        world.engine->and_work([&] { world.engine->not_stored(world.now); }, world.now);
+    }
+
+    World world{navigation, speech, detection};
+};
+
+TEST_F(Journaled, ASessionReturnsWithItsBindingsSubscriptionsAndNotifications) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.subscribe("reached_target");
+    world["navigation"].fires("reached_target");
+    auto resumed = die_and_resume(desk);
+    EXPECT_THAT(resumed.received(), ElementsAre("1 reached_target navigation"));
+    EXPECT_EQ(resumed.bind("navigation"), ReturnCode::ok);
+    EXPECT_EQ(world.connect().bind("navigation"), ReturnCode::out_of_resources);
+    world["navigation"].stands_still();
+    world["navigation"].fires("reached_target");
+    EXPECT_THAT(resumed.received(), ElementsAre("2 reached_target navigation"));
+}
+
+TEST_F(Journaled, ACommandThatRanHasExactlyOneCompletionAndDoesNotRunAgain) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.execute(go("go"));
+    auto resumed = die_and_resume(desk);
+    EXPECT_THAT(resumed.received(), ElementsAre("1 completed go ABORT"));
+    EXPECT_EQ(resumed.result_of("go"), "ABORT");
+    EXPECT_EQ(resumed.reason_of("go"), "the gateway was restarted before the command ended");
+    EXPECT_EQ(resumed.execute(go("go")).return_code, ReturnCode::bad_parameter) << "its id is in use";
+    EXPECT_THAT(world["navigation"].calls, testing::Not(testing::Contains("start")));
+    auto again = die_and_resume(resumed);
+    EXPECT_THAT(again.received(), ElementsAre("1 completed go ABORT"));
+}
+
+TEST_F(Journaled, TheResultOfACommandThatHasEndedStays) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.execute(named("d", command("dock", "navigation")));
+    world["navigation"].begins();
+    world["navigation"].finishes(CompletedStatus::ok, {.parameters = {value("charge", "integer", {"80"})}, .located = {}});
+    ASSERT_EQ(desk.result_of("d"), "OK charge=80");
+    auto resumed = die_and_resume(desk);
+    EXPECT_EQ(resumed.result_of("d"), "OK charge=80");
+    EXPECT_THAT(resumed.received(), ElementsAre("1 completed d OK"));
+    auto without = die_and_resume(resumed, {speech});
+    EXPECT_EQ(without.result_of("d"), "OK charge=80") << "its component has not returned";
+}
+
+TEST_F(Journaled, ACommandBeginsWhenItIsStored) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    journal().then = MemoryJournal::Then::later;
+    auto const asked = world.begin_to_say(desk.session, Execute{{{go("go")}}});
+    EXPECT_FALSE(asked->said);
+    EXPECT_THAT(world["navigation"].calls, testing::Not(testing::Contains("start")));
+    store();
+    EXPECT_TRUE(asked->said);
+    EXPECT_THAT(world["navigation"].calls, testing::Contains("start"));
+}
+
+TEST_F(Journaled, ACommandThatWasNotStoredLeavesNoTrace) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    journal().then = MemoryJournal::Then::later;
+    world.begin_to_say(desk.session, Execute{{{go("go")}}});
+    auto resumed = die_and_resume(desk);
+    EXPECT_THAT(resumed.received(), IsEmpty());
+    journal().then = MemoryJournal::Then::stored;
+    EXPECT_EQ(resumed.execute(go("go")).return_code, ReturnCode::ok);
+}
+
+TEST_F(Journaled, ACompletionIsNotSeenBeforeItIsStored) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.execute(go("go"));
+    journal().then = MemoryJournal::Then::later;
+    world["navigation"].finishes();
+    EXPECT_THAT(desk.received(), IsEmpty());
+    auto const result = world.begin_to_say(desk.session, GetCommandResult{{"go"}, {}});
+    EXPECT_FALSE(result->said) << "it would tell the same";
+    store();
+    EXPECT_TRUE(result->said);
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go OK"));
+}
+
+TEST_F(Journaled, QueriesDoNotWait) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    journal().then = MemoryJournal::Then::later;
+    world.begin_to_say(desk.session, Bind{Application::identifier("speech")});
+    EXPECT_EQ(desk.status_of("navigation"), "READY");
+}
+
+TEST_F(Journaled, StopsDoNotWait) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.execute(go("go"));
+    journal().then = MemoryJournal::Then::later;
+    auto const asked = world.begin_to_say(desk.session, Execute{{{named("s", stop("navigation"))}}});
+    EXPECT_THAT(world["navigation"].calls, testing::Contains("halt"));
+    EXPECT_FALSE(asked->said);
+    store();
+    EXPECT_TRUE(asked->said);
+}
+
+TEST_F(Journaled, ACommandDoesNotBeginAfterAStopThatCameWhileItWasStored) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    journal().then = MemoryJournal::Then::later;
+    auto const asked = world.begin_to_say(desk.session, Execute{{{go("go")}}});
+    world.begin_to_say(desk.session, Execute{{{named("s", stop("navigation"))}}});
+    store();
+    EXPECT_EQ(std::get<Execute::Reply>(std::get<Reply>(asked->said.value())).return_code, ReturnCode::error);
+    EXPECT_THAT(world["navigation"].calls, testing::Not(testing::Contains("start")));
+}
+
+TEST_F(Journaled, ACommandThatCannotBeStoredIsRefusedAndStopStillWorks) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.execute(go("go"));
+    journal().then = MemoryJournal::Then::not_stored;
+    EXPECT_EQ(desk.execute(go("next")).return_code, ReturnCode::out_of_resources);
+    EXPECT_EQ(desk.execute(go("third")).return_code, ReturnCode::out_of_resources) << "at once, while the journal fails";
+    EXPECT_EQ(desk.set_parameter("navigation", {value("speed", "double", {"1"})}).return_code != ReturnCode::ok, true);
+    EXPECT_THAT(world["navigation"].calls, testing::Not(testing::Contains("halt")));
+    EXPECT_EQ(desk.execute(named("s", stop("navigation"))).return_code, ReturnCode::ok);
+    EXPECT_THAT(world["navigation"].calls, testing::Contains("halt"));
+    EXPECT_THAT(desk.received(), IsEmpty()) << "they are not stored";
+    journal().then = MemoryJournal::Then::stored;
+    world.advance(300ms);
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed go ABORT", "2 completed s OK"));
+    EXPECT_EQ(desk.execute(go("last")).return_code, ReturnCode::ok);
+    auto resumed = die_and_resume(desk);
+    EXPECT_THAT(resumed.received(), ElementsAre("1 completed go ABORT", "2 completed s OK", "3 completed last ABORT"));
+}
+
+TEST_F(Journaled, AJournalThatTakesTooLongCountsAsFull) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    journal().then = MemoryJournal::Then::later;
+    auto const asked = world.begin_to_say(desk.session, Execute{{{go("go")}}});
+    world.advance(1100ms);
+    EXPECT_EQ(std::get<Execute::Reply>(std::get<Reply>(asked->said.value())).return_code, ReturnCode::out_of_resources);
+    store();
+    world.advance(100ms);
+    EXPECT_THAT(world["navigation"].calls, testing::Not(testing::Contains("start"))) << "it was refused";
+}
+
+TEST_F(Journaled, WithoutRoomNoCommandBegins) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    journal().full = "the disk is full";
+    EXPECT_EQ(desk.execute(go("go")).return_code, ReturnCode::out_of_resources);
+    EXPECT_EQ(desk.execute(named("s", stop("navigation"))).return_code, ReturnCode::ok);
+    EXPECT_EQ(desk.bind("speech"), ReturnCode::ok);
+}
+
+TEST_F(Journaled, AStopOfEverythingStays) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    world.engine->stop_everything(world.now);
+    auto resumed = die_and_resume(desk);
+    EXPECT_TRUE(world.engine->everything_is_stopped());
+    EXPECT_EQ(resumed.execute(go("go")).return_code, ReturnCode::error);
+    world.engine->and_work([&] { world.engine->clear(); }, world.now);
+    world.restart({navigation});
+    EXPECT_FALSE(world.engine->everything_is_stopped());
+}
+
+TEST_F(Journaled, TheStopOfASessionIsClearedByTheSessionThatReturns) {
+    auto desk = world.connect();
+    auto const stop = desk.ask(StopEverything{}).stop;
+    ASSERT_TRUE(stop);
+    auto resumed = die_and_resume(desk);
+    ASSERT_TRUE(world.engine->everything_is_stopped());
+    resumed.ask(ClearStop{*stop});
+    EXPECT_FALSE(world.engine->everything_is_stopped());
+}
+
+TEST_F(Journaled, IdsAreNotGivenTwice) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    auto const subscribed = desk.subscribe("reached_target");
+    world["navigation"].fires("reached_target");
+    desk.received();
+    auto const event = desk.last_received<ReceiveEvent>().event_id;
+    auto const first = ids_of(desk.execute(named("", go(""))).command_unit_list.command_unit_list);
+    auto resumed = die_and_resume(desk);
+    world["navigation"].stands_still();
+    EXPECT_EQ(resumed.detail_of(event).return_code, ReturnCode::bad_parameter) << "it has expired";
+    world["navigation"].fires("reached_target");
+    resumed.received();
+    EXPECT_NE(resumed.last_received<ReceiveEvent>().event_id, event);
+    EXPECT_NE(ids_of(resumed.execute(named("", go(""))).command_unit_list.command_unit_list), first);
+    EXPECT_NE(resumed.subscribe("person_detected").subscribe_id, subscribed.subscribe_id);
+}
+
+TEST_F(Journaled, WhatHasEndedDoesNotReturn) {
+    auto desk = world.connect();
+    auto other = world.connect();
+    desk.bind("navigation");
+    desk.bind("speech");
+    desk.release("speech");
+    auto const id = desk.subscribe("reached_target").subscribe_id;
+    desk.unsubscribe(id);
+    other.leave();
+    auto resumed = die_and_resume(desk);
+    EXPECT_EQ(world.engine->statistics().sessions, 1U);
+    EXPECT_EQ(world.connect().bind("speech"), ReturnCode::ok);
+    world["navigation"].stands_still();
+    world["navigation"].fires("reached_target");
+    EXPECT_THAT(resumed.received(), IsEmpty());
+}
+
+TEST_F(Journaled, BindingsAndSubscriptionsWaitForComponentsThatReturnLater) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.subscribe("reached_target", equal("component_ref", "navigation"));
+    auto resumed = die_and_resume(desk, {speech});
+    auto other = world.connect();
+    world.change({}, {navigation});
+    EXPECT_EQ(other.bind("navigation"), ReturnCode::out_of_resources);
+    world["navigation"].fires("reached_target");
+    EXPECT_THAT(resumed.received(), testing::Contains(HasSubstr("reached_target navigation")));
+}
+
+TEST_F(Journaled, ASessionReturnsOnlyWithItsRights) {
+    auto const rights = std::make_shared<Rights const>("desk", std::vector<std::string>{"*"}, std::vector<std::string>{"*"}, "42");
+    auto desk = world.connect_as(rights);
+    world.rights_of = [&](std::string const& id) { return id == "42" ? rights : nullptr; };
+    world.restart({navigation});
+    EXPECT_NE(world.engine->notifications(desk.session, rights.get()), nullptr);
+    EXPECT_EQ(world.engine->notifications(desk.session), nullptr);
+    world.rights_of = [](std::string const&) { return nullptr; };
+    world.restart({navigation});
+    EXPECT_EQ(world.engine->statistics().sessions, 0U) << "the token was revoked";
+}
+
+TEST_F(Journaled, ManyChangesAreStoredInOneStep) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.subscribe("reached_target");
+    journal().then = MemoryJournal::Then::later;
+    auto const before = journal().steps;
+    for (int i = 0; i < 100; ++i) world["navigation"].fires("reached_target");
+    store();
+    store();
+    EXPECT_EQ(journal().steps, before + 2);
+    EXPECT_EQ(desk.received().size(), 100U);
+}
+
+TEST_F(Journaled, NotificationsThatNobodyCanReadAnyMoreAreNotKept) {
+    World small{{navigation}, {.max_sent_notifications = 3}};
+    small.keep_journal();
+    auto desk = small.connect();
+    desk.subscribe("reached_target");
+    for (int i = 0; i < 100; ++i) {
+        small["navigation"].fires("reached_target");
+        desk.received();
+    }
+    EXPECT_LE(small.journal->take_state().notifications.size(), 5U);
+}
+
+}  // namespace
+
+}  // namespace rois

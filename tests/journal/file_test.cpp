@@ -1,0 +1,173 @@
+// The journal's file: what it keeps, and which files it refuses.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+#include "journal/journal_file.hpp"
+#include "journal/state_folder.hpp"
+
+namespace rois::journal {
+
+namespace {
+
+using test::StateFolder;
+using testing::HasSubstr;
+
+constexpr std::size_t plenty = std::size_t{512} << 20;
+
+Record record(std::uint64_t session, std::string key, std::string value) {
+    return {{kind::command, session, std::move(key)}, std::move(value)};
+}
+
+std::vector<std::string> keys_in(std::string const& folder) {
+    std::vector<std::string> keys;
+    for (auto const& each : JournalFile{folder, plenty}.read())
+        keys.push_back(std::to_string(each.key.session) + " " + each.key.key + "=" + each.value);
+    return keys;
+}
+
+// Why the folder is refused; empty: it is not.
+std::string why_refused(std::string const& folder) {
+    try {
+        JournalFile{folder, plenty}.read();
+        return {};
+    } catch (BadJournal const& problem) {
+        EXPECT_EQ(std::ranges::count(std::string{problem.what()}, '\n'), 0);
+        EXPECT_THAT(problem.what(), HasSubstr(folder));
+        return problem.what();
+    }
+}
+
+void run_sql(std::string const& file, std::string const& sql) {
+    sqlite3* database = nullptr;
+    ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
+    ASSERT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(database);
+    sqlite3_close(database);
+}
+
+void write(std::string const& file, std::string const& text) { std::ofstream{file} << text; }
+
+struct JournalsFile : testing::Test {
+    void store(RecordChanges const& changes) {
+        JournalFile file{folder.name(), plenty};
+        ASSERT_EQ(file.store(changes), JournalFile::Result::stored);
+    }
+    StateFolder const folder;
+};
+
+}  // namespace
+
+TEST_F(JournalsFile, KeepsWhatWasStored) {
+    store({.set = {record(1, "a", "x"), record(2, "b", "y")}});
+    store({.set = {record(1, "a", "z"), record(1, "c", "with \"'<&> and \n")}});
+    EXPECT_THAT(keys_in(folder.name()), testing::ElementsAre("1 a=z", "1 c=with \"'<&> and \n", "2 b=y"));
+}
+
+TEST_F(JournalsFile, ForgetsWhatIsGone) {
+    store({.set = {record(1, "a", "1"), record(1, "b", "2"), record(1, "c", "3"), record(1, "d", "4"), record(2, "a", "5")}});
+    store({.gone = {{kind::command, 1, "d"}}, .forgotten = {{kind::command, 1, "b"}}});
+    EXPECT_THAT(keys_in(folder.name()), testing::ElementsAre("1 c=3", "2 a=5"));
+    store({.ended = {2}});
+    EXPECT_THAT(keys_in(folder.name()), testing::ElementsAre("1 c=3"));
+}
+
+TEST_F(JournalsFile, CanOnlyBeReadByItsOwner) {
+    store({.set = {record(1, "a", "x")}});
+    struct stat found {};
+    ASSERT_EQ(::stat(folder.file().c_str(), &found), 0);
+    EXPECT_EQ(found.st_mode & 0777, 0600);
+}
+
+TEST_F(JournalsFile, IsMadeWithItsFolder) {
+    auto const below = folder.name() + "/below";
+    EXPECT_EQ(why_refused(below), "");
+    EXPECT_THAT(why_refused(below + "/missing/folder"), HasSubstr("cannot make the folder"));
+}
+
+TEST_F(JournalsFile, BelongsToOneGatewayAtATime) {
+    JournalFile const file{folder.name(), plenty};
+    EXPECT_THAT(why_refused(folder.name()), HasSubstr("is in use by another gateway"));
+}
+
+TEST_F(JournalsFile, OfAnotherProgramIsRefused) {
+    write(folder.file(), "This is not a database, but a text that someone has put here.\n");
+    EXPECT_THAT(why_refused(folder.name()), HasSubstr("is not a journal of rois-gateway"));
+}
+
+TEST_F(JournalsFile, OfAnotherDatabaseIsRefusedAndNotChanged) {
+    run_sql(folder.file(), "CREATE TABLE record (kind TEXT); INSERT INTO record VALUES ('x')");
+    EXPECT_THAT(why_refused(folder.name()), HasSubstr("is not a journal of rois-gateway"));
+    run_sql(folder.file(), "SELECT kind FROM record");
+}
+
+TEST_F(JournalsFile, OfALaterVersionIsRefused) {
+    store({.set = {record(1, "a", "x")}});
+    run_sql(folder.file(), "PRAGMA user_version = 2");
+    EXPECT_THAT(why_refused(folder.name()), HasSubstr("is of version 2"));
+}
+
+TEST_F(JournalsFile, ThatIsNoFileIsRefused) {
+    ASSERT_EQ(::mkdir(folder.file().c_str(), 0700), 0);
+    EXPECT_NE(why_refused(folder.name()), "");
+}
+
+// Each changed byte is noticed, or changes nothing that is read.
+TEST_F(JournalsFile, WithChangedBytesIsNeverReadWrongly) {
+    std::vector<Record> records;
+    for (int i = 0; i < 200; ++i) records.push_back(record(1, "command-" + std::to_string(i), std::string(100, 'x')));
+    store({.set = records});
+    auto const right = keys_in(folder.name());
+    std::string bytes;
+    {
+        std::ifstream in{folder.file(), std::ios::binary};
+        bytes.assign(std::istreambuf_iterator<char>{in}, {});
+    }
+    int refused = 0;
+    for (std::size_t at = 0; at < bytes.size(); at += 97) {
+        auto changed = bytes;
+        changed[at] = static_cast<char>(changed[at] ^ 0x24);
+        write(folder.file(), changed);
+        if (why_refused(folder.name()).empty())
+            EXPECT_EQ(keys_in(folder.name()), right) << "byte " << at;
+        else
+            ++refused;
+    }
+    EXPECT_GT(refused, 10);
+}
+
+TEST_F(JournalsFile, CutShortIsRefused) {
+    std::vector<Record> records;
+    for (int i = 0; i < 200; ++i) records.push_back(record(1, "command-" + std::to_string(i), std::string(100, 'x')));
+    store({.set = records});
+    std::string bytes;
+    {
+        std::ifstream in{folder.file(), std::ios::binary};
+        bytes.assign(std::istreambuf_iterator<char>{in}, {});
+    }
+    for (auto const part : {0.9, 0.5, 0.1}) {
+        write(folder.file(), bytes.substr(0, static_cast<std::size_t>(static_cast<double>(bytes.size()) * part)));
+        EXPECT_NE(why_refused(folder.name()), "") << part;
+    }
+}
+
+TEST_F(JournalsFile, ThatIsFullChangesNothingAndTakesMoreWhenThereIsRoom) {
+    JournalFile file{folder.name(), std::size_t{10} << 20};
+    auto const large = [](std::uint64_t session) { return record(session, "large", std::string(1 << 20, 'x')); };
+    auto result = JournalFile::Result::stored;
+    std::uint64_t session = 0;
+    while (result == JournalFile::Result::stored && session < 20) {
+        result = file.store({.set = {large(++session)}});
+        file.tidy();
+    }
+    EXPECT_EQ(result, JournalFile::Result::no_room);
+    EXPECT_EQ(file.read().size(), session - 1);
+    EXPECT_EQ(file.store({.ended = {1, 2}}), JournalFile::Result::stored);
+    EXPECT_EQ(file.store({.set = {large(session)}}), JournalFile::Result::stored);
+}
+
+}  // namespace rois::journal

@@ -1,0 +1,215 @@
+// A gateway with a journal: what clients see when it is killed, and when its disk fails.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "journal/state_folder.hpp"
+#include "kit/application.hpp"
+#include "kit/gateway_process.hpp"
+#include "kit/http_client.hpp"
+#include "kit/websocket_client.hpp"
+
+namespace rois::test {
+
+namespace {
+
+using namespace kit;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Xml list(Command const& command) { return sequence(unit(command)); }
+
+Command const long_speech{.component = "speech_synthesis", .id = "long", .arguments = {speech_text(std::string(2'000, 'a'))}};
+
+// The first notifications of the session: "completed long ABORT".
+std::vector<std::string> notifications_of(HttpClient& client, std::size_t most) {
+    std::vector<std::string> texts;
+    while (texts.size() < most) {
+        auto const reply = client.notifications(static_cast<unsigned>(texts.size()), 5);
+        if (!reply.root().first_child()) break;
+        for (auto const each : reply.root().children()) {
+            std::string text = each.name();
+            for (auto const* part : {"command_id", "status"})
+                if (auto const child = each.child(part)) text += std::string{" "} + child.text().get();
+            texts.push_back(text);
+        }
+    }
+    return texts;
+}
+
+// A gateway with a journal, whose disk fails as told.
+struct GatewayWithJournal : testing::Test {
+    ~GatewayWithJournal() override {
+        for (auto& client : clients) client->session.clear();
+    }
+
+    HttpClient& client() { return *clients.emplace_back(std::make_unique<HttpClient>(gateway->address())); }
+    HttpClient& connected() {
+        auto& made = client();
+        EXPECT_EQ(made.call("connect").return_code(), "OK");
+        return made;
+    }
+    // The same session after a restart.
+    HttpClient& again(std::string const& session) {
+        auto& made = client();
+        made.session = session;
+        return made;
+    }
+
+    void start(std::vector<std::string> more = {}) {
+        auto arguments = folder.arguments();
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        gateway.emplace(arguments, Variables{{"LD_PRELOAD", ROIS_BINARY_DIR "/tests/libfailing_disk.so"}, {"ROIS_DISK", disk()}});
+    }
+    void kill() {
+        gateway->signal(SIGKILL);
+        gateway->wait();
+    }
+    void restart() {
+        kill();
+        start();
+    }
+    std::string disk() const { return folder.name() + "/disk"; }
+    void let_disk_be(std::string const& word) const { std::ofstream{disk()} << word; }
+
+    template <class What>
+    static bool eventually(What const& what) {
+        auto const until = std::chrono::steady_clock::now() + std::chrono::seconds{10};
+        while (std::chrono::steady_clock::now() < until) {
+            if (what()) return true;
+            ::usleep(20'000);
+        }
+        return false;
+    }
+
+    StateFolder const folder;
+    std::optional<GatewayProcess> gateway;
+    std::vector<std::unique_ptr<HttpClient>> clients;
+};
+
+}  // namespace
+
+TEST_F(GatewayWithJournal, LetsClientsGoOnAfterItWasKilled) {
+    start();
+    auto& desk = connected();
+    desk.call("bind", component_ref("speech_synthesis"));
+    ASSERT_EQ(desk.call("execute", list(long_speech)).return_code(), "OK");
+    auto const session = desk.session;
+    restart();
+    EXPECT_THAT(gateway->log_with("can be resumed"), HasSubstr("1 sessions of the last start can be resumed"));
+    auto& resumed = again(session);
+    EXPECT_THAT(notifications_of(resumed, 1), ElementsAre("completed long ABORT"));
+    EXPECT_EQ(resumed.call("execute", list(long_speech)).return_code(), "BAD_PARAMETER") << "the id is in use";
+    EXPECT_EQ(resumed.call("execute", list({.component = "speech_synthesis", .type = "stop"})).return_code(), "OK") << "it is bound";
+    EXPECT_EQ(connected().call("bind", component_ref("speech_synthesis")).return_code(), "OUT_OF_RESOURCES");
+}
+
+TEST_F(GatewayWithJournal, LetsAWebSocketResumeAfterItWasKilled) {
+    start();
+    auto& desk = connected();
+    desk.call("bind", component_ref("speech_synthesis"));
+    desk.call("execute", list(long_speech));
+    auto const session = desk.session;
+    restart();
+    WebSocketClient socket{gateway->address()};
+    socket.ask("resume", "", {{"session", session}, {"last_sequence", "0"}});
+    std::vector<std::string> names;
+    for (int i = 0; i < 2; ++i) names.emplace_back(socket.next_document().name());
+    EXPECT_THAT(names, ElementsAre("resume_response", "completed"));
+    socket.keep_session();
+}
+
+TEST_F(GatewayWithJournal, StaysStopped) {
+    start();
+    EXPECT_EQ(client().get("/rois/stop", {}, "POST").status, 200);
+    restart();
+    EXPECT_THAT(client().get("/readyz").body, HasSubstr("stopped"));
+    client().get("/rois/clear", {}, "POST");
+    restart();
+    EXPECT_THAT(client().get("/readyz").body, Not(HasSubstr("stopped")));
+}
+
+TEST_F(GatewayWithJournal, RefusesCommandsOnAFullDiskAndRecovers) {
+    start();
+    auto& desk = connected();
+    desk.call("bind", component_ref("speech_synthesis"));
+    ASSERT_EQ(desk.call("execute", list(long_speech)).return_code(), "OK");
+    let_disk_be("full");
+    auto next = long_speech;
+    next.id = "next";
+    auto const refused = desk.call("execute", list(next));
+    EXPECT_EQ(refused.return_code(), "OUT_OF_RESOURCES") << refused.body;
+    EXPECT_THAT(refused.reason(), HasSubstr("journal"));
+    EXPECT_EQ(desk.call("get_profile").return_code(), "OK");
+    EXPECT_EQ(desk.call("execute", list({.component = "speech_synthesis", .type = "stop", .id = "s"})).return_code(), "OK");
+    EXPECT_EQ(client().get("/rois/stop", {}, "POST").status, 200);
+    client().get("/rois/clear", {}, "POST");
+    EXPECT_THAT(client().get("/metrics").body, HasSubstr("rois_journal_has_room 0"));
+    let_disk_be("fine");
+    EXPECT_TRUE(eventually([&] { return desk.call("execute", list(next)).return_code() == "OK"; }));
+    auto const session = desk.session;
+    restart();
+    EXPECT_THAT(notifications_of(again(session), 4),
+                ElementsAre("completed long ABORT", "completed s OK", "receive_error", "completed next ABORT"));
+}
+
+TEST_F(GatewayWithJournal, StopsWhileTheDiskIsSlow) {
+    start();
+    auto& desk = connected();
+    desk.call("bind", component_ref("speech_synthesis"));
+    ASSERT_EQ(desk.call("execute", list(long_speech)).return_code(), "OK");
+    let_disk_be("slow");
+    auto const begun = std::chrono::steady_clock::now();
+    EXPECT_EQ(client().get("/rois/stop", {}, "POST").status, 200);
+    EXPECT_EQ(desk.call("execute", list({.component = "speech_synthesis", .type = "stop", .id = "s"})).return_code(), "OK");
+    EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds{3}) << "the disk needs 3 s for each step";
+    let_disk_be("fine");
+}
+
+TEST_F(GatewayWithJournal, HaltsAndEndsWhenTheDiskDoesNotWrite) {
+    start();
+    auto& desk = connected();
+    desk.call("bind", component_ref("speech_synthesis"));
+    let_disk_be("broken");
+    EXPECT_THROW(desk.call("execute", list(long_speech)), LineEnded) << "it is not acknowledged";
+    auto const ended = gateway->wait();
+    EXPECT_EQ(ended.exit_code, 70);
+    EXPECT_THAT(ended.error, HasSubstr("journal"));
+    EXPECT_THAT(ended.error, HasSubstr("all components were halted"));
+    gateway.reset();
+}
+
+TEST_F(GatewayWithJournal, DoesNotStartWithAJournalThatIsNotItsOwn) {
+    start();
+    auto const second = run_gateway({"--listen", "127.0.0.1:0", "--state", folder.name()});
+    EXPECT_EQ(second.exit_code, 2);
+    EXPECT_THAT(second.error, HasSubstr("is in use by another gateway"));
+    kill();
+    gateway.reset();
+    std::ofstream{folder.file()} << "something else";
+    auto const damaged = run_gateway({"--listen", "127.0.0.1:0", "--state", folder.name()});
+    EXPECT_EQ(damaged.exit_code, 2);
+    EXPECT_THAT(damaged.error, HasSubstr("is not a journal of rois-gateway"));
+    EXPECT_EQ(std::ranges::count(damaged.error, '\n'), 1);
+}
+
+TEST_F(GatewayWithJournal, LeavesNothingToContinueAfterSigterm) {
+    start();
+    auto& desk = connected();
+    desk.call("bind", component_ref("speech_synthesis"));
+    desk.session.clear();
+    gateway.reset();
+    start();
+    EXPECT_EQ(connected().call("bind", component_ref("speech_synthesis")).return_code(), "OK");
+}
+
+}  // namespace rois::test
