@@ -103,6 +103,9 @@ def all_documents():
         f'<parameters>{parameter("parameter", "label", "string", label)}</parameters></set_parameter>'
     )
     documents["reading-0.6kB"] = query_of_size(SIZES["0.6"], "reading", "probe7")
+    speak = unit("speech_synthesis", "start", parameter("rois:parameter", "speech_text", "string", "Good morning."))
+    documents["bind-speech"] = f'<bind {rois}><component_ref rois:code="speech_synthesis"/></bind>'
+    documents["execute-speech"] = execute([speak])
     documents["execute"] = execute([unit("probe{connection}", "start")])
     for burst in (1, 8, 100):
         documents[f"fire-{burst}"] = execute([unit("probe0", "fire", parameter("rois:parameter", "burst", "int", burst))])

@@ -4,9 +4,9 @@ import collections
 import json
 import statistics
 
-from parts import choosing, client, console, crowd, engines, fanout, floods, growth, memory, requests
+from parts import choosing, client, console, crowd, engines, fanout, floods, growth, journal, memory, requests
 
-AGAINST = collections.ChainMap(requests.AGAINST, fanout.AGAINST, client.AGAINST, engines.AGAINST, choosing.AGAINST)  # row -> the row that it is compared with
+AGAINST = collections.ChainMap(requests.AGAINST, fanout.AGAINST, client.AGAINST, engines.AGAINST, choosing.AGAINST, journal.AGAINST)  # row -> the row that it is compared with
 
 
 def medians(rounds):
@@ -120,6 +120,13 @@ def longer(middle):
     return middle[engines.ONE_REMOTE]["p50_us"] - middle[engines.ONE_LOCAL]["p50_us"]
 
 
+def longer_to_store(middle):
+    """How much longer the slowest percent of the commands takes with a journal, in ms. None if not measured."""
+    if journal.EXECUTE not in middle:
+        return None
+    return (middle[journal.EXECUTE]["p99_us"] - middle[journal.EXECUTE_WITHOUT]["p99_us"]) / 1_000
+
+
 def goals(rounds):
     """The goals of ./dev bench. `rounds`: row -> measurements, of all parts."""
     middle = medians(rounds)
@@ -174,6 +181,8 @@ def goals(rounds):
             at_most(f"12 {logical}, compared with one", ratio(rounds, logical, member), 1.3, "times")
             for logical, member in choosing.QUERIES + choosing.EVENTS
         ),
+        at_most("13 query with a journal: CPU, compared with one without", ratio(rounds, journal.QUERY, journal.QUERY_WITHOUT), 1.02, "times"),
+        at_most("13 execute with a journal: p99 longer by", longer_to_store(middle), 2, "ms"),
     ]
 
 

@@ -12,7 +12,7 @@ import processes
 import report
 from parts import Settings
 
-PARTS = ("requests", "fanout", "memory", "growth", "micro", "client", "console", "floods", "engines", "crowd", "choosing")
+PARTS = ("requests", "fanout", "memory", "growth", "micro", "client", "console", "floods", "engines", "crowd", "choosing", "journal")
 
 
 def read_arguments():

@@ -17,6 +17,7 @@ Headers const xerces{"xercesc/"};
 Headers const pugixml{"pugixml.hpp", "pugiconfig.hpp"};
 Headers const boost{"boost/"};
 Headers const boost_geometry{"boost/geometry/"};
+Headers const boost_crc{"boost/crc.hpp"};
 Headers const boost_address{"boost/asio/ip/address.hpp"};    // a value, no socket
 Headers const boost_streams{"boost/asio/", "boost/beast/"};  // for the health check
 Headers const openssl{"openssl/"};
@@ -25,6 +26,7 @@ Headers const spdlog{"spdlog/"};
 Headers const eigen{"Eigen/"};
 Headers const cli11{"CLI/"};
 Headers const json{"nlohmann/"};
+Headers const sqlite{"sqlite3.h"};
 Headers const jpeg{"jpeglib.h"};
 Headers const rois{"rois/"};
 Headers const posix{"arpa/",  "dirent.h",  "errno.h", "fcntl.h",  "locale.h", "malloc.h", "netdb.h",  "netinet/",
@@ -48,6 +50,7 @@ std::vector<Layer> const layers{
     {"server/xml/", {"xml/", "types/"}, {xerces, pugixml}, Time::passed_in},
     {"server/engine/", {"engine/", "types/"}, {eigen, boost_geometry, {"fnmatch.h"}}, Time::passed_in},
     {"server/files/", {"files/"}, {}, Time::passed_in},
+    {"server/journal/", {"journal/", "engine/", "xml/", "types/"}, {boost_crc, json, sqlite, posix}, Time::read},
     {"server/gateway/",
      {"gateway/", "engine/", "xml/", "types/"},
      {boost_address, openssl, prometheus, spdlog, posix},
@@ -55,7 +58,7 @@ std::vector<Layer> const layers{
     {"server/wire/", {"wire/", "gateway/process/telemetry.hpp", "types/"}, {boost, openssl, spdlog, posix}, Time::read},
     {"server/net/", {"net/", "wire/", "gateway/", "engine/", "xml/", "types/"}, {boost, spdlog, posix}, Time::read},
     {"server/main/",
-     {"main/", "net/", "wire/", "gateway/", "engine/", "xml/", "types/", "files/", "basic/", "simulation/",
+     {"main/", "net/", "wire/", "gateway/", "journal/", "engine/", "xml/", "types/", "files/", "basic/", "simulation/",
       "choosing/choosing.hpp", "choosing/settings.hpp", "media/server.hpp", "media/settings.hpp", "remote/remote_engines.hpp",
       "remote/sub_engine.hpp"},
      {boost_streams, cli11, json, spdlog, posix},
