@@ -189,6 +189,10 @@ void RemoteEngine::enter(GetProfile::Reply const& reply) {
         records_ = before;
         throw;
     }
+    if (!std::exchange(earlier_.commands, {}).empty()) {
+        for (auto& each : ended_) translation.to_here(each.results);
+        host_->commands_ended(settings_.name, std::exchange(ended_, {}));
+    }
     for (auto const& [ref, record] : before)
         if (record_of(ref) != record && record->is_held) ask(Release{{.code = ref}}, [](Reply const*) {});
     profile_ = profile;

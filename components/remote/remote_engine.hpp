@@ -40,6 +40,10 @@ public:
     // Changes this engine's components. Throws std::exception with the reason if it refuses. Returns why frames and places are
     // left out.
     virtual std::vector<std::string> change(ComponentChange) = 0;
+    // The session before a restart of this engine; it is asked for once. The session now. The ends of commands of the earlier one.
+    virtual Engine::EarlierSession earlier_session(std::string const& sub_engine) = 0;
+    virtual void session_opened(std::string const& sub_engine, SessionId const&) = 0;
+    virtual void commands_ended(std::string const& sub_engine, std::vector<CommandEnded>) = 0;
     // Returns the reason if one of these instances is this engine, or belongs to another sub engine. Otherwise assigns them to
     // this sub engine, instead of its earlier ones, and returns nothing. Instances of an entry with `engine` belong to no sub
     // engine: several entries may use the same gateway.
@@ -117,6 +121,9 @@ private:
     void resumed(ReturnCode);
     void session_ended();
     void forget_session();
+    void ask_about_earlier_commands();
+    void take_earlier(xml::Answered const&);
+    void end_earlier_session();
     void reject(std::string const& problem);
     void send_again();
     void give_up_link(std::string const& reason);
@@ -159,7 +166,9 @@ private:
     void release_unwanted(std::shared_ptr<ComponentRecord> const&);
     void confirm_halt(std::shared_ptr<ComponentRecord> const&);
     void end_activity(std::shared_ptr<ComponentRecord> const&);
-    std::string fresh_id() { return "c" + std::to_string(++last_command_); }  // of a command
+    std::string fresh_id() { return "c" + std::to_string(++last_command_); }  // of a command that this engine adds
+    static std::string number_of(CommandHandle command) { return std::to_string(static_cast<std::uint64_t>(command)); }
+    static std::string id_of(CommandHandle command) { return "h" + number_of(command); }  // also after a restart
     void command(std::shared_ptr<ComponentRecord> const&, std::string const& command_type, ParameterList arguments,
                  std::string const& id, std::function<void(CompletedStatus, std::string const& reason)> const& then);
     void judge_failed_halt(std::shared_ptr<ComponentRecord> const&);
@@ -182,6 +191,8 @@ private:
 
     std::shared_ptr<client::Link> link_;  // null between attempts
     SessionId session_;                   // empty: no session
+    Engine::EarlierSession earlier_;      // before a restart of this engine; without an id when it has been ended
+    std::vector<CommandEnded> ended_;     // commands of that session, in the names of the sub engine
     std::uint64_t last_sequence_ = 0;
     bool is_open_ = false;                            // requests can be sent
     std::map<std::uint64_t, Unanswered> unanswered_;  // requests, by their numbers

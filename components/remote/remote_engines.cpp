@@ -122,6 +122,11 @@ private:
     }
 
     std::vector<std::string> change(ComponentChange change) override { return host_.change(std::move(change)); }
+    Engine::EarlierSession earlier_session(std::string const& sub_engine) override { return host_.earlier_session(sub_engine); }
+    void session_opened(std::string const& sub_engine, SessionId const& id) override { host_.session_opened(sub_engine, id); }
+    void commands_ended(std::string const& sub_engine, std::vector<CommandEnded> ended) override {
+        host_.commands_ended(sub_engine, std::move(ended));
+    }
     void report(std::string const& sub_engine, std::string const& what) override {
         host_.report("sub engine " + sub_engine, what);
     }

@@ -111,7 +111,7 @@ void RemoteEngine::prepare(std::shared_ptr<ComponentRecord> const& record, Ticke
 
 void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, CommandHandle command, std::string const& command_type,
                          ParameterList const& parameters) {
-    auto const id = fresh_id();
+    auto const id = id_of(command);
     auto end = [self = shared_from_this(), record, command, command_type, parameters](Completed const& completed) {
         CommandEnded ended{
             .command = command, .status = completed.status, .results = {}, .afterwards = {}, .reason = completed.reason};

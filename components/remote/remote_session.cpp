@@ -23,12 +23,15 @@ constexpr auto until_next_look = 5ms;
 // The request_id of requests that have no number.
 constexpr std::string_view opening = "connect";
 constexpr std::string_view sign_of_life = "alive";
+// In front of a command's number: asks how it has ended.
+constexpr std::string_view has_ended = "ended ";
 // In front of a request's number: asks whether an execute was performed whose answer was lost.
 constexpr std::string_view was_performed = "performed ";
 
 }  // namespace
 
 void RemoteEngine::begin() {
+    earlier_ = host_->earlier_session(settings_.name);
     show();
     attempt();
 }
@@ -86,6 +89,7 @@ void RemoteEngine::limit_attempt() {
 }
 
 void RemoteEngine::connected() {
+    if (!earlier_.id.text.empty()) return link_->attach(earlier_.id, 0);
     if (!session_.text.empty()) return link_->attach(session_, last_sequence_);
     link_->send(client::document_of({request_for_session(), std::string{opening}}));
 }
@@ -126,7 +130,47 @@ void RemoteEngine::go_on_when_handled(std::uint64_t era) {
     });
 }
 
+// This engine was restarted. The sub engine tells how the commands of the earlier session have ended, and ends that session, with
+// what still runs in it.
+void RemoteEngine::ask_about_earlier_commands() {
+    for (auto const command : earlier_.commands)
+        link_->send(client::document_of({GetCommandResult{{id_of(command)}, {}}, std::string{has_ended} + number_of(command)}));
+    link_->send(client::document_of({Disconnect{}, std::string{opening}}));
+}
+
+void RemoteEngine::take_earlier(xml::Answered const& answered) {
+    auto const& [reply, id] = answered;
+    if (auto const* resume = std::get_if<Resume::Reply>(&reply))
+        return resume->return_code == ReturnCode::ok ? ask_about_earlier_commands() : end_earlier_session();
+    if (std::holds_alternative<Disconnect::Reply>(reply)) return end_earlier_session();
+    auto const* result = std::get_if<GetCommandResult::Reply>(&reply);
+    auto const number = id.starts_with(has_ended) ? to_number<std::uint64_t>(id.substr(has_ended.size())) : std::nullopt;
+    if (result == nullptr || !number || result->return_code != ReturnCode::ok) return;
+    CommandEnded ended{.command = CommandHandle{*number}, .results = result->results};
+    auto& parameters = ended.results.parameters;
+    auto const taken = [&](std::string_view name) {
+        auto const found = std::ranges::find(parameters, name, &Parameter::name);
+        if (found == parameters.end() || found->values.empty()) return std::string{};
+        auto value = found->values.front();
+        parameters.erase(found);
+        return value;
+    };
+    auto const status = to_code<CompletedStatus>(taken("status"));
+    if (!status) return;  // it waits or runs
+    ended.status = *status;
+    if (*status != CompletedStatus::ok) ended.reason = taken("reason");
+    ended_.push_back(std::move(ended));
+}
+
+void RemoteEngine::end_earlier_session() {
+    earlier_.id = {};
+    ++era_;
+    limit_attempt();
+    connected();
+}
+
 void RemoteEngine::take(Fault const& fault) {
+    if (fault.code == FaultCode::no_session && !earlier_.id.text.empty()) return end_earlier_session();
     if (fault.code == FaultCode::no_session && !session_.text.empty()) return session_ended();
     if (!is_open_) return give_up_link("no session: " + fault.reason);
     auto const number = to_number<std::uint64_t>(fault.request_id);
@@ -140,6 +184,7 @@ void RemoteEngine::take(Fault const& fault) {
 
 // Ignores answers that were not asked for.
 void RemoteEngine::take(xml::Answered const& answered) {
+    if (!earlier_.id.text.empty()) return take_earlier(answered);
     auto const& [reply, id] = answered;
     if (id == sign_of_life) return take_sign(reply);
     if (!is_open_) {
@@ -182,6 +227,7 @@ void RemoteEngine::take_sign(Reply const& reply) {
 }
 
 void RemoteEngine::take(xml::NumberedNotification const& notification) {
+    if (!earlier_.id.text.empty()) return;                // of the earlier session
     if (notification.sequence <= last_sequence_) return;  // it was received before
     last_sequence_ = notification.sequence;
     notifications_.count();
@@ -191,6 +237,7 @@ void RemoteEngine::take(xml::NumberedNotification const& notification) {
 void RemoteEngine::opened(Connect::Reply const& reply) {
     if (reply.return_code != ReturnCode::ok) return give_up_link("no session: " + reply.reason);
     session_ = reply.session;
+    host_->session_opened(settings_.name, session_);
     is_given_up_ = false;
     subscribed_.clear();
     last_sequence_ = 0;

@@ -49,6 +49,9 @@ public:
 
     void keep_in(Journal& journal) { recorder_.keep_in(journal); }
     void restore(StoredState, RightsOf const&, Instant now);
+    EarlierSession earlier_session(std::string const& provider) const;
+    void session_opened_there(std::string const& provider, SessionId const&);
+    void ended_there(std::string const& provider, std::vector<CommandEnded>, Instant now);
     void stored(Instant now);
     void not_stored(Instant now);
     void when_stored(std::function<void()> then);
@@ -289,6 +292,12 @@ private:
     std::unordered_map<SessionId, std::unique_ptr<Session>, IdHash> sessions_;
     Recorder recorder_;
     Subscriptions subscriptions_;
+    std::map<std::string, std::string> sessions_there_;  // of this engine in its sub engines, by provider
+    struct Undecided {
+        std::string provider;
+        std::shared_ptr<Command> command;
+    };
+    std::vector<Undecided> undecided_;  // commands from before a restart, whose ends the sub engines may know
     std::vector<StoredSubscription> absent_subscriptions_;  // from before a restart, to events that no component has yet
     Deadlines deadlines_;
     Deadlines::Ticket last_due_ = Deadlines::first();  // of the deadlines that were carried out since the last tick

@@ -141,6 +141,16 @@ public:
     // `rights_of` returns the rights with this id; null: they have been withdrawn, and the session does not return.
     using RightsOf = std::function<std::shared_ptr<Rights const>(std::string const& id)>;
     void restore(StoredState, RightsOf const& rights_of, Instant now);
+    // The session of this engine in a sub engine, whose components have this provider, is stored, too. After a restart,
+    // `earlier_session` returns it, with the handles of the commands that may have run there. `ended_there` tells how those have
+    // ended that the sub engine knows; the others end with ABORT, as all of them do after 10 s.
+    struct EarlierSession {
+        SessionId id;  // empty: there is none
+        std::vector<CommandHandle> commands{};
+    };
+    EarlierSession earlier_session(std::string const& provider) const;
+    void session_opened_there(std::string const& provider, SessionId const&);
+    void ended_there(std::string const& provider, std::vector<CommandEnded>, Instant now);
     // Called by the journal, with the engine locked; call `work` afterwards.
     void stored(Instant now);
     void not_stored(Instant now);

@@ -117,6 +117,7 @@ std::vector<ParameterProfile> results_of_get_parameter(ComponentProfile const& p
 RegisteredComponent::RegisteredComponent(ComponentDescription const& description, std::shared_ptr<HostedComponent> hosted,
                                          ComponentProfile profile, std::string engine, Agenda& agenda, Frames const& frames)
     : hosted_{std::move(hosted)},
+      provider_{description.provider},
       ref_{description.ref},
       agenda_{agenda},
       frames_{frames},

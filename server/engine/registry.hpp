@@ -49,6 +49,8 @@ public:
     ComponentEntry const& entry() const { return entry_; }
     // The ref without the name of its sub engine: "navigation" of "robot2.navigation".
     std::string_view code_in_engine() const { return std::string_view{ref_.code}.substr(code_begin_); }
+    // The name of its provider; empty: it has none that others share.
+    std::string const& provider() const { return provider_; }
     // The type in the form that conditions compare.
     std::string const& type_key() const { return type_key_; }
     bool moves() const { return moves_; }
@@ -193,6 +195,7 @@ private:
     ComponentState state_;                // with normalized parameters, in the engine's frame
     std::uint64_t reported_states_ = 0;
     bool fits_ = true;  // the reported parameters fit the profile
+    std::string provider_;
     Identifier ref_;
     std::size_t code_begin_ = 0;  // where its code within its engine begins
     ComponentEntry entry_;

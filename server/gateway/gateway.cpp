@@ -360,6 +360,23 @@ void Gateway::handle_reports() {
     engine_.work(lock, now, Provider::Runner::clock);
 }
 
+Engine::EarlierSession Gateway::earlier_session(std::string const& provider) const {
+    std::lock_guard const lock{mutex_};
+    return engine_.earlier_session(provider);
+}
+
+void Gateway::session_opened_there(std::string const& provider, SessionId const& id) {
+    Lock const lock{*this};
+    engine_.session_opened_there(provider, id);
+}
+
+void Gateway::ended_there(std::string const& provider, std::vector<CommandEnded> ended) {
+    auto const now = present();
+    Lock lock{*this};
+    engine_.ended_there(provider, std::move(ended), now);
+    engine_.work(lock, now);
+}
+
 void Gateway::stored(bool all) {
     auto const now = present();
     Lock lock{*this};

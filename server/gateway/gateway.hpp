@@ -198,6 +198,11 @@ public:
     // Lets the engine handle what components have reported.
     void handle_reports();
 
+    // After a restart (Engine::earlier_session).
+    Engine::EarlierSession earlier_session(std::string const& provider) const;
+    void session_opened_there(std::string const& provider, SessionId const&);
+    void ended_there(std::string const& provider, std::vector<CommandEnded>);
+
     // Called by the journal: the engine's changes were stored, or could not be.
     void stored(bool all);
 

@@ -41,11 +41,13 @@ std::string value_of(StoredEngine const& engine) {
     return json{{"last_session", engine.last_session},
                 {"last_subscription", engine.last_subscription},
                 {"last_command", engine.last_command},
+                {"last_handle", engine.last_handle},
                 {"next_event", engine.next_event},
                 {"next_error", engine.next_error},
                 {"is_stopped", engine.is_stopped},
                 {"last_stop", engine.last_stop},
-                {"stops_of_ended_sessions", engine.stops_of_ended_sessions}}
+                {"stops_of_ended_sessions", engine.stops_of_ended_sessions},
+                {"sessions_there", engine.sessions_there}}
         .dump();
 }
 
@@ -71,7 +73,7 @@ std::string value_of(StoredSession const& session) {
 }
 
 std::string value_of(StoredCommand const& command) {
-    json value{{"type", command.type}, {"ref", command.ref}};
+    json value{{"type", command.type}, {"ref", command.ref}, {"provider", command.provider}, {"handle", command.handle}};
     if (auto const& end = command.end)
         value["end"] = {{"status", static_cast<int>(end->status)},
                         {"reason", end->reason},
@@ -91,11 +93,13 @@ public:
         return {.last_session = value.at("last_session"),
                 .last_subscription = value.at("last_subscription"),
                 .last_command = value.at("last_command"),
+                .last_handle = value.at("last_handle"),
                 .next_event = value.at("next_event"),
                 .next_error = value.at("next_error"),
                 .is_stopped = value.at("is_stopped"),
                 .last_stop = value.at("last_stop"),
-                .stops_of_ended_sessions = value.at("stops_of_ended_sessions")};
+                .stops_of_ended_sessions = value.at("stops_of_ended_sessions"),
+                .sessions_there = value.at("sessions_there").get<std::map<std::string, std::string>>()};
     }
 
     StoredSession session(Record const& record, json const& value) {
@@ -130,6 +134,8 @@ public:
                               .id = {record.key.key},
                               .type = value.at("type"),
                               .ref = value.at("ref"),
+                              .provider = value.at("provider"),
+                              .handle = value.at("handle"),
                               .end = {}};
         if (auto const end = value.find("end"); end != value.end())
             command.end = {.status = enumerator<CompletedStatus>(end->at("status"), 4),

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <map>
 #include <memory>
@@ -20,16 +19,14 @@
 #include "gateway/access/secrets.hpp"
 #include "gateway/gateway.hpp"
 #include "gateway/process/memory.hpp"
-#include "gateway/shutdown.hpp"
 #include "journal/journal_file.hpp"
-#include "journal/journal_writer.hpp"
-#include "journal/records.hpp"
 #include "main/audit_file.hpp"
 #include "main/choosing_section.hpp"
 #include "main/command_line.hpp"
 #include "main/configuration_file.hpp"
 #include "main/engines_file.hpp"
 #include "main/exposure.hpp"
+#include "main/gateway_journal.hpp"
 #include "main/health_check.hpp"
 #include "main/keys.hpp"
 #include "main/logging.hpp"
@@ -47,7 +44,6 @@
 #include "simulation/plan/floor_plan_file.hpp"
 #include "simulation/scenario/scenario_file.hpp"
 #include "simulation/world/simulation.hpp"
-#include "types/text/texts.hpp"
 #include "wire/credentials.hpp"
 #include "xml/codec/codec.hpp"
 #include "xml/profiles/profile_document.hpp"
@@ -282,25 +278,6 @@ private:
     std::map<std::string, std::shared_ptr<Rights const>> given_;
 };
 
-// The journal of an earlier start, and its file.
-struct OpenedJournal {
-    std::unique_ptr<journal::JournalFile> file;
-    StoredState state;
-};
-
-// Returns an empty one if nothing is stored.
-OpenedJournal opened_journal(GatewaySettings const& settings, std::shared_ptr<xml::Schemas const> const& schemas) {
-    OpenedJournal opened;
-    if (settings.state.empty()) return opened;
-    opened.file = std::make_unique<journal::JournalFile>(settings.state, settings.state_bytes);
-    try {
-        opened.state = journal::state_of(opened.file->read(), schemas);
-    } catch (journal::BadRecord const& problem) {
-        throw journal::BadJournal{"state: " + rois::quoted(opened.file->name()) + " is damaged: " + problem.what()};
-    }
-    return opened;
-}
-
 // Makes all parts in the order of their dependencies, and serves until a signal arrives.
 int serve(CommandLine const& command) {
     auto const& settings = command.settings;
@@ -357,19 +334,8 @@ int serve(CommandLine const& command) {
         gateway.audit_to([&](AuditEntry const& entry) { audit_file->note(entry); });
         telemetry.show_audit([&] { return audit_file->lost(); });
     }
-    std::optional<journal::JournalWriter> journal;
-    if (opened.file) {
-        journal.emplace(std::move(opened.file),
-                        journal::JournalWriter::Calls{
-                            .done = [&](bool stored) { gateway.stored(stored); },
-                            .broken = [&](std::string const& why) { halt_and_exit(gateway, telemetry, "journal: " + why); },
-                            .say = [](std::string const& line) { spdlog::warn("journal: {}", line); }});
-        engine.keep_in(*journal);
-        telemetry.show_journal([&] {
-            auto const numbers = journal->numbers();
-            return Telemetry::JournalNumbers{numbers.stored, numbers.not_stored, numbers.has_room};
-        });
-    }
+    std::optional<GatewayJournal> journal;
+    if (opened) journal.emplace(*std::move(opened), engine, gateway, telemetry);
     UserComponents user_components{
         schemas, {robots, schemas}, profiles, own_refs(settings, simulation->hall().plan()), settings.profiles};
     if (!settings.profiles.empty()) gateway.change(user_components.read());
@@ -398,7 +364,11 @@ int serve(CommandLine const& command) {
                                            [&](ComponentChange all) { return gateway.change(std::move(all)); });
                 },
             .report = [](std::string const& name, std::string const& what) { spdlog::info("{}: {}", name, what); },
-            .token = [&](std::string const& name) { return program_tokens.make(name); }});
+            .token = [&](std::string const& name) { return program_tokens.make(name); },
+            .earlier_session = [&](std::string const& name) { return gateway.earlier_session(name); },
+            .session_opened = [&](std::string const& name, SessionId const& id) { gateway.session_opened_there(name, id); },
+            .commands_ended =
+                [&](std::string const& name, std::vector<CommandEnded> ended) { gateway.ended_there(name, std::move(ended)); }});
         engine.add(remote_engines->pulse(), "pulse");
         engine.on_stop([&](bool is_stopped) { remote_engines->everything_stopped(is_stopped); });
     }
@@ -409,12 +379,7 @@ int serve(CommandLine const& command) {
                 return may_see(rights.get(), name + ".any");
             });
         };
-    if (journal) {
-        if (!opened.state.sessions.empty())
-            spdlog::info("journal: {} sessions of the last start can be resumed", opened.state.sessions.size());
-        engine.restore(std::move(opened.state), [&](std::string const& id) { return tokens.rights_of(id); },
-                       {std::chrono::steady_clock::now(), std::chrono::system_clock::now()});
-    }
+    if (journal) journal->restore(tokens);
     net::Server server{net_settings, gateway, telemetry, documents, schemas};
     server.on_hang_up([&] {
         if (!credentials && !tokens_file && settings.profiles.empty() && settings.engines.empty())
@@ -436,11 +401,7 @@ int serve(CommandLine const& command) {
     if (media) spdlog::info("media are served under {}", media->url());
     spdlog::info("listening on {}", server.url());
     auto const exit_code = server.run() ? done : not_halted;
-    if (journal && !journal->finish(std::chrono::seconds{2})) {
-        spdlog::error("journal: the disk does not answer: the end of the sessions may not be stored");
-        spdlog::default_logger_raw()->flush();
-        std::_Exit(exit_code);  // a thread that waits for the disk cannot be ended
-    }
+    if (journal) journal->finish(exit_code);
     spdlog::info("stopped");
     return exit_code;
 }

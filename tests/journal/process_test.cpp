@@ -105,7 +105,7 @@ TEST_F(GatewayWithJournal, LetsClientsGoOnAfterItWasKilled) {
     ASSERT_EQ(desk.call("execute", list(long_speech)).return_code(), "OK");
     auto const session = desk.session;
     restart();
-    EXPECT_THAT(gateway->log_with("can be resumed"), HasSubstr("1 sessions of the last start can be resumed"));
+    EXPECT_THAT(gateway->log_with("can be resumed"), HasSubstr("1 session of the last start can be resumed"));
     auto& resumed = again(session);
     EXPECT_THAT(notifications_of(resumed, 1), ElementsAre("completed long ABORT"));
     EXPECT_EQ(resumed.call("execute", list(long_speech)).return_code(), "BAD_PARAMETER") << "the id is in use";
@@ -200,6 +200,43 @@ TEST_F(GatewayWithJournal, DoesNotStartWithAJournalThatIsNotItsOwn) {
     EXPECT_EQ(damaged.exit_code, 2);
     EXPECT_THAT(damaged.error, HasSubstr("is not a journal of rois-gateway"));
     EXPECT_EQ(std::ranges::count(damaged.error, '\n'), 1);
+}
+
+// The sub engine has not died. A command that ended there meanwhile has its own result; one that still ran is stopped.
+TEST_F(GatewayWithJournal, AsksASubEngineHowItsCommandsHaveEnded) {
+    GatewayProcess const robot{{"--sim-speed", "20"}};
+    std::ofstream{folder.name() + "/engines.json"}
+        << R"({"engines": [{"name": "robot1", "url": "ws://127.0.0.1:)" << robot.port() << R"("}]})";
+    std::vector<std::string> const main{"--robots", "none", "--engines", folder.name() + "/engines.json"};
+    auto const listed = [&](HttpClient& application, std::string const& ref) {
+        return eventually([&] { return application.call("get_profile").body.find(ref) != std::string::npos; });
+    };
+    start(main);
+    auto& desk = connected();
+    ASSERT_TRUE(listed(desk, "robot1.speech_synthesis"));
+    desk.call("bind", component_ref("robot1.speech_synthesis"));
+    desk.call("bind", component_ref("robot1.navigation"));
+    Command const speech{.component = "robot1.speech_synthesis", .id = "short", .arguments = {speech_text("Good morning. This takes some seconds.")}};
+    Command const drive{.component = "robot1.navigation", .id = "drive", .arguments = {target_position({"9000, 2000, 0"})}};
+    ASSERT_EQ(desk.call("execute", list(drive)).return_code(), "OK");
+    ASSERT_EQ(desk.call("execute", list(speech)).return_code(), "OK");
+    auto const session = desk.session;
+    kill();
+    HttpClient watcher{robot.address()};
+    watcher.call("connect");
+    EXPECT_TRUE(eventually([&] {
+        return watcher.call("query", "<query_type>component_status</query_type>" + equal("component_ref", "speech_synthesis"))
+                   .body.find("READY") != std::string::npos;
+    }));
+    start(main);
+    auto& resumed = again(session);
+    auto ends = notifications_of(resumed, 2);
+    std::ranges::sort(ends);
+    EXPECT_THAT(ends, ElementsAre("completed drive ABORT", "completed short OK"));
+    ASSERT_TRUE(listed(resumed, "robot1.speech_synthesis"));
+    EXPECT_TRUE(eventually([&] {
+        return resumed.call("execute", list({.component = "robot1.speech_synthesis", .type = "stop"})).return_code() == "OK";
+    })) << "it is bound again";
 }
 
 TEST_F(GatewayWithJournal, LeavesNothingToContinueAfterSigterm) {

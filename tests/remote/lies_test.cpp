@@ -73,7 +73,7 @@ TEST_F(ALyingSubEngine, EndsEachCommandOnce) {
     engines.execute(desk, go("go", "hall.navigation"));
     for (auto const status : {CompletedStatus::error, CompletedStatus::ok}) {
         Completed completed;
-        completed.command_id.text = "c1";
+        completed.command_id.text = "h1";
         completed.status = status;
         engines.inject(completed);
     }

@@ -1,4 +1,6 @@
 // What a sub engine restores when its session, or one of its components, returns.
+#include <optional>
+
 #include "remote/two_engines.hpp"
 
 namespace rois {
@@ -134,6 +136,64 @@ TEST(ASubEngineThatReturnsAfterTheWindow, GetsANewSessionOnTheSameLink) {
     EXPECT_EQ(engines.links, links + 1);
     EXPECT_EQ(desk.status_of("hall.navigation"), "READY");
     EXPECT_THAT(engines.asked(), testing::IsSupersetOf({"resume", "connect", "bind"}));
+}
+
+// The main engine has died, and the hall has not.
+struct AMainEngineThatHasDied : testing::Test {
+    AMainEngineThatHasDied() {
+        engines.main.keep_journal();
+        desk.emplace(engines.main.connect());
+        for (auto const* ref : {"hall.navigation", "hall.speech"}) engines.bind(*desk, ref);
+    }
+    Application resumed() {
+        Application again{engines.main, desk->session};
+        engines.main.engine->link_opened(desk->session, LinkKind::websocket, engines.main.now);
+        engines.settle();
+        return again;
+    }
+
+    TwoEngines engines{{navigation, speech}};
+    std::optional<Application> desk;
+};
+
+TEST_F(AMainEngineThatHasDied, LearnsHowItsCommandsHaveEnded) {
+    engines.execute(*desk, named("d", command("dock", "hall.navigation")));
+    engines.execute(*desk, say("s", "hall.speech"));
+    auto const answer = engines.hall["navigation"].latest();
+    engines.restart_main([&] { engines.hall["navigation"].answers(answer); });
+    auto again = resumed();
+    engines.advance(1s);
+    EXPECT_THAT(again.received(), testing::IsSupersetOf({HasSubstr("completed d OK"), HasSubstr("completed s ABORT")}));
+    EXPECT_EQ(again.result_of("d"), "OK");
+    EXPECT_THAT(engines.hall["speech"].calls, testing::Contains("halt")) << "nothing goes on in the earlier session";
+}
+
+TEST_F(AMainEngineThatHasDied, HasItsBindingsAgain) {
+    engines.restart_main();
+    auto again = resumed();
+    auto other = engines.main.connect();
+    engines.advance(1s);
+    EXPECT_EQ(engines.bind(other, "hall.navigation"), ReturnCode::out_of_resources);
+    EXPECT_EQ(engines.execute(again, go("go", "hall.navigation")).return_code, ReturnCode::ok);
+    EXPECT_EQ(engines.hall.connect().bind("navigation"), ReturnCode::out_of_resources) << "also there";
+}
+
+TEST_F(AMainEngineThatHasDied, EndsItsCommandsIfTheHallHasDiedToo) {
+    engines.execute(*desk, say("s", "hall.speech"));
+    engines.restart_main([&] { engines.restart_hall(); });
+    auto again = resumed();
+    engines.advance(1s);
+    EXPECT_THAT(again.received(), testing::Contains(HasSubstr("completed s ABORT")));
+}
+
+TEST_F(AMainEngineThatHasDied, EndsItsCommandsIfTheHallStaysSilent) {
+    engines.execute(*desk, say("s", "hall.speech"));
+    engines.hold_back(true);
+    engines.restart_main();
+    auto again = resumed();
+    EXPECT_THAT(again.received(), IsEmpty());
+    engines.advance(11s);
+    EXPECT_THAT(again.received(), testing::Contains(HasSubstr("completed s ABORT")));
 }
 
 }  // namespace rois

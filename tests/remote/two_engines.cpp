@@ -151,6 +151,16 @@ public:
     std::vector<std::string> change(ComponentChange change) override {
         return engines_.main.engine->change(std::move(change), engines_.main.now);
     }
+    Engine::EarlierSession earlier_session(std::string const& name) override {
+        return engines_.main.engine->earlier_session(name);
+    }
+    void session_opened(std::string const& name, SessionId const& id) override {
+        engines_.main.engine->session_opened_there(name, id);
+    }
+    void commands_ended(std::string const& name, std::vector<CommandEnded> ended) override {
+        auto& engine = *engines_.main.engine;
+        engine.and_work([&] { engine.ended_there(name, std::move(ended), engines_.main.now); }, engines_.main.now);
+    }
     std::string const& own_name() const override { return name_; }
     std::optional<std::string> why_loop(remote::SubEngine const&, std::vector<std::string> const& instances) override {
         if (std::ranges::find(instances, engines_.instance_of_main) == instances.end()) return {};
@@ -194,12 +204,20 @@ remote::SubEngine TwoEngines::hall_settings() {
 
 TwoEngines::TwoEngines(std::vector<Part> const& parts, remote::SubEngine settings, Places const& of_hall,
                        std::vector<NamedPlace> const& places_of_main)
-    : main{std::vector<Part>{}, {}}, hall{parts, {}}, parts_{parts}, host_{std::make_shared<Host>(*this)} {
-    remote_ = std::make_shared<remote::RemoteEngine>(std::move(settings), host_);
+    : main{std::vector<Part>{}, {}},
+      hall{parts, {}},
+      parts_{parts},
+      settings_{std::move(settings)},
+      host_{std::make_shared<Host>(*this)} {
     if (!of_hall.frames.own().empty()) {
         main.engine->describe({.frames = {"here"}, .all = places_of_main});
         hall.engine->describe(of_hall);
     }
+    begin_main();
+}
+
+void TwoEngines::begin_main() {
+    remote_ = std::make_shared<remote::RemoteEngine>(settings_, host_);
     main.engine->on_stop([this](bool is_stopped) {
         remote_->run([is_stopped](auto& engine) { is_stopped ? engine.stop_everything() : engine.clear_stop(); });
     });
@@ -287,6 +305,19 @@ void TwoEngines::restart_hall() {
     cut();
     hall.restart(parts_);
     repair();
+}
+
+void TwoEngines::restart_main(std::function<void()> const& meanwhile) {
+    main.journal->then = MemoryJournal::Then::later;  // nothing of its end is stored
+    cut();
+    remote_->end();
+    host_->drop();
+    meanwhile();
+    main.journal->then = MemoryJournal::Then::stored;
+    main.restart({});
+    main.engine->begin(main.now);
+    repair();
+    begin_main();
 }
 
 std::vector<std::string> TwoEngines::asked() { return std::exchange(asked_, {}); }

@@ -58,6 +58,8 @@ public:
     void repair() { is_broken_ = false; }
     // The hall's process is killed, and begins again.
     void restart_hall();
+    // The process of the main engine, which keeps a journal, is killed, and begins again after `meanwhile`.
+    void restart_main(std::function<void()> const& meanwhile = [] {});
     bool is_cut() const { return is_broken_; }
     // Breaks the link after this number of further documents.
     void cut_after(int documents) { until_cut_ = documents; }
@@ -92,8 +94,10 @@ private:
     class Host;
 
     bool deliver();
+    void begin_main();
 
     std::vector<Part> const parts_;
+    remote::SubEngine const settings_;
     std::shared_ptr<Host> host_;
     std::shared_ptr<remote::RemoteEngine> remote_;
     std::shared_ptr<Wire> wire_;

@@ -114,6 +114,11 @@ void Executor::restore(Session& session, SharedCommand const& command, Instant n
     finish(command, now);
 }
 
+void Executor::ended_there(SharedCommand const& command, CommandEnded&& ended, Instant now) {
+    if (command->component) command->component->accept(ended);
+    end(command, ended.status, ended.reason, now, std::move(ended.results));
+}
+
 void Executor::drop(Session& session, Execution const& execution) {
     for (auto const& command : execution.commands()) {
         if (command->state == Command::State::ended) continue;

@@ -101,7 +101,13 @@ public:
     void restore(Session&, std::shared_ptr<Command> const&, Instant now);
     // The ids of commands that the engine chooses continue after the last one.
     std::uint64_t last_id() const { return last_id_; }
-    void continue_ids(std::uint64_t last) { last_id_ = last; }
+    std::uint64_t last_handle() const { return last_handle_; }
+    void continue_ids(std::uint64_t last_id, std::uint64_t last_handle) {
+        last_id_ = last_id;
+        last_handle_ = last_handle;
+    }
+    // Ends a command from before a restart whose end its sub engine has told.
+    void ended_there(std::shared_ptr<Command> const&, CommandEnded&&, Instant now);
 
     std::array<std::uint64_t, 5> const& completed_by_status() const { return completed_by_status_; }
     std::uint64_t stray_answers() const { return stray_answers_; }

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -49,6 +50,9 @@ struct StoredCommand {
     CommandId id;
     std::string type;
     std::string ref;  // of its component
+    // Of a component of a sub engine: its provider, and the handle by which that engine knows the command.
+    std::string provider{};
+    std::uint64_t handle = 0;
     struct End {
         CompletedStatus status = CompletedStatus::ok;
         std::string reason{};
@@ -56,7 +60,7 @@ struct StoredCommand {
         Utc at;
         bool notified = false;  // its `completed` is stored, too
     };
-    std::optional<End> end;  // nullopt: it waits or runs
+    std::optional<End> end{};  // nullopt: it waits or runs
 };
 
 struct StoredNotification {
@@ -69,11 +73,13 @@ struct StoredEngine {
     std::uint64_t last_session = 0;
     std::uint64_t last_subscription = 0;
     std::uint64_t last_command = 0;
+    std::uint64_t last_handle = 0;
     std::uint64_t next_event = 1;
     std::uint64_t next_error = 1;
     bool is_stopped = false;  // everything (decision 34)
     std::uint64_t last_stop = 0;
     std::uint64_t stops_of_ended_sessions = 0;
+    std::map<std::string, std::string> sessions_there{};  // of this engine in its sub engines, by provider
 };
 
 // Changes that are stored in one step: all of them or none.

@@ -37,6 +37,8 @@ StoredSession to_store(Session const& session) {
 StoredCommand to_store(Command const& command) {
     StoredCommand stored{
         .session = command.session->number, .id = command.id, .type = command.type, .ref = command.ref, .end = {}};
+    if (command.component) stored.provider = command.component->provider();
+    if (!stored.provider.empty()) stored.handle = static_cast<std::uint64_t>(command.handle);
     if (command.state == Command::State::ended)
         stored.end = {.status = command.status,
                       .reason = command.reason,

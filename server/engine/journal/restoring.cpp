@@ -9,6 +9,7 @@ namespace rois {
 
 namespace {
 
+constexpr std::chrono::seconds longest_silence{10};  // of a sub engine that knows how commands have ended
 constexpr std::string_view interrupted = "the gateway was restarted before the command ended";
 
 Reply not_stored_reply(Operation const& operation) {
@@ -30,11 +31,13 @@ StoredEngine Engine::Core::stored_engine() const {
     return {.last_session = last_session_,
             .last_subscription = subscriptions_.last_id(),
             .last_command = executor_.last_id(),
+            .last_handle = executor_.last_handle(),
             .next_event = events_.next(),
             .next_error = errors_.next(),
             .is_stopped = everything_is_stopped_,
             .last_stop = last_stop_,
-            .stops_of_ended_sessions = stops_of_ended_sessions_};
+            .stops_of_ended_sessions = stops_of_ended_sessions_,
+            .sessions_there = sessions_there_};
 }
 
 void Engine::Core::when_stored(std::function<void()> then) {
@@ -100,14 +103,47 @@ void Engine::Core::restore(StoredState state, RightsOf const& rights_of, Instant
     auto const& engine = state.engine;
     last_session_ = engine.last_session;
     subscriptions_.continue_ids(engine.last_subscription);
-    executor_.continue_ids(engine.last_command);
+    executor_.continue_ids(engine.last_command, engine.last_handle);
     events_.begin_with(engine.next_event);
     errors_.begin_with(engine.next_error);
     last_stop_ = engine.last_stop;
     stops_of_ended_sessions_ = engine.stops_of_ended_sessions;
     everything_is_stopped_ = engine.is_stopped;
     if (everything_is_stopped_) on_stop_(true);
+    sessions_there_ = engine.sessions_there;
     for (auto& session : std::exchange(state.sessions, {})) restore(std::move(session), state, rights_of, now);
+    if (undecided_.empty()) return;
+    deadlines_.add(now.steady + longest_silence, [this](Instant then) {
+        for (auto const& [provider, id] : sessions_there_) ended_there(provider, {}, then);
+    });
+}
+
+Engine::EarlierSession Engine::Core::earlier_session(std::string const& provider) const {
+    auto const found = sessions_there_.find(provider);
+    EarlierSession earlier{.id = {found == sessions_there_.end() ? std::string{} : found->second}};
+    for (auto const& each : undecided_)
+        if (each.provider == provider) earlier.commands.push_back(each.command->handle);
+    return earlier;
+}
+
+void Engine::Core::session_opened_there(std::string const& provider, SessionId const& id) {
+    sessions_there_[provider] = id.text;
+    recorder_.changed_engine();
+}
+
+void Engine::Core::ended_there(std::string const& provider, std::vector<CommandEnded> ended, Instant now) {
+    Attempts attempts;
+    for (auto const& each : undecided_) {
+        auto const& command = each.command;
+        if (each.provider != provider || command->session == nullptr) continue;
+        auto const known = std::ranges::find(ended, command->handle, &CommandEnded::command);
+        CommandEnded told{.command = command->handle, .status = CompletedStatus::abort, .reason = std::string{interrupted}};
+        if (known != ended.end()) told = std::move(*known);
+        if (auto* component = registry_.find(command->ref)) command->component = component->shared_from_this();
+        attempts([&] { executor_.ended_there(command, std::move(told), now); });
+    }
+    std::erase_if(undecided_, [&](Undecided const& each) { return each.provider == provider; });
+    if (attempts.failure()) unsettled_ = attempts.failure();
 }
 
 void Engine::Core::restore(StoredSession&& stored, StoredState& state, RightsOf const& rights_of, Instant now) {
@@ -142,6 +178,7 @@ void Engine::Core::restore(StoredSession&& stored, StoredState& state, RightsOf 
 }
 
 void Engine::Core::restore(Session& session, StoredCommand&& stored, Instant now) {
+    bool const may_be_known = !stored.end && sessions_there_.contains(stored.provider);
     auto const end = std::move(stored.end).value_or(
         StoredCommand::End{.status = CompletedStatus::abort, .reason = std::string{interrupted}, .at = now.utc});
     auto const ago = std::clamp(now.utc - end.at, Utc::duration{0}, Utc::duration{settings_.command_results});
@@ -151,6 +188,12 @@ void Engine::Core::restore(Session& session, StoredCommand&& stored, Instant now
     command->ref = std::move(stored.ref);
     if (auto* component = registry_.find(command->ref)) command->component = component->shared_from_this();
     command->session = &session;
+    if (may_be_known) {
+        command->handle = CommandHandle{stored.handle};
+        command->state = Command::State::running;
+        session.commands.emplace(command->id, command);
+        return undecided_.push_back({std::move(stored.provider), std::move(command)});
+    }
     command->state = Command::State::ended;
     command->status = end.status;
     command->reason = end.reason;
