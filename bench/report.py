@@ -183,6 +183,7 @@ def goals(rounds):
         ),
         at_most("13 query with a journal: CPU, compared with one without", ratio(rounds, journal.QUERY, journal.QUERY_WITHOUT), 1.02, "times"),
         at_most("13 execute with a journal: p99 longer by", longer_to_store(middle), 2, "ms"),
+        at_most("13 ready after the start with 100,000 records", value_of(journal.START, "ready_ms"), 2_000, "ms"),
     ]
 
 

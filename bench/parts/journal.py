@@ -1,11 +1,15 @@
 """The cost of the journal: the same requests to a gateway with one and to a gateway without."""
 
+import pathlib
+import sqlite3
 import tempfile
+import zlib
 
 from processes import document, gateway, load, running
 
 QUERY, QUERY_WITHOUT = "query 0.6 kB, with a journal", "query 0.6 kB, without a journal"
 EXECUTE, EXECUTE_WITHOUT = "execute, with a journal", "execute, without a journal"
+START = "start with 100,000 records"
 AGAINST = {QUERY: QUERY_WITHOUT}
 
 CONNECTIONS = 64
@@ -22,6 +26,26 @@ def round(keep, settings):
             for row, server in ((EXECUTE_WITHOUT, without), (EXECUTE, kept)):
                 speaking = {"setup": document("bind-speech"), "rate": COMMANDS, "connections": 1}
                 keep(row, load("requests", server, via="http", seconds=settings.seconds * 3, **speaking, **ok("execute-speech")))
+    with tempfile.TemporaryDirectory(prefix="rois-bench-") as folder:
+        with running(gateway(1, "--state", folder, name="gateway-new")):
+            pass
+        fill(pathlib.Path(folder) / "journal.db")
+        with running(gateway(1, "--state", folder, name="gateway-full")) as (server,):
+            keep(START, {"ready_ms": 1_000 * server.seconds_to_ready})
+
+
+def fill(file):
+    """Adds 100 sessions with 1,000 notifications each, as the gateway would have stored them."""
+    session = '{"bindings":[],"id":"%d","is_engine":false,"last_stop":0,"lease":2000,"lease_http":10000,"links_count":true,"owns_stop":false,'
+    session += '"receives_switches":false,"rights":"","window":30000}'
+    completed = '<completed sequence="%d" xmlns="urn:x-rois:psm:xml:message:1"><command_id>c-%d</command_id><status>OK</status></completed>'
+    records = [("session", number, "", session % number) for number in range(1, 101)]
+    records += [("notification", of, f"{i:020}", completed % (i, i)) for of in range(1, 101) for i in range(1, 1_000)]
+    with sqlite3.connect(file) as database:
+        for record in records:
+            check = zlib.crc32("{} {} {} {}".format(*record).encode())
+            database.execute("INSERT INTO record VALUES (?, ?, ?, ?, ?)", (*record, check))
+    database.close()
 
 
 def ok(body):

@@ -22,10 +22,12 @@ void halt_and_exit(Gateway& gateway, Telemetry const& telemetry, std::string_vie
     constexpr int internal_software_error = 70;  // EX_SOFTWARE
     gateway.halt_at_last();
     auto const dropped = telemetry.dropped_log_lines();
-    spdlog::critical("{}: all components were halted, and the gateway ends", why);
+    constexpr std::string_view what = ": all components were halted, and the gateway ends";
+    spdlog::critical("{}{}", why, what);
     spdlog::default_logger_raw()->flush();
     bool const logged = telemetry.dropped_log_lines() == dropped;  // false if there was no memory for the line
-    if (!logged) std::ignore = ::write(STDERR_FILENO, why.data(), why.size());
+    if (!logged)
+        for (auto const part : {why, what}) std::ignore = ::write(STDERR_FILENO, part.data(), part.size());
     std::_Exit(internal_software_error);
 }
 

@@ -54,7 +54,7 @@ std::string value_of(StoredEngine const& engine) {
 std::string value_of(StoredSession const& session) {
     json bindings = json::array();
     for (auto const& each : session.bindings) {
-        json binding{{"ref", each.ref}, {"switching", static_cast<int>(each.switching)}};
+        json binding{{"ref", each.ref}, {"switching", to_text(each.switching)}};
         if (each.preference) binding["preference"] = document_of(BindAny{*each.preference});
         bindings.push_back(std::move(binding));
     }
@@ -75,7 +75,7 @@ std::string value_of(StoredSession const& session) {
 std::string value_of(StoredCommand const& command) {
     json value{{"type", command.type}, {"ref", command.ref}, {"provider", command.provider}, {"handle", command.handle}};
     if (auto const& end = command.end)
-        value["end"] = {{"status", static_cast<int>(end->status)},
+        value["end"] = {{"status", to_text(end->status)},
                         {"reason", end->reason},
                         {"results", document_of(end->results)},
                         {"at", std::chrono::duration_cast<Milliseconds>(end->at.time_since_epoch()).count()},
@@ -118,7 +118,7 @@ public:
         for (auto const& each : value.at("bindings")) {
             auto& binding = session.bindings.emplace_back();
             binding.ref = each.at("ref");
-            binding.switching = enumerator<Switching>(each.at("switching"), 2);
+            binding.switching = code<Switching>(each.at("switching"));
             if (auto const preference = each.find("preference"); preference != each.end())
                 binding.preference = std::make_shared<QueryExpression const>(operation<BindAny>(*preference).condition);
         }
@@ -138,7 +138,7 @@ public:
                               .handle = value.at("handle"),
                               .end = {}};
         if (auto const end = value.find("end"); end != value.end())
-            command.end = {.status = enumerator<CompletedStatus>(end->at("status"), 4),
+            command.end = {.status = code<CompletedStatus>(end->at("status")),
                            .reason = end->at("reason"),
                            .results = results(end->at("results")),
                            .at = Utc{Milliseconds{end->at("at").get<std::int64_t>()}},
@@ -156,11 +156,12 @@ public:
     }
 
 private:
-    template <class Enumeration>
-    static Enumeration enumerator(json const& value, int last) {
-        auto const number = value.get<int>();
-        if (number < 0 || number > last) throw std::invalid_argument("unknown value " + std::to_string(number));
-        return static_cast<Enumeration>(number);
+    template <class Code>
+    static Code code(json const& value) {
+        auto const& text = value.get_ref<std::string const&>();
+        auto const known = to_code<Code>(text);
+        if (!known) throw std::invalid_argument("unknown value " + rois::quoted(text));
+        return *known;
     }
 
     template <class Known>

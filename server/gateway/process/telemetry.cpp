@@ -204,8 +204,7 @@ public:
 
 private:
     void journal(Telemetry const& t) {
-        if (!t.journal_) return;
-        auto const numbers = t.journal_();
+        auto const numbers = t.journal_ ? t.journal_() : Telemetry::JournalNumbers{};
         counter("rois_journal_stored_total", "How often changes were stored in the journal.", static_cast<double>(numbers.stored));
         counter("rois_journal_failures_total", "How often changes could not be stored in the journal.",
                 static_cast<double>(numbers.not_stored));
