@@ -227,8 +227,10 @@ StoredState state_of(std::vector<Record> const& records, std::shared_ptr<xml::Sc
         try {
             add(state, record, reader);
         } catch (std::exception const& problem) {
-            throw BadRecord{"the " + rois::quoted(record.key.kind) + " " + rois::quoted(record.key.key) + " of session " +
-                            std::to_string(record.key.session) + " cannot be read: " + problem.what()};
+            auto why = "the " + rois::quoted(record.key.kind) + " " + rois::quoted(record.key.key) + " of session " +
+                       std::to_string(record.key.session) + " cannot be read: " + problem.what();
+            std::ranges::replace(why, '\n', ' ');
+            throw BadRecord{why};
         }
     }
     return state;

@@ -31,6 +31,10 @@ void configuration(std::string_view);
 void engines(std::string_view);
 void tokens(std::string_view);
 
+// journal.cpp: the file of a journal, and its records.
+void journals(std::string_view);
+void records(std::string_view);
+
 // roles.cpp: operations of an operator who may command one of two robots, and of an observer, in any order.
 void roles(std::string_view);
 
