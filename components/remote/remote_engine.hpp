@@ -40,7 +40,8 @@ public:
     // Changes this engine's components. Throws std::exception with the reason if it refuses. Returns why frames and places are
     // left out.
     virtual std::vector<std::string> change(ComponentChange) = 0;
-    // The session before a restart of this engine; it is asked for once. The session now. The ends of commands of the earlier one.
+    // The session before a restart of this engine; it is asked for once. The session now. The ends of commands of the earlier
+    // one.
     virtual Engine::EarlierSession earlier_session(std::string const& sub_engine) = 0;
     virtual void session_opened(std::string const& sub_engine, SessionId const&) = 0;
     virtual void commands_ended(std::string const& sub_engine, std::vector<CommandEnded>) = 0;

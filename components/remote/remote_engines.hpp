@@ -30,10 +30,11 @@ public:
         // Makes a token for a program of a sub engine that joins here (Programs::Listener). Empty: it needs none.
         std::function<std::string(std::string const& engine)> token = [](std::string const&) { return std::string{}; };
         // The session that this engine had there before it was restarted (Engine::earlier_session), and what it had begun in it.
-        std::function<Engine::EarlierSession(std::string const& engine)> earlier_session =
-            [](std::string const&) { return Engine::EarlierSession{}; };
+        std::function<Engine::EarlierSession(std::string const& engine)> earlier_session = [](std::string const&) {
+            return Engine::EarlierSession{};
+        };
         std::function<void(std::string const& engine, SessionId const&)> session_opened = [](std::string const&,
-                                                                                           SessionId const&) {};
+                                                                                             SessionId const&) {};
         std::function<void(std::string const& engine, std::vector<CommandEnded>)> commands_ended =
             [](std::string const&, std::vector<CommandEnded> const&) {};
     };

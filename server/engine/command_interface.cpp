@@ -65,8 +65,7 @@ std::vector<ParameterProfile> results_of(Command const& command) {
     if (command.component) return find_message(command.component->profile(), MessageKind::command, command.type)->results;
     std::vector<ParameterProfile> results;
     for (auto const& each : command.results.parameters)
-        results.push_back(
-            {.name = each.name, .data_type_ref = each.data_type_ref, .default_value = {}, .description = {}});
+        results.push_back({.name = each.name, .data_type_ref = each.data_type_ref, .default_value = {}, .description = {}});
     return results;
 }
 
@@ -390,7 +389,8 @@ Engine::Core::Later Engine::Core::perform(Session& session, SetParameter const& 
         message.command_id = executor_.fresh_id(asker, {});
         SetParameter::Reply reply;
         reply.command_id = message.command_id;
-        return run_when_stored(asker, asked, {{{.delay_time = {}, .unit = message}}}, std::move(prepared), std::move(reply), when);
+        return run_when_stored(asker, asked, {{{.delay_time = {}, .unit = message}}}, std::move(prepared), std::move(reply),
+                               when);
     };
     return prepare<SetParameter>(session, asked, std::move(check.preparations()), std::move(then), now);
 }
@@ -404,7 +404,7 @@ Engine::Core::Later Engine::Core::perform(Session& session, Execute const& execu
     if (auto problem = why_not_now(session, begins, lasts, check.commands()))
         return refused<Execute::Reply>(problem->return_code, std::move(problem->reason));
     auto then = [this, asked, begins, lasts, ids = check.ids()](Session& asker, std::vector<Preparation> prepared,
-                                                               Instant when) -> Later {
+                                                                Instant when) -> Later {
         if (auto problem = why_not_now(asker, begins, lasts, prepared.size()))
             return refused<Execute::Reply>(problem->return_code, std::move(problem->reason));
         for (auto const& id : ids)

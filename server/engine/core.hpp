@@ -39,6 +39,7 @@ public:
     Core(EngineProfile profile, std::vector<ComponentProfile> known_profiles, EngineSettings const& settings, Outbox& outbox,
          FreshSecret fresh_secret);
 
+    void use(EngineSettings const& settings) { settings_ = with_changes(settings_, settings); }
     void report_to(Trace& trace) { trace_ = &trace; }
     void keep_within(MemoryBudget& memory) { memory_ = &memory; }
     void add(std::unique_ptr<Component>);
@@ -258,7 +259,7 @@ private:
     void notify_of_release(RegisteredComponent&, Instant now);
 
     Trace no_trace_;
-    Trace* trace_ = &no_trace_;               // never null
+    Trace* trace_ = &no_trace_;                     // never null
     MemoryBudget* memory_ = &MemoryBudget::none();  // never null
     EngineSettings settings_;
     FreshSecret fresh_secret_;
@@ -297,7 +298,7 @@ private:
         std::string provider;
         std::shared_ptr<Command> command;
     };
-    std::vector<Undecided> undecided_;  // commands from before a restart, whose ends the sub engines may know
+    std::vector<Undecided> undecided_;                      // commands from before a restart, whose ends the sub engines may know
     std::vector<StoredSubscription> absent_subscriptions_;  // from before a restart, to events that no component has yet
     Deadlines deadlines_;
     Deadlines::Ticket last_due_ = Deadlines::first();  // of the deadlines that were carried out since the last tick

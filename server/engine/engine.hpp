@@ -15,12 +15,12 @@
 #include "engine/component.hpp"
 #include "engine/frames/places.hpp"
 #include "engine/journal/journal.hpp"
-#include "engine/trace.hpp"
 #include "engine/memory_budget.hpp"
 #include "engine/notifications/notification_queue.hpp"
 #include "engine/providers/provider.hpp"
 #include "engine/rights.hpp"
 #include "engine/settings.hpp"
+#include "engine/trace.hpp"
 #include "types/messages.hpp"
 
 namespace rois {
@@ -169,6 +169,9 @@ public:
     // Sets the function that is called when a component has reported something and no thread is in `work`. It is called
     // on any thread, must return at once and not call the engine; `work` must then be called soon.
     void on_report(std::function<void()> wake);
+
+    // From now on, uses what can change while it runs (with_changes).
+    void use(EngineSettings const&);
 
     // Call before the first session. Adds a component. Throws std::runtime_error if its ref is taken or the profile of a sub
     // component is unknown.

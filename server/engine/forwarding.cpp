@@ -16,9 +16,7 @@ void Engine::restore(StoredState state, RightsOf const& rights_of, Instant now) 
     core_->restore(std::move(state), rights_of, now);
 }
 Engine::EarlierSession Engine::earlier_session(std::string const& provider) const { return core_->earlier_session(provider); }
-void Engine::session_opened_there(std::string const& provider, SessionId const& id) {
-    core_->session_opened_there(provider, id);
-}
+void Engine::session_opened_there(std::string const& provider, SessionId const& id) { core_->session_opened_there(provider, id); }
 void Engine::ended_there(std::string const& provider, std::vector<CommandEnded> ended, Instant now) {
     core_->ended_there(provider, std::move(ended), now);
 }
@@ -27,6 +25,7 @@ void Engine::not_stored(Instant now) { core_->not_stored(now); }
 void Engine::when_stored(std::function<void()> then) { core_->when_stored(std::move(then)); }
 void Engine::flush() noexcept { core_->flush(); }
 void Engine::published(NotificationQueue& queue) { core_->published(queue); }
+void Engine::use(EngineSettings const& settings) { core_->use(settings); }
 void Engine::report_to(Trace& trace) { core_->report_to(trace); }
 void Engine::keep_within(MemoryBudget& memory) { core_->keep_within(memory); }
 void Engine::add(std::unique_ptr<Component> component) { core_->add(std::move(component)); }

@@ -30,4 +30,14 @@ struct EngineSettings {
     OnSessionEnd on_session_end = OnSessionEnd::stop;
 };
 
+// The present settings with those of others, as far as they can change while the engine runs. Sessions that are open keep the
+// limits of their notifications.
+inline EngineSettings with_changes(EngineSettings const& present, EngineSettings const& wanted) {
+    auto next = wanted;
+    next.max_kept_events = present.max_kept_events;
+    next.event_details = present.event_details;
+    next.error_details = present.error_details;
+    return next;
+}
+
 }  // namespace rois

@@ -86,9 +86,21 @@ Gateway::Gateway(Engine& engine, Readers& readers, Telemetry& telemetry, ClientL
       log_{[this](std::uint64_t session) { quota_.ended(session); }} {
     engine_.report_to(log_);
     engine_.keep_within(memory);
-    telemetry.set(Telemetry::Limit::sessions_per_connection, limits.sessions_per_connection);
-    telemetry.set(Telemetry::Limit::sessions_per_address, limits.sessions_per_address);
-    telemetry.set(Telemetry::Limit::streams_per_session, limits.streams_per_session);
+    show_limits(limits);
+}
+
+void Gateway::show_limits(ClientLimits const& limits) {
+    telemetry_.set(Telemetry::Limit::sessions_per_connection, limits.sessions_per_connection);
+    telemetry_.set(Telemetry::Limit::sessions_per_address, limits.sessions_per_address);
+    telemetry_.set(Telemetry::Limit::streams_per_session, limits.streams_per_session);
+}
+
+void Gateway::use(ClientLimits limits, EngineSettings const& settings) {
+    Lock const lock{*this};
+    quota_.limit(limits.sessions_per_connection, limits.sessions_per_address);
+    streams_per_session_ = limits.streams_per_session;
+    show_limits(limits);
+    engine_.use(settings);
 }
 
 // A request that was read, and its answer.
@@ -262,8 +274,8 @@ PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via 
     log_.take_joined();  // of an operation that failed
     // `disconnect` holds nothing: the readers receive the last notifications before the answer (decision 3).
     if (known && !std::holds_alternative<Disconnect>(request.operation)) hold = Hold{*this, queue};
-    auto exchange =
-        std::make_shared<Exchange>(*this, std::move(queue), hold.number(), std::move(request), now, std::move(waits), rights, via);
+    auto exchange = std::make_shared<Exchange>(*this, std::move(queue), hold.number(), std::move(request), now, std::move(waits),
+                                               rights, via);
     engine_.handle(exchange, now);
     auto const number = log_.take_joined();
     exchange->session_opened(number);

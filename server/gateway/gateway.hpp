@@ -179,6 +179,9 @@ public:
     std::variant<std::unique_ptr<Reading>, Fault> read(SessionId const&, Rights const*, LinkKind, std::uint64_t after, Reader&,
                                                        Readers::Until = Readers::Until::closed);
 
+    // From now on, uses these limits, and those of the engine (Engine::use).
+    void use(ClientLimits, EngineSettings const&);
+
     // Null: clients need no token.
     Tokens* tokens() const { return tokens_; }
 
@@ -247,6 +250,7 @@ private:
         Engine& engine_;
     };
 
+    void show_limits(ClientLimits const&);
     void await_journal(Lock&);
     PendingAnswer perform(SessionId const&, Request&&, Via, std::weak_ptr<Reader> waits, std::shared_ptr<Client> const&,
                           Reading const*, Instant now);

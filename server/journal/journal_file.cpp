@@ -22,7 +22,7 @@ constexpr std::int64_t application = 0x526f4953;  // "RoIS"
 constexpr std::int64_t version = 1;
 constexpr std::size_t page = 4'096;
 constexpr std::size_t of_log = std::size_t{8} << 20;  // bytes that SQLite's log may need besides the database
-constexpr int longest_log = 256;  // pages
+constexpr int longest_log = 256;                      // pages
 constexpr std::size_t reserve_bytes = std::size_t{4} << 20;
 
 constexpr auto settings =
@@ -73,8 +73,7 @@ void make_folder(std::string const& folder) {
 
 // Returns whether the file is empty. Makes it if it does not exist: SQLite would let everyone read it.
 bool make_file(std::string const& name) {
-    UniqueDescriptor const file{
-        ::open(name.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, S_IRUSR | S_IWUSR)};
+    UniqueDescriptor const file{::open(name.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, S_IRUSR | S_IWUSR)};
     struct stat found {};
     if (file.get() < 0 || ::fstat(file.get(), &found) != 0)
         throw BadJournal{"state: cannot write " + rois::quoted(name) + ": " + std::strerror(errno)};
@@ -101,8 +100,7 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
     set_ = prepared("INSERT OR REPLACE INTO record VALUES (?, ?, ?, ?, ?)");
     erase_ = prepared("DELETE FROM record WHERE kind = ? AND session = ? AND key = ?");
     forget_ = prepared("DELETE FROM record WHERE kind = ? AND session = ? AND key <= ?");
-    end_ = prepared(
-        "DELETE FROM record WHERE kind IN ('command', 'notification', 'session', 'subscription') AND session = ?");
+    end_ = prepared("DELETE FROM record WHERE kind IN ('command', 'notification', 'session', 'subscription') AND session = ?");
     keep_reserve(Steady::clock::now());
 }
 
@@ -177,8 +175,8 @@ std::vector<Record> JournalFile::read() {
         record.key = {text_at(row, 0), static_cast<std::uint64_t>(sqlite3_column_int64(row, 1)), text_at(row, 2)};
         record.value = text_at(row, 3);
         if (static_cast<std::uint64_t>(sqlite3_column_int64(row, 4)) != sum_of(record))
-            refuse("is damaged: the bytes of the " + rois::quoted(record.key.kind) + " " + rois::quoted(record.key.key) + " of session " +
-                   std::to_string(record.key.session) + " have changed");
+            refuse("is damaged: the bytes of the " + rois::quoted(record.key.kind) + " " + rois::quoted(record.key.key) +
+                   " of session " + std::to_string(record.key.session) + " have changed");
     }
     if (result != SQLITE_DONE) refuse(std::string{"is damaged: "} + sqlite3_errmsg(database_.get()));
     return records;

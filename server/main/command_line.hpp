@@ -1,6 +1,7 @@
 // The command line of rois-gateway, and the settings that result from it.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct CommandLine {
     TokenEntry token{};                 // to add or to revoke
     std::vector<std::string> warnings;  // about settings that are ignored
     GatewaySettings settings;           // in order of precedence: flags, environment variables, the file, defaults
+    // Reads them again: the file may have changed. Throws BadSettings.
+    std::function<GatewaySettings()> read_again{};
 };
 
 // Throws BadSettings if a setting is invalid.

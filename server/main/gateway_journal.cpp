@@ -19,8 +19,7 @@ constexpr std::chrono::seconds longest_wait{2};  // for the disk, at the end
 
 }  // namespace
 
-std::optional<OpenedJournal> opened_journal(GatewaySettings const& settings,
-                                            std::shared_ptr<xml::Schemas const> const& schemas) {
+std::optional<OpenedJournal> opened_journal(GatewaySettings const& settings, std::shared_ptr<xml::Schemas const> const& schemas) {
     if (settings.state.empty()) return {};
     OpenedJournal opened{std::make_unique<journal::JournalFile>(settings.state, settings.state_bytes), {}};
     try {
@@ -36,8 +35,7 @@ GatewayJournal::GatewayJournal(OpenedJournal opened, Engine& engine, Gateway& ga
       state_{std::move(opened.state)},
       writer_{std::move(opened.file),
               {.done = [&gateway](bool stored) { gateway.stored(stored); },
-               .broken = [&gateway,
-                          &telemetry](std::string const& why) { halt_and_exit(gateway, telemetry, "journal: " + why); },
+               .broken = [&gateway, &telemetry](std::string const& why) { halt_and_exit(gateway, telemetry, "journal: " + why); },
                .say = [](std::string const& line) { spdlog::warn("journal: {}", line); }}} {
     engine.keep_in(writer_);
     telemetry.show_journal([this] {

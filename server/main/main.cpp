@@ -21,6 +21,7 @@
 #include "gateway/process/memory.hpp"
 #include "journal/journal_file.hpp"
 #include "main/audit_file.hpp"
+#include "main/changing_settings.hpp"
 #include "main/choosing_section.hpp"
 #include "main/command_line.hpp"
 #include "main/configuration_file.hpp"
@@ -31,6 +32,7 @@
 #include "main/keys.hpp"
 #include "main/logging.hpp"
 #include "main/profile_folder.hpp"
+#include "main/reloading.hpp"
 #include "main/speech_log.hpp"
 #include "main/tokens_file.hpp"
 #include "main/user_components.hpp"
@@ -147,13 +149,13 @@ void make_room_for_connections(net::Settings& net, media::Settings const& media)
 }
 
 // Returns null if no streams are served.
-std::shared_ptr<media::Server> make_media(media::Settings settings, net::Settings const& net) {
+std::shared_ptr<media::Server> make_media(media::Settings settings, net::Settings const& net, Sites const& sites) {
     if (settings.host.empty()) return nullptr;
     settings.credentials = net.credentials;
     settings.handshake_timeout = net.handshake_timeout;
-    settings.is_own_host = [hosts = net.hosts](std::string_view host) { return is_own_host(host, hosts); };
-    settings.is_allowed_origin = [allowed = net.allowed_origins](std::string_view origin, std::string_view host) {
-        return is_allowed_origin(origin, host, allowed);
+    settings.is_own_host = [&sites](std::string_view host) { return sites.is_own_host(host); };
+    settings.is_allowed_origin = [&sites](std::string_view origin, std::string_view host) {
+        return sites.is_allowed_origin(origin, host);
     };
     return std::make_shared<media::Server>(std::move(settings), fresh_secret);
 }
@@ -212,44 +214,9 @@ TakenNames names_of_engines(GatewaySettings const& settings, simulation::FloorPl
     return taken;
 }
 
-// Reads the file of sub engines again. If that fails, logs why and changes nothing.
-void read_again(std::string const& file, TakenNames const& taken, choosing::Settings const& choosing,
-                remote::RemoteEngines& engines, std::string const& url_for_programs) {
-    try {
-        spdlog::info("engines: reading {} again after SIGHUP", file);
-        auto const sub_engines = read_engines_file(file, taken);
-        if (read_choosing(file, sub_engines) != choosing)
-            spdlog::warn("engines: a change of \"choosing\" has no effect before the gateway starts again");
-        engines.set(sub_engines, url_for_programs);
-    } catch (std::exception const& error) {
-        spdlog::warn("engines: nothing was changed: {}", error.what());
-    }
-}
-
-// Reads the folder of profiles again. If that fails, logs why and changes nothing.
-void read_again(UserComponents& components, Gateway& gateway) {
-    try {
-        spdlog::info("profiles: reading the folder again after SIGHUP");
-        gateway.change(components.read());
-        components.keep();
-    } catch (std::exception const& error) {
-        spdlog::warn("profiles: not changed: {}", error.what());
-    }
-}
-
 // Returns null without TLS.
 std::shared_ptr<tls::Credentials> credentials_of(tls::Files const& files) {
     return files.certificate.empty() ? nullptr : std::make_shared<tls::Credentials>(files);
-}
-
-// Reads certificate and key again. If that fails, logs why and changes nothing.
-void read_again(tls::Credentials& credentials) {
-    try {
-        credentials.read_again();
-        spdlog::info("TLS: new connections get the certificate that was read after SIGHUP");
-    } catch (std::exception const& error) {
-        spdlog::warn("TLS: the certificate was not changed: {}", error.what());
-    }
 }
 
 // The tokens with which the programs of this gateway join it, each as its own sub engine. Used on the thread of the programs.
@@ -305,7 +272,8 @@ int serve(CommandLine const& command) {
     net_settings.credentials = credentials;
     make_room_for_connections(net_settings, settings.media);
     for (auto const& warning : command.warnings) spdlog::warn("{}", warning);
-    auto const media = make_media(settings.media, net_settings);
+    Sites sites{net_settings};
+    auto const media = make_media(settings.media, net_settings, sites);
     Readers readers;
     auto const instance = fresh_secret();
     Engine engine{engine_profile(settings, simulation->hall().plan(), instance), profiles, settings.engine, readers,
@@ -367,8 +335,8 @@ int serve(CommandLine const& command) {
             .token = [&](std::string const& name) { return program_tokens.make(name); },
             .earlier_session = [&](std::string const& name) { return gateway.earlier_session(name); },
             .session_opened = [&](std::string const& name, SessionId const& id) { gateway.session_opened_there(name, id); },
-            .commands_ended =
-                [&](std::string const& name, std::vector<CommandEnded> ended) { gateway.ended_there(name, std::move(ended)); }});
+            .commands_ended = [&](std::string const& name,
+                                  std::vector<CommandEnded> ended) { gateway.ended_there(name, std::move(ended)); }});
         engine.add(remote_engines->pulse(), "pulse");
         engine.on_stop([&](bool is_stopped) { remote_engines->everything_stopped(is_stopped); });
     }
@@ -381,15 +349,42 @@ int serve(CommandLine const& command) {
         };
     if (journal) journal->restore(tokens);
     net::Server server{net_settings, gateway, telemetry, documents, schemas};
-    server.on_hang_up([&] {
-        if (!credentials && !tokens_file && settings.profiles.empty() && settings.engines.empty())
-            spdlog::info("SIGHUP: there is no certificate, folder of profiles, file of engines or file of tokens to read again");
-        if (tokens_file) tokens_file->read_again();
-        if (credentials) read_again(*credentials);
-        if (!settings.profiles.empty()) read_again(user_components, gateway);
-        if (!settings.engines.empty())
-            read_again(settings.engines, taken, choosing_settings, *remote_engines, server.url_for_programs());
+    std::vector<Reloading::Part> files;
+    auto const read_again = [&](bool is_used, std::string name, std::function<std::function<void()>()> prepare) {
+        if (is_used) files.push_back({std::move(name), std::move(prepare)});
+    };
+    read_again(!settings.profiles.empty(), "the folder of profiles", [&] {
+        auto const change = std::make_shared<ComponentChange>(user_components.read());
+        return [&, change] {
+            gateway.change(std::move(*change));
+            user_components.keep();
+        };
     });
+    read_again(true, "the settings", [&, present = settings]() mutable {
+        auto const wanted = command.read_again();
+        return [&, wanted] {
+            auto const before = std::exchange(present, with_changes(present, wanted));
+            report_changes(before, present, wanted);
+            auto next = with_all_hosts(wanted);
+            make_room_for_connections(next, settings.media);
+            server.use(next);
+            gateway.use(client_limits(next), wanted.engine);
+            tokens.limit(wanted.max_wrong_tokens);
+            sites.use(next);
+        };
+    });
+    read_again(tokens_file.has_value(), "the tokens",
+               [&] { return [&, read = tokens_file->read()] { tokens_file->use(read); }; });
+    read_again(credentials != nullptr, "the certificate",
+               [&] { return [&, context = credentials->read_again()] { credentials->use(context); }; });
+    read_again(!settings.engines.empty(), "the file of engines", [&] {
+        auto const wanted = read_engines_file(settings.engines, taken);
+        if (read_choosing(settings.engines, wanted) != choosing_settings)
+            spdlog::warn("engines: a change of \"choosing\" has no effect before the gateway starts again");
+        return [&, wanted] { remote_engines->set(wanted, server.url_for_programs()); };
+    });
+    Reloading reloading{std::move(files), telemetry};
+    server.on_hang_up([&] { reloading.ask(); });
     if (!settings.engines.empty()) remote_engines->set(sub_engines, server.url_for_programs());
     if (!settings.join.empty()) {
         auto const& name = settings.join_as.empty() ? settings.engine_name : settings.join_as;
@@ -436,7 +431,8 @@ int about_tokens(CommandLine const& command) {
 }
 
 int run(int argc, char const* const* argv) {
-    auto const command = read_command_line(argc, argv);
+    auto command = read_command_line(argc, argv);
+    command.read_again = [=] { return read_command_line(argc, argv).settings; };
     switch (command.wish) {
         case CommandLine::Wish::say:
             std::fputs(command.words.c_str(), stdout);

@@ -265,33 +265,33 @@ std::optional<Utc> read_expiry(std::string_view text, Utc now) {
 
 TokensFile::TokensFile(std::string file, Tokens& tokens) : file_{std::move(file)}, tokens_{tokens} {
     version_ = version_of(file_);
-    read();
+    use(read());
     thread_ = std::jthread{[this](std::stop_token const& stop) { watch(stop); }};
 }
 
-void TokensFile::read_again() {
-    std::lock_guard const lock{mutex_};
-    is_asked_ = true;
-    changed_.notify_one();
-}
-
-void TokensFile::read() {
+std::vector<std::shared_ptr<Principal>> TokensFile::read() const {
     std::vector<std::shared_ptr<Principal>> principals;
     for (auto const& entry : read_tokens(file_)) principals.push_back(principal_of(entry));
+    return principals;
+}
+
+void TokensFile::use(std::vector<std::shared_ptr<Principal>> principals) {
     auto const count = principals.size();
     tokens_.set(std::move(principals));
     spdlog::info("tokens: {} of {} are valid from now on", count, file_);
 }
 
 void TokensFile::watch(std::stop_token const& stop) {
-    std::unique_lock lock{mutex_};
+    std::mutex mutex;
+    std::condition_variable_any never;
+    std::unique_lock lock{mutex};
     while (!stop.stop_requested()) {
-        changed_.wait_for(lock, stop, between_looks, [this] { return is_asked_; });
+        never.wait_for(lock, stop, between_looks, [] { return false; });
         auto const version = version_of(file_);
-        if (!std::exchange(is_asked_, false) && version == version_) continue;
+        if (version == version_) continue;
         version_ = version;
         try {
-            read();
+            use(read());
         } catch (std::exception const& error) {
             spdlog::warn("{}; the tokens are those of before", error.what());
         }

@@ -48,19 +48,16 @@ public:
     // Reads the file; throws BadSettings if that fails. `tokens` must outlive it.
     TokensFile(std::string file, Tokens& tokens);
 
-    // For SIGHUP. Thread-safe.
-    void read_again();
+    // Reads the file; throws BadSettings. `use`: these are the tokens from now on. Thread-safe.
+    std::vector<std::shared_ptr<Principal>> read() const;
+    void use(std::vector<std::shared_ptr<Principal>>);
 
 private:
-    void read();
     void watch(std::stop_token const&);
 
     std::string const file_;
     Tokens& tokens_;
-    std::mutex mutex_;  // guards all below
-    std::condition_variable_any changed_;
-    std::string version_;  // of the file that was read last
-    bool is_asked_ = false;
+    std::string version_;  // of the file that was read last; used only by the thread
     std::jthread thread_;
 };
 

@@ -6,6 +6,7 @@
 #include <exception>
 #include <utility>
 
+#include "main/settings.hpp"
 #include "types/text/texts.hpp"
 
 namespace rois {
@@ -14,10 +15,8 @@ namespace {
 
 bool is_refused(ProfileFile const& file) { return file.verdict == ProfileFile::Verdict::refused; }
 
-void log(ProfileFile const& file, bool stays) {
-    for (auto const& finding : file.findings)
-        spdlog::warn("profiles: {}{}{}", is_refused(file) ? "refused: " : "", finding,
-                     is_refused(file) && stays ? "; its previous version is kept" : "");
+void log(ProfileFile const& file) {
+    for (auto const& finding : file.findings) spdlog::warn("profiles: {}{}", is_refused(file) ? "refused: " : "", finding);
 }
 
 }  // namespace
@@ -35,14 +34,11 @@ std::vector<ComponentProfile> UserComponents::with_own(std::vector<ProfileFile> 
     auto all = own_;
     for (auto const& file : found) {
         if (file.profile) all.push_back(*file.profile);
-        auto const before = files_.find(file.name);
-        if (is_refused(file) && before != files_.end()) all.push_back(before->second.profile);
     }
     return all;
 }
 
-// Returns the files to keep: those that are unchanged, and those whose new version is refused. Retries a file without components:
-// the ref that it needs may be free now.
+// Returns the files that are unchanged. Retries a file without components: the ref that it needs may be free now.
 UserComponents::Files UserComponents::stay(std::vector<ProfileFile> const& found,
                                            std::vector<ComponentProfile> const& known) const {
     Files staying;
@@ -51,7 +47,7 @@ UserComponents::Files UserComponents::stay(std::vector<ProfileFile> const& found
         if (before == files_.end()) continue;
         bool const same = file.profile && !before->second.refs.empty() && *file.profile == before->second.profile &&
                           flattened(*file.profile, known) == before->second.whole;
-        if (same || is_refused(file)) staying.insert(*before);
+        if (same) staying.insert(*before);
     }
     return staying;
 }
@@ -85,6 +81,14 @@ std::vector<std::unique_ptr<Component>> UserComponents::components(ProfileFile c
 
 ComponentChange UserComponents::read() {
     auto const found = read_profile_folder(schemas_, folder_, own_, adapters_.streams());
+    next_refusals_.clear();
+    for (auto const& file : found) {
+        if (!is_refused(file)) continue;
+        next_refusals_.emplace(file.name, file.findings);
+        auto const before = refusals_ ? refusals_->find(file.name) : Refusals::const_iterator{};
+        bool const is_known = refusals_ && before != refusals_->end() && before->second == file.findings;
+        if (refusals_ && !is_known) throw BadSettings{file.findings.empty() ? file.name + " is refused" : file.findings.front()};
+    }
     ComponentChange change;
     change.belongings.profiles = with_own(found);
     auto next = stay(found, change.belongings.profiles);
@@ -93,7 +97,7 @@ ComponentChange UserComponents::read() {
     for (auto const& [name, made] : files_)
         if (!next.contains(name)) change.going.insert(change.going.end(), made.refs.begin(), made.refs.end());
     for (auto const& file : found) {
-        log(file, next.contains(file.name));
+        log(file);
         if (!file.profile || next.contains(file.name)) continue;
         Made made{*file.profile, flattened(*file.profile, change.belongings.profiles), {}};
         for (auto& component : components(file, change.belongings.profiles, taken)) {
@@ -108,6 +112,9 @@ ComponentChange UserComponents::read() {
     return change;
 }
 
-void UserComponents::keep() { files_ = std::move(next_); }
+void UserComponents::keep() {
+    files_ = std::move(next_);
+    refusals_ = std::move(next_refusals_);
+}
 
 }  // namespace rois

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -20,8 +21,9 @@ public:
     UserComponents(std::shared_ptr<xml::Schemas const>, basic::Adapters, std::vector<ComponentProfile> own,
                    std::vector<std::string> const& refs, std::string folder);
 
-    // Reads the folder, and returns the changes since the last call. Logs the findings. If a file is refused now, keeps the
-    // components that an earlier version of it made. Throws BadSettings, and changes nothing, if the folder cannot be read.
+    // Reads the folder, and returns the changes since the last call. Logs the findings. Refused files make no components at the
+    // first call. Later, throws BadSettings if a file is refused that was not refused before, or for another reason; also if the
+    // folder cannot be read.
     ComponentChange read();
     // Call when the changes of the last `read` have been made. Without this call, the next `read` returns them again.
     void keep();
@@ -46,7 +48,10 @@ private:
     std::set<std::string> refs_;
     std::string folder_;
     Files files_;
-    Files next_;  // after the change
+    Files next_;                                                       // after the change
+    using Refusals = std::map<std::string, std::vector<std::string>>;  // findings, by file name
+    std::optional<Refusals> refusals_;                                 // of the last change; nullopt: there was none
+    Refusals next_refusals_;
 };
 
 }  // namespace rois

@@ -44,7 +44,7 @@ void refuse(Socket& socket, Shared const& shared) {
     std::string text;
     append(text,
            answer_of({FaultCode::too_many,
-                      "this address has " + std::to_string(shared.settings.max_connections_per_address) +
+                      "this address has " + std::to_string(shared.settings().max_connections_per_address) +
                           " connections open already: close one; the key max_connections_per_address sets the limit"}),
            {Framing::Body::sent, true});
     boost::system::error_code ignored;
@@ -122,7 +122,7 @@ void Listener::serve(Socket socket, Admission::Place place) {
 Task<std::optional<Admission::Place>> Listener::place(Socket& socket) {
     auto const address = remote_address(socket);
     if (!address) co_return std::nullopt;
-    auto const limits = limits_of(*address, loop_.shared().settings.proxies);
+    auto const limits = limits_of(*address, loop_.shared().settings().proxies);
     while (acceptor_.is_open()) {
         auto entered = admission_.enter(*address, limits);
         if (auto* place = std::get_if<Admission::Place>(&entered)) co_return std::move(*place);
@@ -133,7 +133,7 @@ Task<std::optional<Admission::Place>> Listener::place(Socket& socket) {
         if (admission_.is_news()) {
             loop_.shared().telemetry.reached(Telemetry::Limit::connections);
             spdlog::warn("{} connections are open: each new one waits, or replaces one that is idle",
-                         loop_.shared().settings.max_connections);
+                         loop_.shared().settings().max_connections);
         }
         co_await pause(loop_.cut_longest_idle() ? until_cut : between_tries);
     }

@@ -30,8 +30,7 @@ std::size_t sweeps_for_all(Settings const& settings) {
 
 Loop::Loop(Shared& shared)
     : shared_{shared},
-      reader_{shared.schemas, shared.settings.document, shared.settings.validation},
-      sweeps_for_all_{sweeps_for_all(shared.settings)},
+      reader_{shared.schemas, shared.settings().document, shared.settings().validation},
       wakes_{[this] { asio::post(io_, [this] { wakes_.serve(); }); }, shared.troubles} {
     run_forever(Troubles::Where::sweep, [this] { return sweep(); });
 }
@@ -119,7 +118,8 @@ void Loop::sweep_now() noexcept {
 void Loop::sweep_some(Steady now) {
     bool const cuts = now >= last_moment_;
     bool const all = cuts || shared_.gateway.memory().exhausted();
-    auto const some = all ? connections_.size() : (connections_.size() + sweeps_for_all_ - 1) / sweeps_for_all_;
+    auto const sweeps = sweeps_for_all(shared_.settings());
+    auto const some = all ? connections_.size() : (connections_.size() + sweeps - 1) / sweeps;
     for (std::size_t i = 0; i < some && !connections_.empty(); ++i) {
         if (swept_ >= connections_.size()) swept_ = 0;
         auto& connection = *connections_[swept_++];
@@ -134,7 +134,7 @@ void Loop::sweep_some(Steady now) {
 bool Loop::cut_longest_idle() {
     auto const idlest = std::ranges::min_element(connections_, {}, &Connection::idle_due);
     if (idlest == connections_.end()) return false;
-    auto const idle_since = (*idlest)->idle_due() - shared_.settings.idle_timeout;
+    auto const idle_since = (*idlest)->idle_due() - shared_.settings().idle_timeout;
     if (idle_since > std::chrono::steady_clock::now() - shortest_idle) return false;
     (*idlest)->cut();
     return true;

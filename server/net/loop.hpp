@@ -1,9 +1,12 @@
 // One I/O thread: its io_context, its request reader and its connections.
 #pragma once
 
+#include <atomic>
 #include <deque>
 #include <functional>
+#include <list>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "gateway/access/admission.hpp"
@@ -21,14 +24,34 @@ namespace rois::net {
 class Connection;
 
 // Shared by all loops; must outlive them.
-struct Shared {
-    Settings settings;
+class Shared {
+public:
+    Shared(Settings settings, Gateway& of, Telemetry& counts, Documents const& served, std::shared_ptr<xml::Schemas const> all,
+           Troubles& reported)
+        : gateway{of},
+          telemetry{counts},
+          documents{served},
+          schemas{std::move(all)},
+          troubles{reported},
+          long_documents{schemas, settings.document, settings.validation} {
+        use(std::move(settings));
+    }
+
+    // Thread-safe. The reference stays valid, also when there are other settings.
+    Settings const& settings() const { return *settings_.load(std::memory_order_acquire); }
+    // Call it on one thread.
+    void use(Settings settings) { settings_.store(&versions_.emplace_back(std::move(settings)), std::memory_order_release); }
+
     Gateway& gateway;
     Telemetry& telemetry;
     Documents const& documents;
     std::shared_ptr<xml::Schemas const> schemas;
     Troubles& troubles;
-    LongDocuments long_documents{schemas, settings.document, settings.validation};
+    LongDocuments long_documents;
+
+private:
+    std::list<Settings> versions_;  // after each SIGHUP one more
+    std::atomic<Settings const*> settings_ = nullptr;
 };
 
 class Loop {
@@ -77,7 +100,6 @@ private:
     Shared& shared_;
     xml::RequestReader reader_;
     std::vector<Connection*> connections_;
-    std::size_t sweeps_for_all_;
     std::size_t swept_ = 0;  // index of the next connection to check
     std::deque<Background> background_;
     bool over_ = false;

@@ -34,13 +34,12 @@ public:
             std::shared_ptr<xml::Schemas const> schemas)
         : troubles_{telemetry, [this] { give_up_(); }},
           shared_{std::move(settings), gateway, telemetry, documents, std::move(schemas), troubles_},
-          admission_{shared_.settings.max_connections, shared_.settings.max_connections_per_address},
+          admission_{shared_.settings().max_connections, shared_.settings().max_connections_per_address},
           first_{add_loop()},
           signals_{first_.executor()},
           hang_ups_{first_.executor()} {
-        while (loops_.size() < shared_.settings.threads) add_loop();
-        telemetry.set(Telemetry::Limit::connections, shared_.settings.max_connections);
-        telemetry.set(Telemetry::Limit::connections_per_address, shared_.settings.max_connections_per_address);
+        while (loops_.size() < shared_.settings().threads) add_loop();
+        show_limits(shared_.settings());
         gateway.begin();  // before the first request
         listen();
         signals_.add(SIGTERM);
@@ -48,7 +47,7 @@ public:
     }
 
     std::string url() const {
-        return (shared_.settings.credentials ? "https://" : "http://") + host_and_port(shared_.settings.host, port_);
+        return (shared_.settings().credentials ? "https://" : "http://") + host_and_port(shared_.settings().host, port_);
     }
 
     std::string url_for_programs() const { return "http://" + host_and_port("127.0.0.1", for_programs_->endpoint().port()); }
@@ -71,6 +70,13 @@ public:
         hang_ups_.add(SIGHUP);
     }
 
+    void use(Settings const& wanted) {
+        auto next = with_changes(shared_.settings(), wanted);
+        admission_.limit(next.max_connections, next.max_connections_per_address);
+        show_limits(next);
+        shared_.use(std::move(next));
+    }
+
     void on_too_many_troubles(std::function<void()> what) { give_up_ = std::move(what); }
 
     bool run() {
@@ -79,15 +85,20 @@ public:
         if (for_programs_) first_.run_forever(Troubles::Where::accept, [this] { return for_programs_->accept(); });
         first_.run_forever(Troubles::Where::loop, [this] { return wait_for_signal(); });
         if (on_hang_up_) first_.run_forever(Troubles::Where::loop, [this] { return wait_for_hang_ups(); });
-        Clock const clock{shared_.settings.tick, shared_.gateway, troubles_};
+        Clock const clock{shared_.settings().tick, shared_.gateway, troubles_};
         std::vector<std::jthread> threads;
         for (std::size_t i = 1; i < loops_.size(); ++i) threads.emplace_back([this, i] { loops_[i].run(); });
         first_.run();
         threads.clear();
-        return await_halts(shared_.gateway, last_moment_, shared_.settings.tick);
+        return await_halts(shared_.gateway, last_moment_, shared_.settings().tick);
     }
 
 private:
+    void show_limits(Settings const& settings) {
+        shared_.telemetry.set(Telemetry::Limit::connections, settings.max_connections);
+        shared_.telemetry.set(Telemetry::Limit::connections_per_address, settings.max_connections_per_address);
+    }
+
     Loop& add_loop() {
         auto& loop = loops_.emplace_back(shared_);
         listeners_.emplace_back(loop, admission_, Loop::From::network);
@@ -95,7 +106,7 @@ private:
     }
 
     void listen() {
-        auto const& settings = shared_.settings;
+        auto const& settings = shared_.settings();
         auto& first = listeners_.front();
         try {
             asio::ip::basic_resolver<asio::ip::tcp, Executor> resolver{first.executor()};
@@ -131,14 +142,16 @@ private:
         }
         for (auto& listener : listeners_) listener.close();
         if (for_programs_) for_programs_->close();
-        last_moment_ = std::chrono::steady_clock::now() + shared_.settings.shutdown_timeout;
+        last_moment_ = std::chrono::steady_clock::now() + shared_.settings().shutdown_timeout;
         shared_.gateway.shut_down();
-        for (auto& loop : loops_) loop.shut_down(shared_.settings.shutdown_timeout);
+        for (auto& loop : loops_) loop.shut_down(shared_.settings().shutdown_timeout);
         co_await signals_.async_wait(asio::use_awaitable_t<Executor>{});
         for (auto& loop : loops_) loop.shut_down({});
     }
 
-    std::function<void()> give_up_ = [this] { halt_and_exit(shared_.gateway, shared_.telemetry, "too many exceptions in a second"); };
+    std::function<void()> give_up_ = [this] {
+        halt_and_exit(shared_.gateway, shared_.telemetry, "too many exceptions in a second");
+    };
     Troubles troubles_;
     Shared shared_;
     Admission admission_;
@@ -167,6 +180,8 @@ std::string Server::url_for_programs() const { return running_->url_for_programs
 UniqueDescriptor Server::connect() { return running_->connect(); }
 
 void Server::on_hang_up(std::function<void()> what) { running_->on_hang_up(std::move(what)); }
+
+void Server::use(Settings const& settings) { running_->use(settings); }
 
 void Server::on_too_many_troubles(std::function<void()> what) { running_->on_too_many_troubles(std::move(what)); }
 

@@ -12,8 +12,8 @@
 
 namespace rois::net {
 
-// Not thread-safe, except the URLs and `connect`: call all other functions on the thread that made the server. `run` blocks that
-// thread, which is then the first I/O thread; the server owns the others.
+// Not thread-safe, except the URLs, `connect` and `use`: call all other functions on the thread that made the server. `run`
+// blocks that thread, which is then the first I/O thread; the server owns the others.
 class Server {
 public:
     // Starts to listen. Throws std::runtime_error with a message for the user if the port is not free. All arguments must outlive
@@ -34,9 +34,12 @@ public:
     // std::runtime_error if there are too many connections.
     UniqueDescriptor connect();
 
-    // Sets the function to call after each SIGHUP, on an I/O thread. It must not throw. If none is set, SIGHUP ends the process.
-    // Call this before `run`.
+    // Sets the function to call after each SIGHUP, on an I/O thread. It must return at once and not throw. If none is set, SIGHUP
+    // ends the process. Call this before `run`.
     void on_hang_up(std::function<void()>);
+
+    // From now on, uses what can change while it runs (with_changes). Thread-safe, but only one thread may call it.
+    void use(Settings const&);
 
     // Sets the function to call after too many exceptions (docs/safety.md), on any thread. By default, all components halt and
     // the process ends with 70. Call this before `run`.

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gateway/access/addresses.hpp"
@@ -65,5 +66,21 @@ struct Settings {
     std::chrono::milliseconds shutdown_timeout = std::chrono::seconds{5};   // for clients to read their last notifications
     std::chrono::milliseconds tick = std::chrono::milliseconds{10};         // of the engine
 };
+
+// The present settings with the hosts, origins, limits and periods of others, as far as they can change while the server runs.
+inline Settings with_changes(Settings present, Settings const& wanted) {
+    auto next = wanted;
+    next.host = std::move(present.host);
+    next.port = present.port;
+    next.threads = present.threads;
+    next.memory_budget = present.memory_budget;
+    next.document = present.document;
+    next.validation = present.validation;
+    next.join = std::move(present.join);
+    next.program_tokens = present.program_tokens;
+    next.credentials = std::move(present.credentials);
+    next.tick = present.tick;
+    return next;
+}
 
 }  // namespace rois::net

@@ -48,8 +48,9 @@ std::shared_ptr<ssl::context> read(Files const& files) {
 
 Credentials::Credentials(Files files) : files_{std::move(files)}, context_{read(files_)} {}
 
-void Credentials::read_again() {
-    auto fresh = read(files_);
+std::shared_ptr<ssl::context> Credentials::read_again() const { return read(files_); }
+
+void Credentials::use(std::shared_ptr<ssl::context> fresh) {
     std::lock_guard const lock{mutex_};
     context_ = std::move(fresh);
 }

@@ -19,8 +19,9 @@ public:
     // Reads the files. Throws std::runtime_error that names the file and the problem.
     explicit Credentials(Files);
 
-    // Reads the files again, for the next connections. Throws as the constructor, and changes nothing then.
-    void read_again();
+    // Reads the files again. Throws as the constructor. `use`: the next connections get what was read.
+    std::shared_ptr<boost::asio::ssl::context> read_again() const;
+    void use(std::shared_ptr<boost::asio::ssl::context>);
 
     std::shared_ptr<boost::asio::ssl::context> context() const {
         std::lock_guard const lock{mutex_};

@@ -251,7 +251,8 @@ TEST_F(Journaled, BindingsAndSubscriptionsWaitForComponentsThatReturnLater) {
 }
 
 TEST_F(Journaled, ASessionReturnsOnlyWithItsRights) {
-    auto const rights = std::make_shared<Rights const>("desk", std::vector<std::string>{"*"}, std::vector<std::string>{"*"}, "42");
+    auto const rights =
+        std::make_shared<Rights const>("desk", std::vector<std::string>{"*"}, std::vector<std::string>{"*"}, "42");
     auto desk = world.connect_as(rights);
     world.rights_of = [&](std::string const& id) { return id == "42" ? rights : nullptr; };
     world.restart({navigation});

@@ -51,9 +51,8 @@ private:
         for (auto const& each : changes.unsubscribed) subscriptions_.erase({each.session, each.id});
         for (auto const& each : changes.forgotten_commands) commands_.erase({each.session, each.id});
         for (auto const& each : changes.forgotten_notifications)
-            std::erase_if(notifications_, [&](auto const& one) {
-                return one.first.first == each.session && one.first.second <= each.until;
-            });
+            std::erase_if(notifications_,
+                          [&](auto const& one) { return one.first.first == each.session && one.first.second <= each.until; });
         for (auto const& each : changes.sessions) sessions_.insert_or_assign(each.session, each);
         for (auto const& each : changes.subscriptions) subscriptions_.insert_or_assign({each.session, each.id.text}, each);
         for (auto const& each : changes.commands) commands_.insert_or_assign({each.session, each.id.text}, each);

@@ -60,7 +60,8 @@ public:
     // Uses the gateway until `done`, then reads the remaining notifications.
     void run(std::atomic<bool> const& done) {
         while (!done) attempt([&](HttpClient& gateway) { use(gateway); });
-        while (last_ % 2 == 1 || !waiting_.empty()) attempt([&](HttpClient& gateway) { command(gateway); });  // the last one stops
+        while (last_ % 2 == 1 || !waiting_.empty())
+            attempt([&](HttpClient& gateway) { command(gateway); });  // the last one stops
         for (int tries = 0; tries < 100 && !has_all(); ++tries) attempt([&](HttpClient& gateway) { read(gateway); });
     }
 
@@ -139,7 +140,8 @@ private:
     // Half of the commands run for longer than the gateway lives.
     Command next() const {
         if (last_ % 2 == 0) return {.component = component_, .type = "stop", .id = waiting_};
-        if (component_ == "navigation") return {.component = component_, .id = waiting_, .arguments = {target_position({"9000, 2000, 0"})}};
+        if (component_ == "navigation")
+            return {.component = component_, .id = waiting_, .arguments = {target_position({"9000, 2000, 0"})}};
         return {.component = component_, .id = waiting_, .arguments = {speech_text("Good morning, and welcome to the hall.")}};
     }
 

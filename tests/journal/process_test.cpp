@@ -109,7 +109,8 @@ TEST_F(GatewayWithJournal, LetsClientsGoOnAfterItWasKilled) {
     auto& resumed = again(session);
     EXPECT_THAT(notifications_of(resumed, 1), ElementsAre("completed long ABORT"));
     EXPECT_EQ(resumed.call("execute", list(long_speech)).return_code(), "BAD_PARAMETER") << "the id is in use";
-    EXPECT_EQ(resumed.call("execute", list({.component = "speech_synthesis", .type = "stop"})).return_code(), "OK") << "it is bound";
+    EXPECT_EQ(resumed.call("execute", list({.component = "speech_synthesis", .type = "stop"})).return_code(), "OK")
+        << "it is bound";
     EXPECT_EQ(connected().call("bind", component_ref("speech_synthesis")).return_code(), "OUT_OF_RESOURCES");
 }
 
@@ -205,8 +206,8 @@ TEST_F(GatewayWithJournal, DoesNotStartWithAJournalThatIsNotItsOwn) {
 // The sub engine has not died. A command that ended there meanwhile has its own result; one that still ran is stopped.
 TEST_F(GatewayWithJournal, AsksASubEngineHowItsCommandsHaveEnded) {
     GatewayProcess const robot{{"--sim-speed", "20"}};
-    std::ofstream{folder.name() + "/engines.json"}
-        << R"({"engines": [{"name": "robot1", "url": "ws://127.0.0.1:)" << robot.port() << R"("}]})";
+    std::ofstream{folder.name() + "/engines.json"} << R"({"engines": [{"name": "robot1", "url": "ws://127.0.0.1:)" << robot.port()
+                                                   << R"("}]})";
     std::vector<std::string> const main{"--robots", "none", "--engines", folder.name() + "/engines.json"};
     auto const listed = [&](HttpClient& application, std::string const& ref) {
         return eventually([&] { return application.call("get_profile").body.find(ref) != std::string::npos; });
@@ -216,7 +217,9 @@ TEST_F(GatewayWithJournal, AsksASubEngineHowItsCommandsHaveEnded) {
     ASSERT_TRUE(listed(desk, "robot1.speech_synthesis"));
     desk.call("bind", component_ref("robot1.speech_synthesis"));
     desk.call("bind", component_ref("robot1.navigation"));
-    Command const speech{.component = "robot1.speech_synthesis", .id = "short", .arguments = {speech_text("Good morning. This takes some seconds.")}};
+    Command const speech{.component = "robot1.speech_synthesis",
+                         .id = "short",
+                         .arguments = {speech_text("Good morning. This takes some seconds.")}};
     Command const drive{.component = "robot1.navigation", .id = "drive", .arguments = {target_position({"9000, 2000, 0"})}};
     ASSERT_EQ(desk.call("execute", list(drive)).return_code(), "OK");
     ASSERT_EQ(desk.call("execute", list(speech)).return_code(), "OK");

@@ -46,7 +46,8 @@ TEST(Records, ReturnASession) {
     session.last_stop = ~0ULL;
     session.window = std::chrono::milliseconds{30'000};
     session.lease = std::chrono::milliseconds{2'000};
-    session.bindings = {{"navigation", Switching::restart, std::make_shared<QueryExpression const>()}, {"a b", Switching::none, {}}};
+    session.bindings = {{"navigation", Switching::restart, std::make_shared<QueryExpression const>()},
+                        {"a b", Switching::none, {}}};
     Changes changes;
     changes.sessions = {session};
     auto const back = through_records(changes).sessions.at(0);

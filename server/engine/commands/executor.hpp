@@ -17,11 +17,11 @@
 #include "engine/commands/execution.hpp"
 #include "engine/commands/sequence_check.hpp"
 #include "engine/journal/recorder.hpp"
-#include "engine/trace.hpp"
 #include "engine/notifications/notifier.hpp"
 #include "engine/questions.hpp"
 #include "engine/registry.hpp"
 #include "engine/settings.hpp"
+#include "engine/trace.hpp"
 
 namespace rois {
 
@@ -172,7 +172,7 @@ private:
     Questions& questions_;
     Trace* const& trace_;  // the engine's; may be replaced before the first session
     Recorder& recorder_;
-    std::unordered_map<std::uint64_t, SharedCommand> live_;  // waiting or running, by handle
+    std::unordered_map<std::uint64_t, SharedCommand> live_;                 // waiting or running, by handle
     std::deque<std::pair<std::shared_ptr<Execution>, std::size_t>> ready_;  // units whose turn has come
     bool running_ready_ = false;
     bool needs_repair_ = false;                     // a command was given up, or a halt has no deadline

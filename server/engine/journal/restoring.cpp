@@ -14,7 +14,8 @@ constexpr std::string_view interrupted = "the gateway was restarted before the c
 
 Reply not_stored_reply(Operation const& operation) {
     std::string const reason = "the journal could not store the command, so it has not begun: try again later";
-    if (std::holds_alternative<SetParameter>(operation)) return refused<SetParameter::Reply>(ReturnCode::out_of_resources, reason);
+    if (std::holds_alternative<SetParameter>(operation))
+        return refused<SetParameter::Reply>(ReturnCode::out_of_resources, reason);
     return refused<Execute::Reply>(ReturnCode::out_of_resources, reason);
 }
 
@@ -65,9 +66,8 @@ void Engine::Core::not_stored(Instant now) {
 
 void Engine::Core::answer_when_stored(SharedAsked const& asked, Reply&& reply) {
     if (!recorder_.must_wait()) return asked->answer(std::move(reply));
-    recorder_.when_stored([asked, held = std::make_shared<Reply>(std::move(reply))](bool, Instant) {
-        asked->answer(std::move(*held));
-    });
+    recorder_.when_stored(
+        [asked, held = std::make_shared<Reply>(std::move(reply))](bool, Instant) { asked->answer(std::move(*held)); });
 }
 
 Engine::Core::Later Engine::Core::run_when_stored(Session& session, SharedAsked const& asked, CommandUnitSequence const& sequence,
@@ -179,8 +179,9 @@ void Engine::Core::restore(StoredSession&& stored, StoredState& state, RightsOf 
 
 void Engine::Core::restore(Session& session, StoredCommand&& stored, Instant now) {
     bool const may_be_known = !stored.end && sessions_there_.contains(stored.provider);
-    auto const end = std::move(stored.end).value_or(
-        StoredCommand::End{.status = CompletedStatus::abort, .reason = std::string{interrupted}, .at = now.utc});
+    auto const end =
+        std::move(stored.end)
+            .value_or(StoredCommand::End{.status = CompletedStatus::abort, .reason = std::string{interrupted}, .at = now.utc});
     auto const ago = std::clamp(now.utc - end.at, Utc::duration{0}, Utc::duration{settings_.command_results});
     auto command = std::make_shared<Command>();
     command->id = std::move(stored.id);
@@ -209,12 +210,15 @@ void Engine::Core::restore(Session& session, StoredBinding const& binding, Insta
     auto* const component = registry_.find(binding.ref);
     if (component == nullptr) return session.absent.push_back(binding);
     auto const bind_now = [this, binding](RegisteredComponent& to, Session& of, Instant when) {
-        bind(of, {.component = to.shared_from_this(), .as = {.session = of.number, .switching = binding.switching}, .condition = binding.preference},
+        bind(of,
+             {.component = to.shared_from_this(),
+              .as = {.session = of.number, .switching = binding.switching},
+              .condition = binding.preference},
              when);
     };
     if (!component->confirms_binding()) return bind_now(*component, session, now);
     auto then = [this, bind_now, id = session.id, shared = component->shared_from_this()](std::optional<ComponentAnswer>& answer,
-                                                                                        Instant when) {
+                                                                                          Instant when) {
         --shared->binds_asked;
         auto* const asker = find(id);
         bool const confirmed = answer && std::holds_alternative<Done>(*answer) && !shared->has_departed();

@@ -55,6 +55,12 @@ public:
         return Place{*this, address, limits};
     }
 
+    void limit(std::size_t most, std::size_t most_of_address) {
+        std::lock_guard const lock{mutex_};
+        most_ = most;
+        most_of_address_ = most_of_address;
+    }
+
     // Returns true at the first call since the last connection entered: for a log line.
     bool is_news() { return !full_.exchange(true); }
 
@@ -67,9 +73,9 @@ private:
         if (--counted->second == 0) of_address_.erase(counted);
     }
 
+    std::mutex mutex_;  // guards the next four
     std::size_t most_;
     std::size_t most_of_address_;
-    std::mutex mutex_;  // guards the next two
     std::size_t taken_ = 0;
     std::map<Address, std::size_t> of_address_;
     std::atomic<bool> full_ = false;

@@ -62,6 +62,10 @@ public:
         openers_.erase(found);
     }
 
+    void limit(std::size_t most_of_connection, std::size_t most_of_address) {
+        most_of_connection_ = most_of_connection;
+        most_of_address_ = most_of_address;
+    }
     std::size_t most_of_connection() const { return most_of_connection_; }
     std::size_t most_of_address() const { return most_of_address_; }
 

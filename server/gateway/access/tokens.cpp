@@ -42,6 +42,11 @@ void Tokens::add(std::shared_ptr<Principal> token) {
     all_.push_back(std::move(token));
 }
 
+void Tokens::limit(std::size_t most_wrong) {
+    std::lock_guard const lock{mutex_};
+    most_wrong_ = most_wrong;
+}
+
 std::variant<Tokens::Holder, Tokens::Refused> Tokens::holder(std::string_view token, Address const& from, Instant now) {
     auto const hash = sha256(token);
     std::lock_guard const lock{mutex_};

@@ -30,6 +30,8 @@ public:
     // Adds a token. It is removed some time after its rights were withdrawn.
     void add(std::shared_ptr<Principal>);
 
+    void limit(std::size_t most_wrong);
+
     enum class Refused : std::uint8_t {
         wrong,    // unknown, revoked or expired
         too_many  // likewise, and not the first one of this address
@@ -52,8 +54,8 @@ private:
         Steady since;
     };
 
-    std::size_t const most_wrong_;
     std::mutex mutex_;  // guards all below
+    std::size_t most_wrong_;
     std::vector<Holder> all_;
     std::map<Address, Wrong> wrong_;
     bool some_ended_ = false;

@@ -194,6 +194,9 @@ public:
               std::chrono::duration<double>(age).count());
         counter("rois_audit_lines_lost_total", "Lines of the audit log that could not be written.",
                 t.lost_of_audit_ ? static_cast<double>(t.lost_of_audit_()) : 0);
+        begin("rois_reloads_total", "How often the files were read again after SIGHUP, by what happened.", MetricType::Counter);
+        add({{"outcome", "done"}}, static_cast<double>(t.reloads_));
+        add({{"outcome", "refused"}}, static_cast<double>(t.refused_reloads_));
         journal(t);
         if (!t.log_) return;
         counter("rois_log_lines_dropped_total", "Lines of the log that could not be written.",
@@ -205,7 +208,8 @@ public:
 private:
     void journal(Telemetry const& t) {
         auto const numbers = t.journal_ ? t.journal_() : Telemetry::JournalNumbers{};
-        counter("rois_journal_stored_total", "How often changes were stored in the journal.", static_cast<double>(numbers.stored));
+        counter("rois_journal_stored_total", "How often changes were stored in the journal.",
+                static_cast<double>(numbers.stored));
         counter("rois_journal_failures_total", "How often changes could not be stored in the journal.",
                 static_cast<double>(numbers.not_stored));
         gauge("rois_journal_has_room", "1 if the disk has room for the journal, so that commands may begin.", numbers.has_room);

@@ -74,6 +74,9 @@ public:
 
     // Shows the lines that this queue has dropped. Call it before the first `text`.
     void show(std::shared_ptr<LogQueue const> log) { log_ = std::move(log); }
+    // The gateway has read its files again after SIGHUP: with success, or one of them was not valid.
+    void reloaded(bool all) { ++(all ? reloads_ : refused_reloads_); }
+
     // Shows what the journal has done. Call it before the first `text`.
     struct JournalNumbers {
         std::uint64_t stored = 0;      // how often changes were stored
@@ -109,7 +112,9 @@ private:
     std::atomic<std::uint64_t> cut_ = 0;
     std::array<std::atomic<std::uint64_t>, 6> survived_{};
     std::atomic<Steady> last_tick_{Steady{}};
-    std::shared_ptr<LogQueue const> log_;           // null: none is shown
+    std::shared_ptr<LogQueue const> log_;  // null: none is shown
+    std::atomic<std::uint64_t> reloads_ = 0;
+    std::atomic<std::uint64_t> refused_reloads_ = 0;
     std::function<JournalNumbers()> journal_;       // empty: there is no journal
     std::function<std::uint64_t()> lost_of_audit_;  // empty: there is no audit log
     struct Reached {

@@ -54,7 +54,7 @@ Connection::Connection(Loop& loop, Socket socket, Admission::Place place, Loop::
       from_{from},
       place_{std::move(place)},
       client_{std::make_shared<Client>(place_.address(), place_.limits())},
-      wire_{std::move(socket), loop.shared().settings.write_timeout, loop.shared().telemetry},
+      wire_{std::move(socket), loop.shared().settings().write_timeout, loop.shared().telemetry},
       counted_{std::in_place, loop.shared().telemetry, Telemetry::Kind::http} {
     loop.add(*this);
     loop.shared().telemetry.accepted();
@@ -82,7 +82,7 @@ Task<> Connection::hand_over() {
     co_await flush();
     std::ostringstream head;
     head << head_.message << wire_.text();
-    auto const& join = loop_.shared().settings.join;
+    auto const& join = loop_.shared().settings().join;
     auto const rights = client_->principal ? client_->principal->rights : nullptr;
     if (!wire_.is_secure() && !rights) co_return join(wire_.release(), head.str(), rights);
     wire_.use(wire_.text().size());
@@ -109,7 +109,7 @@ void Connection::sweep(Steady at) {
 
 // Returns whether the connection has been waiting for a request, or for the rest of one, since that time.
 bool Connection::waits_since(Steady then) const {
-    auto const& settings = loop_.shared().settings;
+    auto const& settings = loop_.shared().settings();
     bool const idle = idle_due_ != Steady::max() && idle_due_ - settings.idle_timeout <= then;
     return idle || (request_due_ != Steady::max() && request_due_ - settings.request_timeout <= then);
 }
@@ -121,7 +121,7 @@ void Connection::shut_down() {
 
 // Plain HTTP on a port with TLS gets an answer in plain HTTP.
 Task<Connection::Then> Connection::secure() {
-    auto const& settings = loop_.shared().settings;
+    auto const& settings = loop_.shared().settings();
     if (!settings.credentials || from_ != Loop::From::network) co_return Then::next;
     idle_ = true;
     idle_due_ = std::chrono::steady_clock::now() + settings.idle_timeout;
@@ -171,8 +171,8 @@ Task<Connection::Then> Connection::serve() {
             }
             then = take(std::move(answer));
         }
-        if (waiting_.size() >= shared.settings.max_requests_in_flight) co_await await_answers();
-        if (out_.size() > most_to_gather || holds_.size() >= shared.settings.max_requests_in_flight) co_await flush();
+        if (waiting_.size() >= shared.settings().max_requests_in_flight) co_await await_answers();
+        if (out_.size() > most_to_gather || holds_.size() >= shared.settings().max_requests_in_flight) co_await flush();
         ++in_a_row;
         if (in_a_row % most_in_a_row == 0) co_await asio::post(loop_.executor(), asio::use_awaitable_t<Executor>{});
     }
@@ -198,7 +198,7 @@ Connection::Then Connection::take_request() {
 }
 
 Connection::Then Connection::take_head() {
-    auto const& settings = loop_.shared().settings;
+    auto const& settings = loop_.shared().settings();
     while (wire_.text().starts_with("\r\n")) {  // RFC 9112, 2.2
         wire_.use(2);
         searched_ = 0;
@@ -216,7 +216,7 @@ Connection::Then Connection::take_head() {
 
 // Answers a request that its head alone makes invalid. Otherwise sets `has_head_`.
 Connection::Then Connection::judge_head() {
-    auto const& settings = loop_.shared().settings;
+    auto const& settings = loop_.shared().settings();
     route_ = route_of(head_.path);
     auto refused = refusal_of_other_sites(head_, settings);
     if (!refused) refused = identify();
@@ -239,7 +239,7 @@ Connection::Then Connection::judge_head() {
 // Finds out who sends the request. Returns an answer if a token is needed, and missing or wrong.
 std::optional<HttpAnswer> Connection::identify() {
     bool const is_program = from_ == Loop::From::programs;
-    auto* const tokens = is_program ? loop_.shared().settings.program_tokens : loop_.shared().gateway.tokens();
+    auto* const tokens = is_program ? loop_.shared().settings().program_tokens : loop_.shared().gateway.tokens();
     if (tokens == nullptr || from_ == Loop::From::this_process) return {};
     auto const token = head_.token();
     bool const same = !token_.empty() && token == token_ && !client_->principal->is_over();
@@ -266,7 +266,7 @@ std::optional<HttpAnswer> Connection::identify() {
 
 // Sends the waiting answers, then waits for input. Returns `next` if there is some.
 Task<Connection::Then> Connection::receive() {
-    auto const& settings = loop_.shared().settings;
+    auto const& settings = loop_.shared().settings();
     if (!flush_at_once()) co_await flush();
     idle_ = !has_head_ && wire_.received().empty();
     if (idle_ && loop_.draining() && waiting_.empty()) co_return Then::end;
@@ -362,7 +362,7 @@ Connection::Then Connection::serve_upgrade() {
     if (shared.gateway.shutting_down()) return reply(answer_of(shutting_down()));
     bool const joins = route_.endpoint == Endpoint::engines;
     bool const is_trusted = client_->principal != nullptr || is_loopback(place_.address());
-    if (joins && !shared.settings.join)
+    if (joins && !shared.settings().join)
         return reply(
             answer_of({FaultCode::not_allowed, "joining is not allowed: expected the key engines in the configuration"}));
     if (joins && !is_trusted)

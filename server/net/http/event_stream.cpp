@@ -101,7 +101,7 @@ Task<std::optional<HttpAnswer>> stream(Wire& wire, Loop& loop, SessionId const& 
         shared.telemetry.delivered(taken.notifications.size());
         if (taken.then == Reading::Then::more) continue;
         if (taken.then != Reading::Then::wait) break;
-        auto const next_sign_of_life = std::chrono::steady_clock::now() + shared.settings.ping_interval;
+        auto const next_sign_of_life = std::chrono::steady_clock::now() + shared.settings().ping_interval;
         auto const woken = co_await wake_up->wait_until(next_sign_of_life);
         if (woken == WakeUp::Woken::time_passed) out = ":\n\n";
     }

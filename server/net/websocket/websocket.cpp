@@ -35,12 +35,12 @@ WebSocket::WebSocket(std::shared_ptr<Wire> wire, Loop& loop, std::shared_ptr<Cli
       received_at_{now()},
       pings_{static_cast<std::uint64_t>(received_at_.time_since_epoch().count())},
       reader_{loop.reader()},
-      messages_{shared_.settings.document.bytes, shared_.settings.max_fragments},
+      messages_{shared_.settings().document.bytes, shared_.settings().max_fragments},
       client_{std::move(client)} {}
 
 bool WebSocket::full() const {
     auto const unsent = answers_waiting_ + answers_in_out_;
-    auto const most = shared_.settings.max_requests_in_flight;
+    auto const most = shared_.settings().max_requests_in_flight;
     if (in_any_order()) return unsent >= most || pending_.size() >= most_pending_of_engine || answers_.size() > most_answers;
     return unsent + pending_.size() >= most || answers_.size() > most_answers;
 }
@@ -230,7 +230,7 @@ void WebSocket::note_message() {
     if (wire_->received().empty() && !messages_.in_message()) {
         message_due_ = Steady::max();
     } else if (message_due_ == Steady::max()) {
-        message_due_ = now() + shared_.settings.request_timeout;
+        message_due_ = now() + shared_.settings().request_timeout;
     }
 }
 
@@ -258,14 +258,14 @@ void WebSocket::sweep(Steady at) {
         received_at_ = at;
         pinged_ = false;
     }
-    if (at >= close_due_ || at >= received_at_ + 2 * shared_.settings.ping_interval) {
+    if (at >= close_due_ || at >= received_at_ + 2 * shared_.settings().ping_interval) {
         wire_->cut();
         return;
     }
     bool const late = at >= message_due_ && !ending_;
-    bool const silent = at >= received_at_ + shared_.settings.ping_interval && !std::exchange(pinged_, true);
+    bool const silent = at >= received_at_ + shared_.settings().ping_interval && !std::exchange(pinged_, true);
     if (reading_) session_due_ = Steady::max();
-    if (!reading_ && session_due_ == Steady::max()) session_due_ = at + shared_.settings.connect_timeout;
+    if (!reading_ && session_due_ == Steady::max()) session_due_ = at + shared_.settings().connect_timeout;
     bool const without_session = at >= session_due_ && !ending_;
     bool const is_over = client_->principal && client_->principal->is_over() && !ending_;
     if (late) close({CloseCode::policy_violation, "the message did not arrive within request_timeout"});

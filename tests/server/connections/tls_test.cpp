@@ -105,7 +105,7 @@ TEST_F(Tls, ShowsTheCertificateThatWasReadLast) {
         std::filesystem::copy_file(certificates.folder() + "/next" + std::string{file}.substr(4), certificates.folder() + file,
                                    std::filesystem::copy_options::overwrite_existing);
     gateway.signal(SIGHUP);
-    gateway.log_with("new connections get the certificate");
+    gateway.log_with("the certificate read again");
     EXPECT_EQ(before.get("/healthz").status, 200) << "an open connection goes on";
     kit::HttpClient after{certificates.trusting("next", gateway)};
     EXPECT_EQ(after.get("/healthz").status, 200);
@@ -118,7 +118,7 @@ TEST_F(Tls, KeepsItsCertificateIfTheNextOneIsUnusable) {
     std::filesystem::copy_file(trusting.ca_file, copy);
     certificates.put("own.pem", "nothing\n");
     gateway.signal(SIGHUP);
-    EXPECT_THAT(gateway.log_with("was not changed"), HasSubstr("tls_certificate: cannot use '" + trusting.ca_file + "': "));
+    EXPECT_THAT(gateway.log_with("nothing is changed"), HasSubstr("tls_certificate: cannot use '" + trusting.ca_file + "': "));
     auto address = trusting;
     address.ca_file = copy;
     kit::HttpClient after{address};
@@ -165,8 +165,8 @@ TEST_F(Tls, NoticesThatTheReaderOfAStreamHasGone) {
 
 TEST_F(Tls, IsSpokenWithSubEngines) {
     GatewayProcess const hall{with({})};
-    certificates.put("engines.json",
-                     R"({"engines": [{"name": "hall", "url": "https://localhost:)" + std::to_string(hall.port()) + R"(", "ca_file": "own.pem"}]})");
+    certificates.put("engines.json", R"({"engines": [{"name": "hall", "url": "https://localhost:)" + std::to_string(hall.port()) +
+                                         R"(", "ca_file": "own.pem"}]})");
     GatewayProcess main{{"--robots", "none", "--engines", certificates.folder() + "/engines.json"}};
     EXPECT_THAT(main.log_with("present with"), HasSubstr("present with 15"));
 }

@@ -7,6 +7,7 @@
 #include "kit/profile_folder.hpp"
 #include "server/application.hpp"
 #include "server/http_client.hpp"
+#include "server/token_file.hpp"
 
 namespace rois::test {
 namespace {
@@ -203,16 +204,18 @@ TEST_P(ProfilesOfUsers, ThatAreInvalidLeaveTheComponentsUnchanged) {
     desk.connect();
     EXPECT_EQ(desk.bind("lamp").return_code(), "OK");
     folder_.put("lamp.xml", lamp("red") + "<and/>");
-    folder_.put("broken.xml", fan());
+    folder_.put("fan.xml", fan());
+    gateway.signal(SIGHUP);
+    EXPECT_THAT(gateway.log_with("nothing is changed"), HasSubstr("nothing is changed: the folder of profiles: lamp.xml:"));
+    EXPECT_EQ(desk.execute(Command{"lamp", "start", "on"}).return_code(), "OK") << "it is still there and bound";
+    EXPECT_EQ(desk.bind("fan").return_code(), "BAD_PARAMETER") << "all changes or none";
+    folder_.put("lamp.xml", lamp("red"));
     gateway.signal(SIGHUP);
     EXPECT_EQ(desk.receive().name(), "profile_changed");
-    EXPECT_EQ(desk.execute(Command{"lamp", "start", "on"}).return_code(), "OK") << "it is still there and bound";
-    EXPECT_EQ(desk.bind("fan").return_code(), "OK");
+    EXPECT_EQ(desk.bind("fan").return_code(), "OK") << "a file that was refused before does not matter";
     desk.disconnect();
     gateway.signal(SIGTERM);
-    auto const log = gateway.wait().error;
-    EXPECT_THAT(log, HasSubstr("profiles: refused: broken.xml:1:1: "));
-    EXPECT_THAT(log, HasSubstr("; its previous version is kept"));
+    EXPECT_THAT(gateway.wait().error, HasSubstr("profiles: refused: broken.xml:1:1: "));
 }
 
 TEST_P(ProfilesOfUsers, WithOneNameReplaceEachOther) {
@@ -289,10 +292,56 @@ TEST(ProfilesAtTheStart, AMissingFolderIsAnError) {
     EXPECT_EQ(run_gateway({"--check-config"}, {{"ROIS_PROFILES", "/nowhere/at.all"}}).exit_code, 2);
 }
 
-TEST(HangUp, ChangesNothingIfThereIsNothingToRead) {
-    GatewayProcess gateway;
+// The gateway with a configuration file.
+struct HangUp : testing::Test {
+    void put(std::string const& settings) { folder.put("gateway.json", settings); }
+    std::string file() const { return folder.name() + "/gateway.json"; }
+
+    kit::ProfileFolder folder;
+};
+
+TEST_F(HangUp, ChangesHostsOriginsAndLimits) {
+    put(R"({"max_target": 4096})");
+    GatewayProcess gateway{{"--config", file()}};
+    HttpClient client{gateway};
+    auto const asks = [&](Headers const& headers) { return client.get("/healthz", headers).status; };
+    EXPECT_EQ(asks({{"Host", "robots.example"}}), 421);
+    EXPECT_EQ(asks({{"Origin", "https://desk.example"}}), 403);
+    client.call("connect");
+    put(R"({"max_target": 300, "hosts": "robots.example", "allowed_origins": "https://desk.example", "threads": 7})");
     gateway.signal(SIGHUP);
-    EXPECT_THAT(gateway.log_with("to read again"), testing::HasSubstr("SIGHUP: there is no certificate"));
+    auto const log = gateway.log_with("the settings read again");
+    EXPECT_THAT(log, HasSubstr("max_target is now 300"));
+    EXPECT_THAT(log, HasSubstr("a change of threads has no effect before the gateway starts again"));
+    EXPECT_EQ(asks({{"Host", "robots.example"}}), 200);
+    EXPECT_EQ(asks({{"Origin", "https://desk.example"}}), 200);
+    EXPECT_EQ(client.call("search").return_code(), "OK") << "the session goes on";
+    EXPECT_EQ(client.get("/" + std::string(301, 'a')).status, 414);
+    EXPECT_THAT(HttpClient{gateway}.get("/metrics").body, HasSubstr("rois_reloads_total{outcome=\"done\"} 1"));
+}
+
+TEST_F(HangUp, ChangesNothingIfOneFileIsInvalid) {
+    put(R"({"max_target": 4096})");
+    TokenFile const tokens;
+    auto const token = tokens.add("desk", "operator");
+    GatewayProcess gateway{{"--config", file(), "--tokens", tokens.name(), "--profiles", folder.name()}};
+    put(R"({"max_target": "short", "hosts": "robots.example"})");
+    folder.put("lamp.xml", "<rois");
+    gateway.signal(SIGHUP);
+    auto const log = gateway.log_with("nothing is changed: the settings");
+    EXPECT_THAT(log, HasSubstr("SIGHUP: nothing is changed: the folder of profiles: lamp.xml:1:"));
+    EXPECT_THAT(log, HasSubstr("SIGHUP: nothing is changed: the settings: " + file()));
+    HttpClient client{gateway};
+    EXPECT_EQ(client.get("/healthz", {{"Host", "robots.example"}}).status, 421);
+    auto const metrics = client.get("/metrics", {{"Authorization", "Bearer " + token}}).body;
+    EXPECT_THAT(metrics, HasSubstr("rois_reloads_total{outcome=\"refused\"} 1"));
+    EXPECT_THAT(metrics, HasSubstr("rois_reloads_total{outcome=\"done\"} 0"));
+}
+
+TEST_F(HangUp, NeverEndsTheGateway) {
+    GatewayProcess gateway;
+    for (int i = 0; i < 20; ++i) gateway.signal(SIGHUP);
+    gateway.log_with("read again");
     EXPECT_EQ(HttpClient{gateway}.get("/healthz").status, 200);
 }
 

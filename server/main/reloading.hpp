@@ -1,0 +1,43 @@
+// What the gateway does after SIGHUP: it reads its files again, and makes all changes or none.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "gateway/process/telemetry.hpp"
+
+namespace rois {
+
+// Has a thread of its own, so that no client waits meanwhile.
+class Reloading {
+public:
+    // Some of the files: "certificate". `prepare` reads and checks them, and throws if they are not valid. It returns the
+    // function that makes the change. Only that of the first part may throw, if it changes nothing then.
+    struct Part {
+        std::string name;
+        std::function<std::function<void()>()> prepare;
+    };
+
+    // The parts may be used on the thread until the destructor has returned.
+    Reloading(std::vector<Part> parts, Telemetry&);
+
+    // Thread-safe; returns at once.
+    void ask();
+
+private:
+    void run(std::stop_token const&);
+    bool reload() const;
+
+    std::vector<Part> const parts_;
+    Telemetry& telemetry_;
+    std::mutex mutex_;  // guards the next two
+    std::condition_variable_any asked_;
+    bool is_asked_ = false;
+    std::jthread thread_;
+};
+
+}  // namespace rois
