@@ -1,4 +1,4 @@
-// What the gateway does after SIGHUP: it reads its files again, and makes all changes or none.
+// Reads the files again after SIGHUP, and makes all changes or none.
 #pragma once
 
 #include <condition_variable>
