@@ -17,6 +17,10 @@ std::string must_be(std::string_view name, Milliseconds shortest, Milliseconds l
            std::to_string(longest.count()) + " milliseconds, not " + std::to_string(not_this.count());
 }
 
+bool is_different(MotionLease::Terms const& a, MotionLease::Terms const& b) {
+    return a.linked != b.linked || a.http != b.http || a.links_count != b.links_count;
+}
+
 // Sets `terms` to the requested leases. Returns why a requested lease is invalid, or nullopt.
 std::optional<std::string> agree(MotionLease::Terms& terms, Connect const& asked, EngineSettings const& most) {
     auto const take = [](std::string_view name, std::optional<std::chrono::milliseconds> wanted,
@@ -45,11 +49,14 @@ void Engine::Core::connect(SharedAsked const& asked, Connect const& connection, 
         return asked->answer(refused<Connect::Reply>(ReturnCode::bad_parameter,
                                                      must_be("window", shortest_lease, settings_.resume_window, window)));
     if (known != nullptr) {
+        bool const differs = is_different(terms, known->lease.terms()) || (connection.window && window != known->window);
         known->lease.agree(terms);
         if (connection.window) known->window = window;
         known->lease.request_received(now.steady);
+        auto reply = perform(*known, connection, now);
+        if (!differs) return asked->answer(std::move(reply));  // the sign of life of another engine
         recorder_.changed(*known);
-        return answer_when_stored(asked, perform(*known, connection, now));
+        return answer_when_stored(asked, std::move(reply));
     }
     if (memory_->tight()) return asked->refuse(Refusal::no_memory);
     if (sessions_.size() >= settings_.max_sessions) {

@@ -276,6 +276,15 @@ TEST_F(Journaled, ManyChangesAreStoredInOneStep) {
     EXPECT_EQ(desk.received().size(), 100U);
 }
 
+TEST_F(Journaled, SignsOfLifeAreNotStored) {
+    auto desk = world.connect();
+    auto const before = journal().steps;
+    desk.ask(Connect{});
+    EXPECT_EQ(journal().steps, before);
+    desk.ask(Connect{.window = 5s});
+    EXPECT_EQ(journal().steps, before + 1);
+}
+
 TEST_F(Journaled, NotificationsThatNobodyCanReadAnyMoreAreNotKept) {
     World small{{navigation}, {.max_sent_notifications = 3}};
     small.keep_journal();
