@@ -4,6 +4,7 @@ import base64
 import itertools
 import os
 import socket
+import ssl
 import struct
 import sys
 import threading
@@ -20,10 +21,13 @@ def bind(component):
 
 
 class Line:
-    """One connection. After any failure it reconnects: an attacker does not give up."""
+    """One connection, with a token if the gateway wants one, and with TLS if it is `secure`. After any failure it reconnects: an
+    attacker does not give up."""
 
-    def __init__(self, port):
+    def __init__(self, port, token="", secure=False):
         self.port = port
+        self.token = token
+        self.secure = secure
         self.session = ""
         self.socket = None
         self.open()
@@ -34,9 +38,12 @@ class Line:
         self.session = ""
         self.socket = socket.create_connection((HOST, self.port))
         self.socket.settimeout(5)
+        if self.secure:
+            self.socket = any_certificate().wrap_socket(self.socket)
 
     def head(self, length, path="/rois"):
         session = f"RoIS-Session: {self.session}\r\n" if self.session else ""
+        session += f"Authorization: Bearer {self.token}\r\n" if self.token else ""
         kind = "Content-Type: text/xml\r\n" if length else ""
         return f"POST {path} HTTP/1.1\r\nHost: {HOST}\r\n{session}{kind}Content-Length: {length}\r\n\r\n"
 
@@ -78,6 +85,13 @@ class Line:
 
     def is_connected(self):
         return bool(self.session) or self.connect()
+
+
+def any_certificate():
+    context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
+    context.check_hostname = False
+    context.verify_mode = ssl.CERT_NONE
+    return context
 
 
 def each(port, count, act):
@@ -270,6 +284,37 @@ def long_documents(port):
     each(port, 8, lambda one, _: one.is_connected() and one.post(wrong))
 
 
+def wrong_tokens(port):
+    """Wrong tokens, a different one each time."""
+
+    def act(one, turn):
+        one.token = f"{turn:043}"
+        one.post(f'<connect xmlns="{MESSAGE}"/>')
+
+    each(port, 32, act)
+
+
+def handshakes(port):
+    """TLS handshakes, each on a new connection, and 100 that are begun and not continued."""
+    waiting = [socket.create_connection((HOST, port)) for _ in range(100)]
+    for one in waiting:
+        one.sendall(b"\x16\x03\x01")
+    context = any_certificate()
+
+    def go_on():
+        while True:
+            try:
+                with socket.create_connection((HOST, port)) as one:
+                    one.settimeout(5)
+                    context.wrap_socket(one, do_handshake_on_connect=True).close()
+            except OSError:
+                time.sleep(0.001)
+
+    for _ in range(8):
+        threading.Thread(target=go_on, daemon=True).start()
+    threading.Event().wait()
+
+
 TURN = unit("move", "start", parameter("rois:parameter", "curve", "int[]", "0 36000"))  # on the spot, a hundred times
 
 
@@ -311,6 +356,8 @@ FLOODS = {
         trickles,
         namespaces,
         long_documents,
+        wrong_tokens,
+        handshakes,
     )
 }
 

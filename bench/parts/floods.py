@@ -21,8 +21,9 @@ UNSTOPPABLE = """<scenario xmlns="urn:x-rois:simulation:hall:1" name="An unstopp
 
 def round(keep, settings):
     for kind in ("none", *attackers.FLOODS):
-        with gateway(kind, settings) as (server,):
-            keep(f"flood: {kind}", measured(server, kind, settings.seconds * 10))
+        arguments, client = needs(kind)
+        with gateway(kind, settings, *arguments) as (server,):
+            keep(f"flood: {kind}", measured(server, kind, settings.seconds * 10, client=client))
     with gateway("leases", settings) as (server,):
         keep("lease: held and resumed", measured(server, "leases", settings.seconds * 10, WAYS[:3]))  # a stop of everything would end the motion
     scenario = WORK / "unstoppable.xml"
@@ -40,13 +41,30 @@ def round(keep, settings):
         keep("fault: no memory from the system", measured(server, "bodies", settings.seconds * 10, WAYS[3:]))  # no new sessions then
 
 
+def needs(kind):
+    """The arguments of the gateway for this flood, and what its clients need: a token, TLS."""
+    if kind == "wrong_tokens":
+        file = WORK / "tokens.json"
+        file.unlink(missing_ok=True)
+        add = [BIN / "rois-gateway", "token", "add", "bench", "--role", "administrator", "--tokens", file]
+        token = subprocess.run(add, check=True, capture_output=True, text=True).stdout.strip()
+        return ["--tokens", file], {"token": token}
+    if kind == "handshakes":
+        certificate, key = WORK / "bench.pem", WORK / "bench.key"
+        make = ["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days", "2"]
+        subprocess.run([*make, "-subj", "/CN=localhost", "-keyout", key, "-out", certificate], check=True, capture_output=True)
+        return ["--tls-certificate", certificate, "--tls-key", key], {"secure": True}
+    return [], {}
+
+
 def gateway(name, settings, *arguments, log=None):
     command = [BIN / "rois-gateway", "--listen", "127.0.0.1:{port}", "--log-level", "debug", *arguments, *settings.gateway]
-    return running(Server(f"gateway-{name}", command, "/readyz", len(CORES), log))
+    health = None if "--tls-key" in arguments else "/readyz"
+    return running(Server(f"gateway-{name}", command, health, len(CORES), log))
 
 
-def measured(server, kind, seconds, ways=WAYS):
-    neighbour, stopper = Client(server.port), Client(server.port)
+def measured(server, kind, seconds, ways=WAYS, client=None):
+    neighbour, stopper = Client(server.port, **(client or {})), Client(server.port, **(client or {}))
     open_session(neighbour)
     open_session(stopper)
     attack = None
