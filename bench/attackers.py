@@ -58,6 +58,11 @@ class Line:
             self.open()
             return ""
 
+    def get(self, path):
+        session = f"RoIS-Session: {self.session}\r\n" if self.session else ""
+        self.socket.sendall(f"GET {path} HTTP/1.1\r\nHost: {HOST}\r\n{session}\r\n".encode())
+        return self.take_answer()
+
     def take_answer(self):
         text = b""
         while b"\r\n\r\n" not in text:

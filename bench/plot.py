@@ -1,4 +1,4 @@
-"""Draws the growth of a request's CPU time as a self-contained SVG."""
+"""Draws the growth of a request's CPU time, and values over time, as self-contained SVGs."""
 
 from parts import growth
 
@@ -49,5 +49,26 @@ def svg(medians):
         out.append(_text(WIDTH - RIGHT + 8, y, axis, "start", colour))
         out.append(_text(WIDTH - RIGHT + 8, y + 14, f"{numbers[0]:,} to {numbers[-1]:,}: {line[-1]:.2f}", "start", "#777"))
     out.append(_text((LEFT + WIDTH - RIGHT) / 2, HEIGHT - 18, f"from the smallest number to the largest; values above {most:.3g} are clipped"))
+    out.append("</svg>")
+    return "\n".join(out) + "\n"
+
+
+def series(values, units):
+    """Each measure over time, one below the other. `values`: measure -> its value in each second."""
+    height = 160
+    out = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height * len(values)}" font-family="sans-serif" font-size="12">',
+        f'<rect width="{WIDTH}" height="{height * len(values)}" fill="white"/>',
+    ]
+    for place, (name, line) in enumerate(values.items()):
+        top, bottom, most = height * place + 34, height * (place + 1) - 24, 1.1 * max(line)
+        points = [(LEFT + (WIDTH - LEFT - 30) * i / max(1, len(line) - 1), bottom - (bottom - top) * value / most) for i, value in enumerate(line)]
+        out.append(_text(LEFT, top - 10, f"{name}, {units[name]}".rstrip(", "), "start"))
+        for level in (0, most / 2, most):
+            y = bottom - (bottom - top) * level / most
+            out.append(f'<line x1="{LEFT}" x2="{WIDTH - 30}" y1="{y:.0f}" y2="{y:.0f}" stroke="#ddd"/>')
+            out.append(_text(LEFT - 8, y + 4, f"{level:.3g}", "end"))
+        out.append(f'<polyline points="{" ".join(f"{x:.1f},{y:.1f}" for x, y in points)}" fill="none" stroke="{COLOURS[place]}"/>')
+        out.append(_text(WIDTH - 30, bottom + 16, f"{len(line):,} s", "end", "#777"))
     out.append("</svg>")
     return "\n".join(out) + "\n"
