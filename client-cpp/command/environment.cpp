@@ -15,7 +15,7 @@ namespace rois::command {
 namespace {
 
 // The configuration keys of rois-gateway (server/main/keys.cpp) as variables.
-constexpr std::array<std::string_view, 71> keys{"ROIS_ALLOWED_ORIGINS",
+constexpr std::array<std::string_view, 73> keys{"ROIS_ALLOWED_ORIGINS",
                                                 "ROIS_ALLOW_ANYONE",
                                                 "ROIS_AUDIT_LOG",
                                                 "ROIS_AUDIT_LOG_BYTES",
