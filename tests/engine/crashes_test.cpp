@@ -23,18 +23,18 @@ unsigned long number_in(char const* variable, unsigned long otherwise) {
 // An application that notes what it was promised, and what it has received.
 struct Client {
     std::string component;
-    SessionId session;
+    SessionId session{};
     bool is_bound = false;
     std::uint64_t last = 0;  // sequence of the last notification that it has received
     struct Given {
-        std::shared_ptr<TestedOperation> asked;
-        std::string id;  // of the command; empty: another operation
+        std::shared_ptr<TestedOperation> asked{};
+        std::string id{};  // of the command; empty: another operation
         bool binds = false;
         bool releases = false;
     };
-    std::vector<Given> open;  // without an answer
-    std::set<std::string> accepted;
-    std::map<std::string, int> completed;
+    std::vector<Given> open{};  // without an answer
+    std::set<std::string> accepted{};
+    std::map<std::string, int> completed{};
 };
 
 class Schedule {
