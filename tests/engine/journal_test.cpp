@@ -281,7 +281,9 @@ TEST_F(Journaled, SignsOfLifeAreNotStored) {
     auto const before = journal().steps;
     desk.ask(Connect{});
     EXPECT_EQ(journal().steps, before);
-    desk.ask(Connect{.window = 5s});
+    Connect shorter;
+    shorter.window = 5s;
+    desk.ask(shorter);
     EXPECT_EQ(journal().steps, before + 1);
 }
 
