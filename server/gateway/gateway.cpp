@@ -372,32 +372,6 @@ void Gateway::handle_reports() {
     engine_.work(lock, now, Provider::Runner::clock);
 }
 
-Engine::EarlierSession Gateway::earlier_session(std::string const& provider) const {
-    std::lock_guard const lock{mutex_};
-    return engine_.earlier_session(provider);
-}
-
-void Gateway::session_opened_there(std::string const& provider, SessionId const& id) {
-    Lock const lock{*this};
-    engine_.session_opened_there(provider, id);
-}
-
-void Gateway::ended_there(std::string const& provider, std::vector<CommandEnded> ended) {
-    auto const now = present();
-    Lock lock{*this};
-    engine_.ended_there(provider, std::move(ended), now);
-    engine_.work(lock, now);
-}
-
-void Gateway::stored(bool all) {
-    auto const now = present();
-    Lock lock{*this};
-    Attempts attempts;
-    attempts([&] { all ? engine_.stored(now) : engine_.not_stored(now); });
-    journal_done_.notify_all();
-    attempts([&] { engine_.work(lock, now); });
-}
-
 // Returns freed memory to the system. Otherwise it would count against the budget until the process ends.
 void Gateway::save_memory(Steady now) {
     MemoryReserve::refill();
@@ -451,15 +425,6 @@ StopState Gateway::stop_everything(Client const* asked_by) {
     attempts([&] { await_journal(lock); });
     attempts.rethrow();
     return {engine_.everything_is_stopped(), engine_.not_halted()};
-}
-
-// A stop, or its end, is answered when it is stored. A slow disk does not keep the answer back.
-void Gateway::await_journal(Lock& lock) {
-    constexpr std::chrono::milliseconds longest{20};
-    auto const is_done = std::make_shared<bool>(false);
-    engine_.when_stored([is_done] { *is_done = true; });
-    engine_.flush();
-    journal_done_.wait_for(lock, longest, [&] { return *is_done; });
 }
 
 StopState Gateway::clear(Client const* asked_by) {

@@ -158,12 +158,25 @@ TEST_F(ComponentsOfUsers, FollowTheirFiles) {
     EXPECT_THAT(gone, ElementsAre("lamp"));
 }
 
-TEST_F(ComponentsOfUsers, StayIfTheNewVersionIsRefused) {
+TEST_F(ComponentsOfUsers, DoNotChangeIfAFileIsRefused) {
     folder.put("a.xml", lamp("urn:test::Lamp"));
     added();
     folder.put("a.xml", "Dear reader,");
-    EXPECT_THAT(added(), IsEmpty());
+    EXPECT_THROW(components.read(), BadSettings);
+    folder.put("a.xml", lamp("urn:test::Lamp"));
+    EXPECT_THAT(added(), IsEmpty()) << "it is the same lamp";
     EXPECT_THAT(gone, IsEmpty());
+}
+
+TEST_F(ComponentsOfUsers, ChangeBesideAFileThatWasRefusedBefore) {
+    folder.put("a.xml", "Dear reader,");
+    added();
+    folder.put("b.xml", lamp("urn:test::Lamp"));
+    EXPECT_EQ(added().size(), 1U);
+    folder.put("a.xml", "Dear reader, goodbye");
+    EXPECT_NO_THROW(components.read()) << "for the same reason";
+    folder.put("a.xml", "<and");
+    EXPECT_THROW(components.read(), BadSettings);
 }
 
 TEST_F(ComponentsOfUsers, AreReadAgainUntilTheChangeIsKept) {

@@ -81,7 +81,7 @@ TEST_F(HaltingThere, IsAskedForAtOnceIfSomethingHasBegunSince) {
     robot().halts_later = true;
     stop("first");
     engines.advance(700ms);
-    engines.inject(Completed{.command_id = {"c3"}, .status = CompletedStatus::ok});  // the repetition of the first, c2
+    engines.inject(Completed{.command_id = {"c2"}, .status = CompletedStatus::ok});  // the repetition of the first, c1
     EXPECT_THAT(engines.main.engine->not_halted(), IsEmpty());
     engines.execute(desk, go("next", "hall.navigation"));
     engines.asked();
@@ -95,10 +95,10 @@ TEST_F(HaltingThere, IsNotConfirmedByAnEarlierStop) {
     robot().halts_later = true;
     stop("first");
     engines.advance(700ms);
-    engines.inject(Completed{.command_id = {"c3"}, .status = CompletedStatus::ok});
+    engines.inject(Completed{.command_id = {"c2"}, .status = CompletedStatus::ok});
     engines.execute(desk, go("next", "hall.navigation"));
     stop("second");
-    engines.inject(Completed{.command_id = {"c2"}, .status = CompletedStatus::ok});
+    engines.inject(Completed{.command_id = {"c1"}, .status = CompletedStatus::ok});
     EXPECT_EQ(desk.result_of("second"), "RUNNING");
 }
 

@@ -52,11 +52,6 @@ extern "C" int epoll_wait(int poll, epoll_event* events, int most, int timeout) 
     return fails("epoll_wait") ? -1 : call(poll, events, most, timeout);
 }
 
-extern "C" int epoll_ctl(int poll, int what, int file, epoll_event* event) noexcept {
-    static auto* const call = real<int(int, int, int, epoll_event*)>("epoll_ctl");
-    return fails("epoll_ctl") ? -1 : call(poll, what, file, event);
-}
-
 extern "C" ssize_t recv(int socket, void* into, size_t size, int flags) {
     static auto* const call = real<ssize_t(int, void*, size_t, int)>("recv");
     return fails("recv") ? -1 : call(socket, into, size, flags);
