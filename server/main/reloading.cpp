@@ -26,30 +26,28 @@ void Reloading::run(std::stop_token const& stop) {
     while (asked_.wait(lock, stop, [this] { return is_asked_; })) {
         is_asked_ = false;
         lock.unlock();
-        telemetry_.reloaded(reload());
+        auto const problems = reload();
+        telemetry_.reloaded(problems.empty());
+        for (auto const& problem : problems) spdlog::warn("SIGHUP: nothing is changed: {}", problem);
+        if (problems.empty()) spdlog::info("SIGHUP: {} read again", listed(parts_, &Part::name));
         lock.lock();
     }
 }
 
-// Reports every part that is not valid, not only the first one.
-bool Reloading::reload() const {
-    std::vector<std::function<void()>> changes;
-    auto const attempt = [](Part const& part, auto const& what) {
+// Returns why nothing is changed: every part that is not valid, not only the first one.
+std::vector<std::string> Reloading::reload() const {
+    std::vector<std::string> problems;
+    auto const attempt = [&](Part const& part, auto const& what) {
         try {
             what();
-            return true;
         } catch (std::exception const& problem) {
-            spdlog::warn("SIGHUP: nothing is changed: {}: {}", part.name, problem.what());
-            return false;
+            problems.push_back(part.name + ": " + problem.what());
         }
     };
-    bool are_valid = true;
-    for (auto const& part : parts_) are_valid = attempt(part, [&] { changes.push_back(part.prepare()); }) && are_valid;
-    if (!are_valid) return false;
-    for (std::size_t i = 0; i < changes.size(); ++i)
-        if (!attempt(parts_[i], changes[i])) return false;
-    spdlog::info("SIGHUP: {} read again", listed(parts_, &Part::name));
-    return true;
+    std::vector<std::function<void()>> changes;
+    for (auto const& part : parts_) attempt(part, [&] { changes.push_back(part.prepare()); });
+    for (std::size_t i = 0; i < changes.size() && problems.empty(); ++i) attempt(parts_[i], changes[i]);
+    return problems;
 }
 
 }  // namespace rois

@@ -30,7 +30,7 @@ public:
 
 private:
     void run(std::stop_token const&);
-    bool reload() const;
+    std::vector<std::string> reload() const;
 
     std::vector<Part> const parts_;
     Telemetry& telemetry_;

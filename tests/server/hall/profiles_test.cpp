@@ -208,6 +208,7 @@ TEST_P(ProfilesOfUsers, ThatAreInvalidLeaveTheComponentsUnchanged) {
     gateway.signal(SIGHUP);
     EXPECT_THAT(gateway.log_with("nothing is changed"), HasSubstr("nothing is changed: the folder of profiles: lamp.xml:"));
     EXPECT_EQ(desk.execute(Command{"lamp", "start", "on"}).return_code(), "OK") << "it is still there and bound";
+    EXPECT_EQ(desk.status_of("on"), "OK");
     EXPECT_EQ(desk.bind("fan").return_code(), "BAD_PARAMETER") << "all changes or none";
     folder_.put("lamp.xml", lamp("red"));
     gateway.signal(SIGHUP);
