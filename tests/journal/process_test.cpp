@@ -208,7 +208,7 @@ TEST_F(GatewayWithJournal, DoesNotStartWithAJournalThatIsNotItsOwn) {
 
 // The sub engine has not died. A command that ended there meanwhile has its own result; one that still ran is stopped.
 TEST_F(GatewayWithJournal, AsksASubEngineHowItsCommandsHaveEnded) {
-    GatewayProcess const robot{{"--sim-speed", "20"}};
+    GatewayProcess const robot{{"--sim-speed", "4"}};
     std::ofstream{folder.name() + "/engines.json"} << R"({"engines": [{"name": "robot1", "url": "ws://127.0.0.1:)" << robot.port()
                                                    << R"("}]})";
     std::vector<std::string> const main{"--robots", "none", "--engines", folder.name() + "/engines.json"};
@@ -227,6 +227,10 @@ TEST_F(GatewayWithJournal, AsksASubEngineHowItsCommandsHaveEnded) {
     ASSERT_EQ(desk.call("execute", list(drive)).return_code(), "OK");
     ASSERT_EQ(desk.call("execute", list(speech)).return_code(), "OK");
     auto const session = desk.session;
+    HttpClient watcher{robot.address()};
+    watcher.call("connect");
+    auto const of_speech = "<query_type>component_status</query_type>" + where(equal("component_ref", "speech_synthesis"));
+    ASSERT_TRUE(eventually([&] { return watcher.call("query", of_speech).body.find("BUSY") != std::string::npos; }));
     kill();
     EXPECT_TRUE(eventually([&] {
         return HttpClient{robot.address()}.get("/metrics").body.find("rois_commands_completed_total{status=\"OK\"} 1") !=
