@@ -14,8 +14,7 @@ void RemoteComponent::attach(ComponentPort& port) {
 }
 
 void RemoteComponent::bind(Ticket ticket, Binding const& binding, Instant) {
-    engine_->run(
-        [=, record = record_, switching = binding.switching](RemoteEngine& engine) { engine.bind(record, ticket, switching); });
+    engine_->run([=, record = record_](RemoteEngine& engine) { engine.bind(record, ticket, binding); });
 }
 
 void RemoteComponent::released(Instant) {

@@ -88,7 +88,7 @@ public:
 
     // What the engine asks of a component.
     void attach(std::shared_ptr<ComponentRecord> const&);
-    void bind(std::shared_ptr<ComponentRecord> const&, Ticket, Switching);
+    void bind(std::shared_ptr<ComponentRecord> const&, Ticket, Binding const&);
     void released(std::shared_ptr<ComponentRecord> const&);
     void prepare(std::shared_ptr<ComponentRecord> const&, Ticket, std::string const& command_type, ParameterList const&);
     void begin(std::shared_ptr<ComponentRecord> const&, CommandHandle, std::string const& command_type, ParameterList const&);

@@ -34,14 +34,16 @@ void RemoteEngine::attach(std::shared_ptr<ComponentRecord> const& record) {
     if (state != states_.end()) report_state(*record, state->second);
 }
 
-void RemoteEngine::bind(std::shared_ptr<ComponentRecord> const& record, Ticket ticket, Switching switching) {
+void RemoteEngine::bind(std::shared_ptr<ComponentRecord> const& record, Ticket ticket, Binding const& binding) {
     if (!is_open_) return record->answer(ticket, Failed{is_lost});
     record->is_wanted = true;
-    bool const is_same = std::exchange(record->switching, switching) == switching;
+    if (!binding.parameters.empty()) record->store(binding.parameters);
+    bool const is_same = std::exchange(record->switching, binding.switching) == binding.switching;
     if (record->is_held && record->binds_asked == 0 && is_same) return record->answer(ticket, Done{});
     bind_there(record, [self = shared_from_this(), record, ticket](Reply const* reply) {
         if (reply == nullptr) return record->answer(ticket, Failed{is_lost});
         auto const outcome = outcome_of(*reply);
+        if (record->is_held && !record->stored.empty()) self->restore_parameters(record);
         if (outcome.return_code == ReturnCode::ok) return record->answer(ticket, Done{});
         auto reason = "in the engine " + quoted(self->settings_.name) + ": " + outcome.reason;
         if (outcome.return_code == ReturnCode::out_of_resources) return record->answer(ticket, Refused{std::move(reason)});

@@ -268,6 +268,18 @@ ParameterList const& RegisteredComponent::parameters_for(Session const* asker) c
 void RegisteredComponent::restore_defaults(Instant now) {
     if (parameters == defaults_) return;
     parameters = defaults_;
+    notify_of_parameters(now);
+}
+
+ParameterList RegisteredComponent::changed_parameters() const { return parameters == defaults_ ? ParameterList{} : parameters; }
+
+void RegisteredComponent::restore_parameters(ParameterList const& earlier, Instant now) {
+    if (earlier.empty() || why_not(settable_, earlier) || why_no_frame(earlier) || why_no_codebook(settable_, earlier)) return;
+    parameters = merged(std::move(parameters), earlier);
+    notify_of_parameters(now);
+}
+
+void RegisteredComponent::notify_of_parameters(Instant now) {
     auto changed = in_own_frame(parameters);
     hosted_->parameters_changed(changed ? std::move(*changed) : parameters, now);
 }

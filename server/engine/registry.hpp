@@ -93,6 +93,10 @@ public:
     std::optional<ParameterList> all_parameters(Session const* asker) const;
     // Restores the default parameters at the end of a binding. Notifies the component if they changed.
     void restore_defaults(Instant now);
+    // The stored parameters that are not the defaults.
+    ParameterList changed_parameters() const;
+    // Sets parameters from before a restart, unless the profile does not accept them any more. Notifies the component.
+    void restore_parameters(ParameterList const&, Instant now);
 
     // The parameters that `start` accepts: settable(), and the arguments of the profile's own `start`, which are not stored.
     std::vector<ParameterProfile> const& startable() const { return startable_; }
@@ -183,6 +187,7 @@ private:
     TypedProfiles const* results_of(MessageKind, std::string_view message) const;
     // Returns false, and reports the failure, if conversion is impossible.
     bool to_engine_frame(Results&, std::string_view message, Report);
+    void notify_of_parameters(Instant now);
     void replace_alternatives(ParameterList& stored, ParameterList const& arrived) const;
     bool is_position(std::string_view parameter) const;
 

@@ -56,6 +56,7 @@ std::string value_of(StoredSession const& session) {
     for (auto const& each : session.bindings) {
         json binding{{"ref", each.ref}, {"switching", to_text(each.switching)}};
         if (each.preference) binding["preference"] = document_of(BindAny{*each.preference});
+        if (!each.parameters.empty()) binding["parameters"] = document_of(SetParameter{{.code = each.ref}, each.parameters});
         bindings.push_back(std::move(binding));
     }
     return json{{"id", session.id.text},
@@ -121,6 +122,8 @@ public:
             binding.switching = code<Switching>(each.at("switching"));
             if (auto const preference = each.find("preference"); preference != each.end())
                 binding.preference = std::make_shared<QueryExpression const>(operation<BindAny>(*preference).condition);
+            if (auto const parameters = each.find("parameters"); parameters != each.end())
+                binding.parameters = operation<SetParameter>(*parameters).parameters;
         }
         return session;
     }

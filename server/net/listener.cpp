@@ -15,6 +15,11 @@ namespace rois::net {
 
 namespace {
 
+// A peer that gave up before it was accepted. Asio would report nothing, and wait for a sign of another one.
+bool has_gone(boost::system::error_code const& error) {
+    return error == asio::error::connection_aborted || error == boost::system::errc::protocol_error;
+}
+
 // The option SO_REUSEPORT, set. Asio has no public name for it; this is its concept SettableSocketOption.
 struct ReusePort {
     static int level(asio::ip::tcp const&) { return SOL_SOCKET; }
@@ -63,6 +68,7 @@ Listener::Listener(Loop& loop, Admission& admission, Loop::From from)
 void Listener::bind(Endpoint const& endpoint, Port port) {
     acceptor_.open(endpoint.protocol());
     acceptor_.set_option(asio::socket_base::reuse_address{true});
+    acceptor_.set_option(asio::socket_base::enable_connection_aborted{true});
     if (port == Port::shared) share_port();
     acceptor_.bind(endpoint);
 }
@@ -102,7 +108,7 @@ Task<bool> Listener::accept_waiting() {
         if (exhausted || accepted == most_at_once || !acceptor_.is_open()) co_return true;
         socket = acceptor_.accept(error);
     }
-    if (error == asio::error::operation_aborted || error == asio::error::would_block) co_return true;
+    if (error == asio::error::operation_aborted || error == asio::error::would_block || has_gone(error)) co_return true;
     spdlog::warn("cannot accept a connection: {}", error.message());
     co_return false;
 }

@@ -65,6 +65,10 @@ struct Settings {
     std::chrono::milliseconds ping_interval = std::chrono::seconds{20};     // of WebSockets and event streams
     std::chrono::milliseconds shutdown_timeout = std::chrono::seconds{5};   // for clients to read their last notifications
     std::chrono::milliseconds tick = std::chrono::milliseconds{10};         // of the engine
+
+    // WebSockets return each message instead of answering it. For suites that test WebSockets (tests/transport): the gateway has
+    // no key for it.
+    bool echo = false;
 };
 
 // The present settings with the hosts, origins, limits and periods of others, as far as they can change while the server runs.

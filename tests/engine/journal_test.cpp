@@ -44,6 +44,36 @@ TEST_F(Journaled, ASessionReturnsWithItsBindingsSubscriptionsAndNotifications) {
     EXPECT_THAT(resumed.received(), ElementsAre("2 reached_target navigation"));
 }
 
+TEST_F(Journaled, ParametersThatWereSetStaySet) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.set_parameter("navigation", {integer("time_limit", 7)});
+    desk.execute(named("go", command("start", "navigation", {texts("target_position", {"1, 2, 3"})})));
+    auto const set = in_words(desk.get_parameter("navigation").parameters);
+    EXPECT_THAT(set, AllOf(HasSubstr("time_limit=7"), HasSubstr("target_position=1, 2, 3")));
+    auto resumed = die_and_resume(desk);
+    EXPECT_EQ(in_words(resumed.get_parameter("navigation").parameters), set);
+    EXPECT_THAT(in_words(world["navigation"].changed_to), HasSubstr("time_limit=7")) << "the component must know them";
+    resumed.release("navigation");
+    EXPECT_THAT(in_words(world["navigation"].changed_to), HasSubstr("time_limit=0"));
+    auto again = die_and_resume(resumed);
+    again.bind("navigation");
+    EXPECT_THAT(in_words(again.get_parameter("navigation").parameters), HasSubstr("time_limit=0"));
+}
+
+// The component has another profile now.
+TEST_F(Journaled, ParametersThatTheComponentDoesNotAcceptAnyMoreAreDropped) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.set_parameter("navigation", {integer("time_limit", 7)});
+    auto other = navigation;
+    auto const is_limit = [](ParameterProfile const& each) { return each.name == "time_limit"; };
+    for (auto& message : other.profile.messages) std::erase_if(message.arguments, is_limit);
+    std::erase_if(other.profile.parameters, is_limit);
+    auto resumed = die_and_resume(desk, {other, speech});
+    EXPECT_EQ(in_words(resumed.get_parameter("navigation").parameters), "routing_policy=time");
+}
+
 TEST_F(Journaled, ACommandThatRanHasExactlyOneCompletionAndDoesNotRunAgain) {
     auto desk = world.connect();
     desk.bind("navigation");

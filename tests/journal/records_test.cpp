@@ -46,8 +46,9 @@ TEST(Records, ReturnASession) {
     session.last_stop = ~0ULL;
     session.window = std::chrono::milliseconds{30'000};
     session.lease = std::chrono::milliseconds{2'000};
-    session.bindings = {{"navigation", Switching::restart, std::make_shared<QueryExpression const>()},
-                        {"a b", Switching::none, {}}};
+    session.bindings = {
+        {"navigation", Switching::restart, std::make_shared<QueryExpression const>()},
+        {"a b", Switching::none, {}, {{.name = "speed", .data_type_ref = identifier("double"), .values = {"0.5"}}}}};
     Changes changes;
     changes.sessions = {session};
     auto const back = through_records(changes).sessions.at(0);
@@ -63,6 +64,8 @@ TEST(Records, ReturnASession) {
     EXPECT_EQ(back.bindings[0].switching, Switching::restart);
     EXPECT_TRUE(back.bindings[0].preference);
     EXPECT_EQ(back.bindings[1].ref, "a b");
+    EXPECT_EQ(back.bindings[0].parameters, ParameterList{});
+    EXPECT_EQ(back.bindings[1].parameters, session.bindings[1].parameters);
 }
 
 TEST(Records, ReturnACommandWithItsResults) {

@@ -178,6 +178,16 @@ TEST_F(AMainEngineThatHasDied, HasItsBindingsAgain) {
     EXPECT_EQ(engines.hall.connect().bind("navigation"), ReturnCode::out_of_resources) << "also there";
 }
 
+TEST_F(AMainEngineThatHasDied, RestoresTheParametersThatItsApplicationsHaveSet) {
+    engines.execute(*desk, command("set_parameter", "hall.navigation", {value("time_limit", "int", {"7000"})}));
+    engines.hall["navigation"].changed_to.clear();
+    engines.restart_main();
+    auto again = resumed();
+    engines.advance(1s);
+    EXPECT_THAT(in_words(again.get_parameter("hall.navigation").parameters), HasSubstr("time_limit=7000"));
+    EXPECT_THAT(in_words(engines.hall["navigation"].changed_to), HasSubstr("time_limit=7000")) << "also there";
+}
+
 TEST_F(AMainEngineThatHasDied, EndsItsCommandsIfTheHallHasDiedToo) {
     engines.execute(*desk, say("s", "hall.speech"));
     engines.restart_main([&] { engines.restart_hall(); });

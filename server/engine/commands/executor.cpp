@@ -182,15 +182,21 @@ void Executor::run(SharedCommand const& command, Instant now) {
 
 void Executor::run_set_parameter(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
-    component.parameters = component.merged(std::move(component.parameters), command->arguments);
+    store_arguments(*command);
     await_start(command, now);
     begin(command, component.parameters, now);
 }
 
 void Executor::run_start(SharedCommand const& command, Instant now) {
-    auto& component = *command->component;
-    component.parameters = component.merged(std::move(component.parameters), command->arguments);
+    store_arguments(*command);
     go_on_with_start(command, now);
+}
+
+void Executor::store_arguments(Command const& command) {
+    auto& component = *command.component;
+    auto const before = recorder_.is_on() ? component.parameters : ParameterList{};
+    component.parameters = component.merged(std::move(component.parameters), command.arguments);
+    if (recorder_.is_on() && component.parameters != before) recorder_.changed(*command.session);
 }
 
 void Executor::go_on_with_start(SharedCommand const& command, Instant now) {

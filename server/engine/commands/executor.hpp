@@ -127,6 +127,7 @@ private:
     void run(SharedCommand const&, Instant now);
     void run_set_parameter(SharedCommand const&, Instant now);
     void run_start(SharedCommand const&, Instant now);
+    void store_arguments(Command const&);
     void run_stop(SharedCommand const&, Instant now);
     void run_suspend(SharedCommand const&, Instant now);
     void run_resume(SharedCommand const&, Instant now);

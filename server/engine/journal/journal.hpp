@@ -21,6 +21,7 @@ struct StoredBinding {
     std::string ref;
     Switching switching = Switching::none;
     std::shared_ptr<QueryExpression const> preference{};  // the condition of `bind_any`, for a logical component
+    ParameterList parameters{};                           // as set by the session; empty: the defaults
 };
 
 // `session` is the number of the session in all records.

@@ -30,7 +30,8 @@ StoredSession to_store(Session const& session) {
                          .owns_stop = session.owns_stop,
                          .bindings = session.absent};
     for (auto const* component : session.bound)
-        stored.bindings.push_back({component->ref().code, component->switching, component->preference});
+        stored.bindings.push_back(
+            {component->ref().code, component->switching, component->preference, component->changed_parameters()});
     return stored;
 }
 
@@ -167,7 +168,6 @@ std::shared_ptr<Changes> Recorder::changes(StoredEngine const& engine, std::vect
 }
 
 void Recorder::give(StoredEngine const& engine) noexcept {
-    if (is_being_stored_ || next_try_ || !changed_.any()) return;
     try {
         std::vector<Shown> to_show;
         auto all = changes(engine, to_show);

@@ -47,7 +47,7 @@ void Engine::Core::when_stored(std::function<void()> then) {
 }
 
 void Engine::Core::flush() noexcept {
-    if (recorder_.is_on()) recorder_.give(stored_engine());
+    if (recorder_.has_something_to_give()) recorder_.give(stored_engine());
     notifier_.flush();
 }
 
@@ -215,6 +215,7 @@ void Engine::Core::restore(Session& session, StoredBinding const& binding, Insta
               .as = {.session = of.number, .switching = binding.switching},
               .condition = binding.preference},
              when);
+        to.restore_parameters(binding.parameters, when);
     };
     if (!component->confirms_binding()) return bind_now(*component, session, now);
     auto then = [this, bind_now, id = session.id, shared = component->shared_from_this()](std::optional<ComponentAnswer>& answer,
@@ -229,7 +230,9 @@ void Engine::Core::restore(Session& session, StoredBinding const& binding, Insta
     auto const ticket = questions_.ask(*component, now.steady + settings_.question_deadline,
                                        "the component did not answer whether it can be bound", std::move(then));
     ++component->binds_asked;
-    component->hosted().bind(ticket, {.session = session.number, .switching = binding.switching}, now);
+    auto parameters = component->in_own_frame(binding.parameters).value_or(binding.parameters);
+    component->hosted().bind(
+        ticket, {.session = session.number, .switching = binding.switching, .parameters = std::move(parameters)}, now);
 }
 
 // Returns false if its condition names something that no component has yet.

@@ -98,7 +98,9 @@ bool WebSocket::take_frames() {
 void WebSocket::take(Received const& received) {
     switch (received.kind) {
         case Received::Kind::text:
-            if (LongDocuments::is_long(received.text.size()))
+            if (shared_.settings().echo)
+                return_message(received.text);
+            else if (LongDocuments::is_long(received.text.size()))
                 long_message_ = received.text;
             else
                 take(shared_.gateway.answer(reader_, session_, received.text, Via::websocket, weak_from_this(), client_,
@@ -164,6 +166,11 @@ void WebSocket::add(Answer const& answer) {
     if (!answer.fault) return;
     if (is_logged(answer.fault->code)) log_fault(*answer.fault, "a message on a WebSocket", wire_->peer());
     if (answer.fault->code == FaultCode::too_many && !reading_) close({CloseCode::policy_violation, "too many sessions"});
+}
+
+void WebSocket::return_message(std::string_view text) {
+    append_frame(answers_, Opcode::text, text);
+    ++answers_waiting_;
 }
 
 // Pongs and answers are sent in the order of the frames that they answer. A pong counts as an answer, so the gateway stops

@@ -48,6 +48,7 @@ private:
     void take_answers();
     void answered(Answer&&);
     void add(Answer const&);
+    void return_message(std::string_view text);
     void add_pong(std::string_view payload);
     void join(Answer const&);
     bool full() const;

@@ -68,6 +68,8 @@ TEST_P(FailingCalls, EndNothingThatCannotBeRepeated) {
 
 INSTANTIATE_TEST_SUITE_P(Each, FailingCalls,
                          testing::Values(Failing{"accept", EMFILE, 4}, Failing{"accept", ENOBUFS, 4},
+                                         Failing{"accept", ECONNABORTED, 4}, Failing{"accept", EPROTO, 4},
+                                         Failing{"epoll_ctl", ENOMEM, 8}, Failing{"recv", ECONNRESET, 8},
                                          Failing{"epoll_wait", EINTR, 6}, Failing{"recv", EINTR, 8}, Failing{"send", EPIPE, 6},
                                          Failing{"send", ENOBUFS, 6}),
                          [](auto const& each) { return std::string{each.param.call} + "_" + std::to_string(each.param.error); });

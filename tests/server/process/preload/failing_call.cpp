@@ -27,6 +27,7 @@ Failure read_failure() {
 }
 
 std::atomic<unsigned> calls = 0;
+std::atomic<bool> accepts = false;  // before that, Asio itself calls epoll_ctl, and does not expect that it fails
 
 bool fails(char const* name) {
     static Failure const failure = read_failure();
@@ -44,7 +45,13 @@ Function* real(char const* name) {
 
 extern "C" int accept(int socket, sockaddr* address, socklen_t* size) {
     static auto* const call = real<int(int, sockaddr*, socklen_t*)>("accept");
+    accepts = true;
     return fails("accept") ? -1 : call(socket, address, size);
+}
+
+extern "C" int epoll_ctl(int poll, int operation, int descriptor, epoll_event* event) {
+    static auto* const call = real<int(int, int, int, epoll_event*)>("epoll_ctl");
+    return accepts && fails("epoll_ctl") ? -1 : call(poll, operation, descriptor, event);
 }
 
 extern "C" int epoll_wait(int poll, epoll_event* events, int most, int timeout) {
