@@ -96,6 +96,7 @@ void Engine::Core::handle_reports(Instant now, Attempts& attempts) {
     constexpr int most_entries = 64;
     constexpr std::uint64_t most_notifications = 4'000;
     auto const enough = notifier_.pushed() + most_notifications;
+    Notifier::Meanwhile const meanwhile{notifier_, NotificationQueue::ForCurrent::unless_delayed};
     for (int entries = 0; entries < most_entries && notifier_.pushed() < enough; ++entries) {
         while (auto* error = agenda_.front()) {
             is_handled_again_ = !attempts([&] { publish(*error, now, attempts); });
@@ -118,7 +119,7 @@ void Engine::Core::handle(InboxEntry& entry, Instant now, Attempts& deliveries) 
     component.end_silence();
     // A component of another engine also reports while an operation is performed that does not concern it.
     std::optional<Notifier::Meanwhile> meanwhile;
-    if (component.confirms_binding()) meanwhile.emplace(notifier_);
+    if (component.confirms_binding()) meanwhile.emplace(notifier_, NotificationQueue::ForCurrent::does_not_wait);
     struct Handler {
         Core& core;
         RegisteredComponent& component;

@@ -22,15 +22,17 @@ std::uint64_t before(Numbered const& entry) {
 }  // namespace
 
 NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotification const> notification, Hold cause,
-                                                  bool only_cause) {
+                                                  ForCurrent for_current) {
     std::lock_guard const lock{mutex_};
     if (waiting_ >= max_waiting_ && !make_room()) overflowed_ = true;
     if (overflowed_ && std::holds_alternative<ReceiveEvent>(notification->body)) return Pushed::dropped;
-    auto const hold = only_cause || is_held(cause) ? cause : current_;
+    bool const has_cause = for_current == ForCurrent::does_not_wait || is_held(cause);
+    auto const hold = has_cause ? cause : current_;
     reserve_for_held(1);
     bool const would_overtake = std::ranges::any_of(held_, [&](Held const& held) { return is_being_sent(held.by); });
     if (is_held(hold) || would_overtake) {
-        held_.push_back({hold, std::move(notification)});
+        bool const unless_delayed = !has_cause && for_current == ForCurrent::unless_delayed && is_being_sent(hold);
+        held_.push_back({hold, unless_delayed, std::move(notification)});
         ++waiting_;
         return overflowed_ ? Pushed::overflow : Pushed::held;
     }
@@ -188,6 +190,8 @@ bool NotificationQueue::release(Hold hold) noexcept {
 bool NotificationQueue::delay(Hold hold) noexcept {
     std::lock_guard const lock{mutex_};
     std::ranges::lower_bound(holds_, hold, {}, &OpenHold::number)->is_delayed = true;
+    for (auto& held : held_)
+        if (held.by == hold && held.unless_delayed) held.by = 0;
     return publish();
 }
 

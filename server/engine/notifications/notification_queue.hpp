@@ -60,11 +60,15 @@ public:
     // numbered and visible when its hold is released. `overflow`, `dropped`: too many wait, so the session must end.
     enum class Pushed : std::uint8_t { first, behind, held, overflow, dropped };
 
-    // Numbers and stores the notification, or holds it if `cause`, or else the current hold, is not released yet (with
-    // `only_cause` the current hold does not count), or if it would overtake a held one whose answer is being sent (decision 22:
-    // notifications are numbered as things happen). If too many wait, replaces the oldest waiting event by a `Lost`. If there is
-    // no event to replace, the queue overflows, and events are dropped from then on.
-    Pushed push(std::shared_ptr<OutgoingNotification const>, Hold cause = 0, bool only_cause = false);
+    // Whether a notification whose cause is released, or that has none, waits for the current hold. `unless_delayed`: what happens
+    // beside an operation, and was perhaps caused by it. It must not wait long, because what happens later does not wait.
+    enum class ForCurrent : std::uint8_t { waits, unless_delayed, does_not_wait };
+
+    // Numbers and stores the notification, or holds it if `cause`, or else the current hold, is not released yet, or if it would
+    // overtake a held one whose answer is being sent (decision 22: notifications are numbered as things happen). If too many
+    // wait, replaces the oldest waiting event by a `Lost`. If there is no event to replace, the queue overflows, and events are
+    // dropped from then on.
+    Pushed push(std::shared_ptr<OutgoingNotification const>, Hold cause = 0, ForCurrent = ForCurrent::waits);
 
     // Drops the sent notifications. Replaces the oldest waiting events by `Lost` until `events` are left.
     void keep_last(std::size_t events);
@@ -164,6 +168,7 @@ private:
     std::uint64_t given_ = 0;    // to the journal
     struct Held {
         Hold by;  // 0, or released: it only waits for those before it
+        bool unless_delayed;
         std::shared_ptr<OutgoingNotification const> notification;
     };
     std::vector<Held> held_;  // oldest first; entries_ has room for them

@@ -16,16 +16,18 @@ class Notifier {
 public:
     explicit Notifier(Outbox& outbox) : outbox_{outbox} {}
 
-    // While this exists, notifications do not wait for the operation that is being performed: it has not caused them.
+    // While this exists, notifications of other causes wait for the operation that is being performed only as far as this says.
     class Meanwhile {
     public:
-        explicit Meanwhile(Notifier& notifier) : notifier_{notifier} { notifier_.only_causes_ = true; }
-        ~Meanwhile() { notifier_.only_causes_ = false; }
+        Meanwhile(Notifier& notifier, NotificationQueue::ForCurrent for_current)
+            : notifier_{notifier}, before_{std::exchange(notifier.for_current_, for_current)} {}
+        ~Meanwhile() { notifier_.for_current_ = before_; }
         Meanwhile(Meanwhile const&) = delete;
         Meanwhile& operator=(Meanwhile const&) = delete;
 
     private:
         Notifier& notifier_;
+        NotificationQueue::ForCurrent before_;
     };
 
     // `cause`: the answer that must be sent first.
@@ -40,7 +42,7 @@ public:
     void notify(NotificationQueue& queue, SharedNotification notification, NotificationQueue::Hold cause = 0) {
         auto const lost = queue.lost();
         bool const known = queue.overflowed();
-        auto const pushed = queue.push(std::move(notification), cause, only_causes_);
+        auto const pushed = queue.push(std::move(notification), cause, for_current_);
         if (queue.overflowed() && !known) {
             overflowed_ = true;
             ++overflows_;
@@ -76,7 +78,7 @@ public:
 
 private:
     Outbox& outbox_;
-    bool only_causes_ = false;
+    NotificationQueue::ForCurrent for_current_ = NotificationQueue::ForCurrent::waits;
     bool overflowed_ = false;
     std::uint64_t pushed_ = 0;
     std::uint64_t lost_ = 0;

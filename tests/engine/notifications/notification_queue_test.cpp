@@ -9,6 +9,7 @@
 
 namespace rois {
 
+using ForCurrent = NotificationQueue::ForCurrent;
 using Pushed = NotificationQueue::Pushed;
 using testing::AnyOf;
 using testing::ElementsAre;
@@ -28,8 +29,8 @@ struct Queue : testing::Test {
     void completed(int count) {
         while (count-- > 0) EXPECT_THAT(push(Completed{}), AnyOf(Pushed::first, Pushed::behind));
     }
-    Pushed push(Notification notification, NotificationQueue::Hold cause = 0) {
-        return queue.push(std::make_shared<OutgoingNotification const>(std::move(notification)), cause);
+    Pushed push(Notification notification, NotificationQueue::Hold cause = 0, ForCurrent for_current = ForCurrent::waits) {
+        return queue.push(std::make_shared<OutgoingNotification const>(std::move(notification)), cause, for_current);
     }
     std::vector<std::string> read(std::uint64_t after, std::size_t most = 100) {
         std::vector<std::string> words;
@@ -227,6 +228,22 @@ TEST_F(Queue, ShowsWhatWaitedForAnAnswerThatIsDelayed) {
     EXPECT_THAT(read(0), ElementsAre("1 e"));
     EXPECT_TRUE(queue.release(answer));
     EXPECT_THAT(read(1), ElementsAre("2 c"));
+}
+
+// A robot's events, some of which were handled beside a query that is answered later: otherwise the next ones would overtake them.
+TEST_F(Queue, ShowsWhatHappenedBesideAnOperationWhenItsAnswerIsDelayed) {
+    auto const answer = queue.hold();
+    EXPECT_EQ(push(ReceiveEvent{}, 0, ForCurrent::unless_delayed), Pushed::held);
+    EXPECT_EQ(push(Completed{}, 0, ForCurrent::waits), Pushed::held);
+    queue.leave(answer);
+    EXPECT_TRUE(queue.delay(answer));
+    events(1);
+    EXPECT_THAT(read(0), ElementsAre("1 e", "2 e"));
+    queue.enter(answer);
+    EXPECT_EQ(push(ReceiveEvent{}, 0, ForCurrent::unless_delayed), Pushed::held) << "the late answer causes it";
+    queue.leave(answer);
+    EXPECT_TRUE(queue.release(answer));
+    EXPECT_THAT(read(2), ElementsAre("3 c", "4 e"));
 }
 
 TEST_F(Queue, MayDropHeldEvents) {
