@@ -140,6 +140,7 @@ ScriptedComponent::ScriptedComponent(Part const& part, std::function<void(std::f
 }
 
 void ScriptedComponent::called(std::string const& name) const {
+    if (watch) watch(name);
     if (!throws_in.contains(name)) return;
     if (throws_no_exception) throw 42;
     throw std::runtime_error(name + " went wrong");

@@ -55,10 +55,11 @@ public:
     ComponentStatus status_now = ComponentStatus::ready;
     // Calls that throw, or fail in another way: "nothing performed", "nothing known", "nothing right".
     std::set<std::string> throws_in;
-    std::optional<int> accepts;        // number of commands that `prepare` accepts; it refuses later ones
-    bool throws_no_exception = false;  // throws another type
-    bool halts_later = false;          // `halt` returns `not_yet`
-    std::vector<std::string> calls;    // the calls that it received
+    std::optional<int> accepts;                          // number of commands that `prepare` accepts; it refuses later ones
+    bool throws_no_exception = false;                    // throws another type
+    bool halts_later = false;                            // `halt` returns `not_yet`
+    std::vector<std::string> calls;                      // the calls that it received
+    std::function<void(std::string const& call)> watch;  // is called with each of them; may be empty
     ParameterList started_with;
     ParameterList changed_to;            // by the last set_parameter, or the end of a binding
     std::optional<ParameterList> reads;  // result of readable_parameters, instead of the usual one

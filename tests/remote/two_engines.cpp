@@ -203,10 +203,11 @@ remote::SubEngine TwoEngines::hall_settings() {
 }
 
 TwoEngines::TwoEngines(std::vector<Part> const& parts, remote::SubEngine settings, Places const& of_hall,
-                       std::vector<NamedPlace> const& places_of_main)
-    : main{std::vector<Part>{}, {}},
+                       std::vector<NamedPlace> const& places_of_main, std::vector<Part> const& parts_of_main)
+    : main{parts_of_main, {}},
       hall{parts, {}},
       parts_{parts},
+      parts_of_main_{parts_of_main},
       settings_{std::move(settings)},
       host_{std::make_shared<Host>(*this)} {
     if (!of_hall.frames.own().empty()) {
@@ -221,6 +222,7 @@ void TwoEngines::begin_main() {
     main.engine->on_stop([this](bool is_stopped) {
         remote_->run([is_stopped](auto& engine) { is_stopped ? engine.stop_everything() : engine.clear_stop(); });
     });
+    if (main.engine->everything_is_stopped()) remote_->run([](auto& engine) { engine.stop_everything(); });
     remote_->begin();
     advance(100ms);
 }
@@ -314,7 +316,7 @@ void TwoEngines::restart_main(std::function<void()> const& meanwhile) {
     host_->drop();
     meanwhile();
     main.journal->then = MemoryJournal::Then::stored;
-    main.restart({});
+    main.restart(parts_of_main_);
     main.engine->begin(main.now);
     repair();
     begin_main();

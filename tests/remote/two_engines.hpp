@@ -22,7 +22,7 @@ public:
     // `of_hall`: the hall's frames and places; its own frame is "crs1", as in its profile. The main engine's frame is then
     // "here". Empty: neither has a frame.
     explicit TwoEngines(std::vector<Part> const& parts, remote::SubEngine settings = hall_settings(), Places const& of_hall = {},
-                        std::vector<NamedPlace> const& places_of_main = {});
+                        std::vector<NamedPlace> const& places_of_main = {}, std::vector<Part> const& parts_of_main = {});
     ~TwoEngines();
 
     static remote::SubEngine hall_settings();
@@ -97,6 +97,7 @@ private:
     void begin_main();
 
     std::vector<Part> const parts_;
+    std::vector<Part> const parts_of_main_;
     remote::SubEngine const settings_;
     std::shared_ptr<Host> host_;
     std::shared_ptr<remote::RemoteEngine> remote_;

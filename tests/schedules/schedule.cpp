@@ -1,0 +1,505 @@
+#include "schedules/schedule.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "types/asking.hpp"
+
+namespace rois::schedules {
+
+namespace {
+
+using Then = MemoryJournal::Then;
+using What = Asked::What;
+
+// How long a robot may move when nobody is there who could stop it: the motion lease, and in a sub engine the time to notice
+// that the link has gone.
+constexpr auto longest_motion = 2'500ms;
+constexpr auto longest_motion_in_hall = 6s;
+
+Part moving(Part part) {
+    part.moves = true;
+    return part;
+}
+
+std::vector<Part> robots() { return {moving(navigation), speech}; }
+
+bool is_in_hall(std::string const& ref) { return ref.starts_with("hall."); }
+
+std::string id_of(std::uint64_t command) { return "c" + std::to_string(command); }
+
+std::uint64_t number_in(std::string const& text) { return std::stoull(text.substr(text.find_first_of("0123456789"))); }
+
+CommandUnit start_of(std::string const& ref, std::uint64_t number) {
+    bool const speaks = ref.ends_with("speech");
+    auto const value = std::to_string(number);
+    return start(ref, {speaks ? text("speech_text", value) : texts("target_position", {value + ", 0, 0"})});
+}
+
+// The number of the command that a component was started with.
+std::uint64_t started(ScriptedComponent const& robot) {
+    auto const* target = find(robot.started_with, "target_position");
+    return number_in((target != nullptr ? target : find(robot.started_with, "speech_text"))->values.at(0));
+}
+
+}  // namespace
+
+Schedule::Schedule(std::uint64_t seed, Over over)
+    : dice_{seed},
+      clients_{Client{.role = Role::operates}, Client{.role = Role::operates_one}, Client{.role = Role::observes},
+               Client{.role = Role::administrates}} {
+    if (over == Over::sub_engine) {
+        engines_ =
+            std::make_unique<TwoEngines>(robots(), TwoEngines::hall_settings(), Places{}, std::vector<NamedPlace>{}, robots());
+        refs_ = {"navigation", "speech", "hall.navigation", "hall.speech"};
+    } else {
+        alone_ = std::make_unique<World>(robots(), EngineSettings{});
+        refs_ = {"navigation", "speech"};
+    }
+    main().keep_journal();
+    main().rights_of = [this](std::string const& id) -> std::shared_ptr<Rights const> {
+        auto const client = std::ranges::find_if(clients_, [&](Client const& each) { return each.rights->id() == id; });
+        return client == clients_.end() ? nullptr : client->rights;
+    };
+    for (auto& client : clients_) give_rights(client);
+    watch_robots();
+    for (auto& client : clients_) open_session(client);
+}
+
+std::vector<std::string> Schedule::run() {
+    for (int i = 0; i < 60 && broken_.empty(); ++i) act();
+    if (broken_.empty()) finish();
+    return broken_;
+}
+
+void Schedule::expect(bool holds, std::string const& promise, std::string const& what) {
+    if (!holds) broken_.push_back(promise + (what.empty() ? "" : ": " + what));
+}
+
+ScriptedComponent& Schedule::robot(std::string const& ref) {
+    return is_in_hall(ref) ? engines_->hall[ref.substr(5)] : main()[ref];
+}
+
+// --- What happens ---
+
+void Schedule::act() {
+    auto& client = clients_[static_cast<std::size_t>(below(4))];
+    auto const& ref = refs_[static_cast<std::size_t>(below(static_cast<int>(refs_.size())))];
+    switch (below(20)) {
+        default:
+            act_as(client);
+            break;
+        case 8:
+        case 9:
+        case 10:
+            happen_to_robot(ref);
+            break;
+        case 11:
+        case 12:
+        case 13:
+            happen_to_disk();
+            break;
+        case 14:
+            leave_or_return(client);
+            break;
+        case 15:
+            if (engines_) happen_to_hall();
+            break;
+        case 16:
+            if (one_in(3)) crash();
+            break;
+        case 17:
+            if (one_in(4)) stop_or_clear();
+            break;
+        case 18:
+            if (one_in(10)) lose_rights(client);
+            if (one_in(10)) main().set_calendar(std::chrono::hours{one_in(2) ? 24 : -24});
+            break;
+        case 19:
+            pass(std::chrono::milliseconds{50 * (1 + below(one_in(8) ? 60 : 6))});
+            break;
+    }
+    settle();
+    take_answers(false);
+}
+
+void Schedule::act_as(Client& client) {
+    if (client.session.text.empty()) return leave_or_return(client);
+    auto const& ref = refs_[static_cast<std::size_t>(below(static_cast<int>(refs_.size())))];
+    switch (below(8)) {
+        case 0:
+            if (client.role == Role::administrates && one_in(3))
+                for (auto& other : clients_) other.bound.erase(ref);  // from now on, it may have lost it
+            return begin(client, Bind{Application::identifier(ref), Switching::none, client.role == Role::administrates},
+                         {.what = What::bind, .ref = ref});
+        case 1:
+            if (!one_in(4)) return read(client);
+            client.bound.erase(ref);
+            return begin(client, Release{Application::identifier(ref)}, {.what = What::release, .ref = ref});
+        case 2:
+            return begin(client, Subscribe{"reached_target", {}, true});
+        case 3:
+            return read(client);
+        default:
+            return command(client, ref);
+    }
+}
+
+void Schedule::command(Client& client, std::string const& ref) {
+    auto const number = ++last_number_;
+    commands_[number] = {.by = &client};
+    constexpr std::array<What, 8> kinds{What::start, What::start, What::start,   What::start,
+                                        What::start, What::stop,  What::suspend, What::resume};
+    auto const what = kinds[static_cast<std::size_t>(below(8))];
+    auto unit = what == What::start     ? start_of(ref, number)
+                : what == What::stop    ? stop(ref)
+                : what == What::suspend ? suspend(ref)
+                                        : resume(ref);
+    begin(client, Execute{{{named(id_of(number), std::move(unit))}}}, {.what = what, .ref = ref, .number = number});
+}
+
+void Schedule::happen_to_robot(std::string const& ref) {
+    auto& acts = robot(ref);
+    auto& motion = motions_[ref];
+    switch (below(5)) {
+        case 0:
+            if (ref.ends_with("navigation"))
+                acts.fires("reached_target",
+                           {text("target", std::to_string(++last_number_)), value("is_final_target", "bool", {"true"})});
+            break;
+        case 1:
+        case 2:
+            if (motion.command == 0) break;
+            commands_.at(std::exchange(motion.command, 0)).has_finished = true;
+            acts.finishes();
+            break;
+        case 3:
+            acts.halts_later = one_in(3);
+            break;
+        case 4:
+            acts.stands_still();
+            break;
+    }
+}
+
+void Schedule::happen_to_disk() {
+    if (one_in(8)) journal().full = journal().full.empty() ? "the disk is full" : "";
+    write(!one_in(6));
+}
+
+void Schedule::happen_to_hall() {
+    switch (below(6)) {
+        case 0:
+        case 1:
+            return engines_->cut();
+        case 2:
+            return engines_->hold_back(true);
+        case 3:
+            if (one_in(3)) {
+                engines_->restart_hall();
+                watch_robots();
+            }
+            return;
+        default:
+            engines_->repair();
+            return engines_->hold_back(false);
+    }
+}
+
+// The process of the engine dies and begins again, and the clients reconnect.
+void Schedule::crash() {
+    take_answers(false);
+    bool const was_promised = stops_ == Stops::promised;
+    for (auto& client : clients_) client.asked.clear();
+    if (engines_) {
+        engines_->restart_main();
+    } else {
+        alone_->restart(robots(), {});
+        alone_->engine->begin(alone_->now);
+    }
+    journal().then = Then::later;
+    watch_robots();
+    expect(engine().everything_is_stopped() || !was_promised, "a stop of everything survives the death of the process");
+    stops_ = engine().everything_is_stopped() ? Stops::promised : Stops::no;
+    for (auto& client : clients_)
+        if (client.is_linked) engine().link_opened(client.session, LinkKind::websocket, main().now);
+}
+
+void Schedule::stop_or_clear() {
+    if (stops_ != Stops::no) {
+        main().engine->and_work([&] { engine().clear(); }, main().now);
+        stops_ = Stops::no;
+        return;
+    }
+    main().engine->stop_everything(main().now);
+    stops_ = Stops::asked;
+    engine().when_stored([this, stop = ++stops_asked_] {
+        if (is_written_ && stops_ == Stops::asked && stop == stops_asked_) stops_ = Stops::promised;
+    });
+    for (auto const& ref : refs_)
+        expect(is_in_hall(ref) || motions_[ref].command == 0, "a stop of everything stops everything", ref);
+}
+
+// --- Clients ---
+
+void Schedule::give_rights(Client& client) {
+    using Patterns = std::vector<std::string>;
+    Patterns const one{engines_ ? "hall.*" : "navigation"}, all{"*"};
+    auto const& seen = client.role == Role::operates_one ? one : all;
+    auto const id = std::to_string(static_cast<int>(client.role)) + "-" + std::to_string(++client.turn);
+    client.rights = std::make_shared<Rights const>("client", seen, client.role == Role::observes ? Patterns{} : seen, id);
+}
+
+void Schedule::open_session(Client& client) {
+    write(true);
+    journal().then = Then::stored;
+    client.session = main().connect_as(client.rights).session;
+    journal().then = Then::later;
+    client.is_linked = client.is_alive = true;
+}
+
+void Schedule::forget_session(Client& client) {
+    if (client.is_linked || client.is_alive) client.silent_since = main().now.steady;
+    client = {.role = client.role,
+              .rights = client.rights,
+              .turn = client.turn,
+              .is_alive = false,
+              .silent_since = client.silent_since};
+}
+
+void Schedule::leave_or_return(Client& client) {
+    if (client.session.text.empty()) return open_session(client);
+    if (engine().notifications(client.session, client.rights.get()) == nullptr) return read(client);
+    bool const was_there = client.is_linked && client.is_alive;
+    if (!client.is_linked) {
+        engine().link_opened(client.session, LinkKind::websocket, main().now);
+        client.is_linked = client.is_alive = true;
+    } else if (one_in(3)) {
+        client.is_alive = !client.is_alive;
+    } else {
+        main().engine->and_work([&] { engine().link_closed(client.session, LinkKind::websocket, Closing::lost, main().now); },
+                                main().now);
+        client.is_linked = false;
+    }
+    if (was_there) client.silent_since = main().now.steady;
+}
+
+void Schedule::lose_rights(Client& client) {
+    client.rights->withdraw();
+    main().engine->end_withdrawn(main().now);
+    forget_session(client);
+    give_rights(client);
+}
+
+void Schedule::begin(Client& client, Operation const& operation, Asked asked) {
+    asked.operation = main().begin_to_say(client.session, operation);
+    client.asked.push_back(std::move(asked));
+}
+
+void Schedule::take_answers(bool written) {
+    for (auto& client : clients_) {
+        auto const come = [](Asked const& each) { return !each.operation->said; };
+        std::vector<Asked> const answered = [&] {
+            auto const first = std::ranges::stable_partition(client.asked, come).begin();
+            std::vector<Asked> taken{first, client.asked.end()};
+            client.asked.erase(first, client.asked.end());
+            return taken;
+        }();
+        for (auto const& each : answered) {
+            if (auto const* reply = std::get_if<Reply>(&*each.operation->said))
+                note(client, each, *reply, written);
+            else if (std::get<Refusal>(*each.operation->said) == Refusal::no_session)
+                expect(!client.is_linked, "a session with a link stays");
+        }
+    }
+}
+
+// An answer that comes before the disk has written is no promise if it may come while the journal fails.
+void Schedule::note(Client& client, Asked const& asked, Reply const& reply, bool written) {
+    auto const& outcome = outcome_of(reply);
+    bool const is_ok = outcome.return_code == ReturnCode::ok;
+    bool const commands = asked.what != What::other && asked.what != What::release;
+    if (commands) expect(!is_ok || client.role != Role::observes, "an observer commands nothing");
+    if (asked.number != 0) {
+        auto& command = commands_.at(asked.number);
+        command.is_refused = !is_ok;
+        expect(is_ok || !command.has_run, "a refused command does not run", outcome.reason);
+        bool const acts_at_once = asked.what == What::stop || asked.what == What::suspend;
+        if (is_ok && (written || !acts_at_once)) client.accepted.insert(asked.number);
+        if (asked.what == What::stop) expect(outcome.return_code != ReturnCode::out_of_resources, "a full disk refuses no stop");
+    }
+    if (asked.what != What::bind || !is_ok || !written) return;
+    for (auto const& other : clients_)
+        expect(&other == &client || is_in_hall(asked.ref) || !other.bound.contains(asked.ref), "one client binds a component",
+               asked.ref);
+    client.bound.insert(asked.ref);
+}
+
+void Schedule::read(Client& client) {
+    auto const queue = client.session.text.empty() ? nullptr : engine().notifications(client.session, client.rights.get());
+    if (queue == nullptr) {
+        expect(client.session.text.empty() || !client.is_linked, "a session with a link stays");
+        return forget_session(client);
+    }
+    for (auto const& each : queue->read(client.last, 1'000)) note(client, each);
+}
+
+void Schedule::note(Client& client, Numbered const& numbered) {
+    auto const& [sequence, notification] = numbered;
+    auto const* lost = std::get_if<Lost>(&notification->body);
+    expect(sequence == client.last + (lost == nullptr ? 1 : lost->count), "notifications have consecutive numbers",
+           std::to_string(sequence));
+    client.last = sequence;
+    if (auto const* completed = std::get_if<Completed>(&notification->body)) {
+        auto const number = number_in(completed->command_id.text);
+        auto const& command = commands_.at(number);
+        expect(command.by == &client, "a completion is for the client whose command it is", completed->command_id.text);
+        expect(++client.completed[number] == 1, "a command completes once", completed->command_id.text);
+        expect(!command.is_refused, "a refused command does not complete", completed->command_id.text);
+        bool const says_done = completed->status == CompletedStatus::ok && command.has_run;
+        expect(!says_done || command.has_finished, "a start is OK when the robot has finished", completed->command_id.text);
+    } else if (auto const* event = std::get_if<ReceiveEvent>(&notification->body)) {
+        expect(client.rights->sees(event->component_ref.code), "a client hears only of what it may see",
+               event->component_ref.code);
+        auto const number = number_in(find(event->results->parameters, "target")->values.at(0));
+        auto& last = client.last_event[event->subscribe_id.text + " " + event->component_ref.code];
+        expect(number > last, "events come in their order, and once", std::to_string(number) + " after " + std::to_string(last));
+        last = number;
+    }
+}
+
+// --- The world ---
+
+// The disk has written what the engine has given, or could not.
+void Schedule::write(bool stored) {
+    if (!journal().has_waiting()) return;
+    take_answers(false);
+    journal().settle(stored);
+    is_written_ = stored;
+    auto& engine = *main().engine;
+    engine.and_work([&] { stored ? engine.stored(main().now) : engine.not_stored(main().now); }, main().now);
+    is_written_ = false;
+    take_answers(stored);
+}
+
+void Schedule::settle() {
+    if (engines_) engines_->settle();
+}
+
+void Schedule::pass(std::chrono::milliseconds time) {
+    for (auto passed = 0ms; passed < time; passed += 50ms) {
+        for (auto const& client : clients_)
+            if (client.is_linked && client.is_alive) engine().note_pong(client.session, main().now);
+        engines_ ? engines_->advance(50ms) : alone_->advance(50ms);
+        take_answers(false);
+        check_motion();
+    }
+}
+
+void Schedule::check_motion() {
+    auto const now = main().now.steady;
+    for (auto& [ref, motion] : motions_) {
+        if (motion.command == 0 || !ref.ends_with("navigation")) continue;
+        auto const& owner = *commands_.at(motion.command).by;
+        bool const is_attended = owner.is_linked && owner.is_alive && !(is_in_hall(ref) && engines_->is_cut());
+        if (is_attended) motion.unattended_since = now;
+        auto const longest = is_in_hall(ref) ? std::chrono::milliseconds{longest_motion_in_hall} : longest_motion;
+        expect(now - motion.unattended_since <= longest, "a robot does not move on when nobody can stop it", ref);
+    }
+}
+
+void Schedule::watch_robots() {
+    for (auto const& ref : refs_) {
+        auto& component = robot(ref);
+        if (component.watch) continue;
+        motions_[ref] = {};
+        component.watch = [this, ref, &component](std::string const& call) { robot_called(ref, component, call); };
+    }
+}
+
+void Schedule::robot_called(std::string const& ref, ScriptedComponent const& component, std::string const& call) {
+    auto& motion = motions_[ref];
+    if (call == "start") {
+        auto& command = commands_.at(started(component));
+        expect(!std::exchange(command.has_run, true), "a command runs once", id_of(started(component)));
+        expect(!command.is_refused, "a refused command does not run");
+        expect(command.by->role != Role::observes, "an observer moves nothing");
+        expect(command.by->rights->commands(ref), "a client moves only what it may command", ref);
+        expect(is_in_hall(ref) || stops_ == Stops::no, "nothing begins while everything is stopped", ref);
+        motion = {.command = started(component), .unattended_since = main().now.steady};
+    } else if (call == "halt") {
+        motion = {};
+    } else if (call == "suspend" && motion.command != 0) {
+        motion.suspended = std::exchange(motion.command, 0);
+    } else if (call == "resume" && motion.suspended != 0) {
+        motion.command = std::exchange(motion.suspended, 0);
+        motion.unattended_since = main().now.steady;
+    }
+}
+
+// --- The end: everything that failed works again ---
+
+void Schedule::finish() {
+    if (engines_) {
+        engines_->repair();
+        engines_->hold_back(false);
+    }
+    journal().full.clear();
+    for (int i = 0; i < 4; ++i) {
+        write(true);
+        pass(300ms);
+    }
+    journal().then = Then::stored;
+    main().engine->and_work([] {}, main().now);
+    take_answers(true);
+    if (stops_ != Stops::no) stop_or_clear();
+    for (auto& client : clients_) {
+        read(client);
+        while (!client.is_linked || !client.is_alive) leave_or_return(client);
+    }
+    journal().then = Then::stored;
+    auto const is_back = [&] { return !engines_ || engines_->shown.is == EngineState::Is::present; };
+    for (int i = 0; i < 100 && !is_back(); ++i) pass(700ms);  // the longest pause between two attempts is 30 s
+    for (auto const& ref : refs_) {
+        robot(ref).halts_later = false;
+        robot(ref).stands_still();
+    }
+    pass(1s);
+    check_that_everything_works();
+    pass(12s);
+    for (auto& client : clients_) {
+        read(client);
+        for (auto const number : client.accepted)
+            expect(client.completed.contains(number), "every command that was accepted completes", id_of(number));
+    }
+}
+
+// The administrator takes every component, starts it and stops it.
+void Schedule::check_that_everything_works() {
+    auto& chief = clients_[3];
+    auto const ask = [&](Operation const& operation, Asked asked) {
+        begin(chief, operation, std::move(asked));
+        for (int i = 0; i < 40 && !chief.asked.empty(); ++i) {
+            settle();
+            take_answers(true);
+            if (!chief.asked.empty()) pass(50ms);
+        }
+        expect(chief.asked.empty(), "every operation is answered");
+    };
+    for (auto const& ref : refs_) {
+        for (auto& client : clients_) client.bound.erase(ref);
+        ask(Bind{Application::identifier(ref), Switching::none, true}, {.what = What::bind, .ref = ref});
+        auto const number = ++last_number_;
+        commands_[number] = {.by = &chief};
+        ask(Execute{{{named(id_of(number), start_of(ref, number))}}}, {.what = What::start, .ref = ref, .number = number});
+        settle();
+        expect(motions_[ref].command == number, "in the end, everything works again", ref);
+        auto const last = ++last_number_;
+        commands_[last] = {.by = &chief};
+        ask(Execute{{{named(id_of(last), stop(ref))}}}, {.what = What::stop, .ref = ref, .number = last});
+        settle();
+        expect(motions_[ref].command == 0, "in the end, everything can be stopped", ref);
+    }
+}
+
+}  // namespace rois::schedules
