@@ -1,5 +1,6 @@
 // Links that break: the session is resumed, no command runs twice, and missed notifications are reported.
 #include <algorithm>
+#include <cstdlib>
 
 #include "client_cpp/rig.hpp"
 #include "kit/http_client.hpp"
@@ -87,6 +88,27 @@ TEST_P(TheLink, RunsNoSequenceTwice) {
     EXPECT_EQ(setting(), CompletedStatus::ok);
     auto const completions = history.completions();
     EXPECT_THAT(completions, SizeIs(4));
+    for (auto const& [id, count] : completions) EXPECT_EQ(count, 1) << id;
+    expect_all_once(history);
+    robot(synthesis.release());
+}
+
+// The bytes of both directions, of a command and its answer. ROIS_EVERY_BYTE=1: each of them, which takes a minute.
+TEST_P(TheLink, RunsNoCommandTwiceWhereverItIsCut) {
+    Proxy proxy{shared_gateway().port()};
+    History history;
+    Blocking robot{settings(proxy.url()), history.observers()};
+    auto const synthesis = robot.bind<SpeechSynthesis>("speech_synthesis");
+    std::size_t const step = std::getenv("ROIS_EVERY_BYTE") != nullptr ? 1 : 17;
+    std::size_t commands = 0;
+    for (std::size_t bytes = 1; bytes < 2'000; bytes += step) {
+        proxy.cut_every(bytes, 1);
+        EXPECT_EQ(robot(synthesis.set(Speech().with_speech_text("Hello."))), CompletedStatus::ok) << bytes;
+        ++commands;
+    }
+    EXPECT_GT(proxy.cuts(), commands / 2);
+    auto const completions = history.completions();
+    EXPECT_EQ(completions.size(), commands);
     for (auto const& [id, count] : completions) EXPECT_EQ(count, 1) << id;
     expect_all_once(history);
     robot(synthesis.release());

@@ -55,10 +55,10 @@ void Proxy::cut_at_random(std::uint32_t seed, std::size_t longest, std::size_t t
     left_ = next_cut();
 }
 
-void Proxy::cut_every(std::size_t bytes) {
+void Proxy::cut_every(std::size_t bytes, std::size_t times) {
     std::lock_guard const lock{mutex_};
     longest_ = left_ = bytes;
-    times_ = std::numeric_limits<std::size_t>::max();
+    times_ = times;
     evenly_ = true;
 }
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <list>
 #include <mutex>
 #include <random>
@@ -29,8 +30,8 @@ public:
     void cut();
     // Cuts all connections `times` times, each after a random number of bytes up to `longest`.
     void cut_at_random(std::uint32_t seed, std::size_t longest, std::size_t times);
-    // Cuts all connections each time this number of bytes has passed.
-    void cut_every(std::size_t bytes);
+    // Cuts all connections each time this number of bytes has passed; `times` times at most.
+    void cut_every(std::size_t bytes, std::size_t times = std::numeric_limits<std::size_t>::max());
     // When the gateway sends this text next, drops it and cuts all connections.
     void cut_before(std::string text);
     // When the gateway sends this text next, replaces it by `as`, which must have the same length.
