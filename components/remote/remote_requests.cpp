@@ -227,8 +227,9 @@ void RemoteEngine::ask_to_stop() {
     ask(StopEverything{}, [self = shared_from_this()](Reply const* reply) {
         self->stop_is_asked_ = false;
         auto const* stopped = reply == nullptr ? nullptr : std::get_if<StopEverything::Reply>(reply);
-        if (stopped == nullptr || !self->everything_is_stopped_) return;
+        if (stopped == nullptr) return;
         if (stopped->stop) self->stop_there_ = stopped->stop;
+        if (!self->everything_is_stopped_) return self->clear_stop_there();
         if (stopped->return_code != ReturnCode::ok && stopped->return_code != ReturnCode::unsupported) return;
         bool is_waiting = false;
         for (auto const& [ref, record] : self->records_) {

@@ -390,7 +390,7 @@ Engine::Core::Later Engine::Core::perform(Session& session, SetParameter const& 
         SetParameter::Reply reply;
         reply.command_id = message.command_id;
         return run_when_stored(asker, asked, {{{.delay_time = {}, .unit = message}}}, std::move(prepared), std::move(reply),
-                               when);
+                               Runs::when_stored, when);
     };
     return prepare<SetParameter>(session, asked, std::move(check.preparations()), std::move(then), now);
 }
@@ -417,7 +417,9 @@ Engine::Core::Later Engine::Core::perform(Session& session, Execute const& execu
         if (operation.check_only) return reply;
         IdFiller{executor_, asker, ids}.fill(reply.command_unit_list.command_unit_list);
         auto const sequence = reply.command_unit_list;
-        return run_when_stored(asker, asked, sequence, std::move(prepared), std::move(reply), when);
+        bool const at_once = !lasts && std::ranges::none_of(prepared, &Preparation::asks);  // it only stops or suspends
+        return run_when_stored(asker, asked, sequence, std::move(prepared), std::move(reply),
+                               at_once ? Runs::at_once : Runs::when_stored, when);
     };
     return prepare<Execute>(session, asked, std::move(check.preparations()), std::move(then), now);
 }

@@ -177,9 +177,10 @@ private:
     StoredEngine stored_engine() const;
     // Answers when the changes of the operation are stored, or cannot be stored now.
     void answer_when_stored(SharedAsked const&, Reply&&);
-    // Runs the commands of a sequence when they are stored. `reply` is the answer then. A sequence that only stops or suspends
-    // runs at once.
-    Later run_when_stored(Session&, SharedAsked const&, CommandUnitSequence const&, std::vector<Preparation>, Reply, Instant now);
+    // Runs the commands of a sequence when they are stored, or at once. `reply` is the answer when they are stored.
+    enum class Runs : std::uint8_t { when_stored, at_once };
+    Later run_when_stored(Session&, SharedAsked const&, CommandUnitSequence const&, std::vector<Preparation>, Reply, Runs,
+                          Instant now);
     void restore(StoredSession&&, StoredState&, RightsOf const&, Instant now);
     void restore(Session&, StoredCommand&&, Instant now);
     void restore(Session&, StoredBinding const&, Instant now);

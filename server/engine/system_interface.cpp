@@ -155,15 +155,16 @@ Reply Engine::Core::perform(Session& session, StopEverything const&, Instant now
         }
         session.last_stop = last_stop_;
         recorder_.changed(session);
-        if (session.owns_stop) reply.stop = last_stop_;
     }
+    if (owns_present_stop(session)) reply.stop = last_stop_;  // also again: the first answer may have been lost
     reply.not_halted = not_halted();
     std::erase_if(reply.not_halted, [&](std::string const& ref) { return !may_see(session.rights.get(), ref); });
     return reply;
 }
 
 Reply Engine::Core::perform(Session& session, ClearStop const& asked, Instant) {
-    if (asked.stop != last_stop_ || !present_stop_has_owners()) return ClearStop::Reply{};
+    auto const stop = asked.stop == ClearStop::own && owns_present_stop(session) ? last_stop_ : asked.stop;
+    if (stop != last_stop_ || !present_stop_has_owners()) return ClearStop::Reply{};
     recorder_.changed(session);
     recorder_.changed_engine();
     if (owns_present_stop(session))

@@ -193,7 +193,8 @@ struct StopEverything {
 
 // Has no effect if everything was stopped again since.
 struct ClearStop {
-    std::uint64_t stop = 0;
+    static constexpr std::uint64_t own = 0;  // the one that this session has asked for
+    std::uint64_t stop = own;
     struct Reply : Outcome {};
 };
 

@@ -159,6 +159,21 @@ TEST_F(Journaled, StopsDoNotWait) {
     EXPECT_TRUE(asked->said);
 }
 
+TEST_F(Journaled, WhatMovesAgainOrLaterWaits) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.execute(go("go"));
+    desk.execute(suspend("navigation"));
+    journal().then = MemoryJournal::Then::later;
+    auto const resumed = world.begin_to_say(desk.session, Execute{{{named("r", resume("navigation"))}}});
+    EXPECT_THAT(world["navigation"].calls, testing::Not(testing::Contains("resume")));
+    auto const stopped = world.begin_to_say(desk.session, Execute{{{pause(1s), named("s", stop("navigation"))}}});
+    fail_to_store();
+    world.advance(50ms);
+    for (auto const& asked : {resumed, stopped})
+        EXPECT_EQ(std::get<Execute::Reply>(std::get<Reply>(asked->said.value())).return_code, ReturnCode::out_of_resources);
+}
+
 TEST_F(Journaled, ACommandDoesNotBeginAfterAStopThatCameWhileItWasStored) {
     auto desk = world.connect();
     desk.bind("navigation");

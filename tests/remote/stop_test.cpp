@@ -90,6 +90,52 @@ TEST_F(AStopOfEverything, MayBeClearedWhileTheLinkIsLost) {
     }
 }
 
+TEST_F(AStopOfEverything, MayBeClearedBeforeItsAnswerHasCome) {
+    engines.hold_back(true);
+    stop(engines.main);
+    engines.settle();
+    clear(engines.main);
+    EXPECT_TRUE(hall_is_stopped());
+    engines.hold_back(false);
+    engines.advance(1s);
+    EXPECT_FALSE(hall_is_stopped());
+}
+
+TEST_F(AStopOfEverything, MayBeClearedWhenItsAnswerWasLost) {
+    engines.hold_back(true);
+    stop(engines.main);
+    engines.settle();
+    engines.cut();
+    clear(engines.main);
+    engines.repair();
+    engines.hold_back(false);
+    engines.advance(10s);
+    EXPECT_FALSE(hall_is_stopped());
+}
+
+TEST_F(AStopOfEverything, IsClearedThereAfterTheMainEngineHasDied) {
+    engines.main.keep_journal();
+    stop(engines.main);
+    engines.advance(200ms);
+    engines.cut();
+    clear(engines.main);
+    engines.restart_main();
+    engines.advance(10s);
+    EXPECT_FALSE(hall_is_stopped());
+}
+
+TEST_F(AStopOfEverything, LastsThereWhenTheMainEngineHasDied) {
+    engines.main.keep_journal();
+    stop(engines.main);
+    engines.advance(200ms);
+    engines.restart_main();
+    engines.advance(10s);
+    EXPECT_TRUE(hall_is_stopped());
+    clear(engines.main);
+    engines.advance(1s);
+    EXPECT_FALSE(hall_is_stopped());
+}
+
 TEST_F(AStopOfEverything, DoesNotEndOneThatARestartedSubEngineHas) {
     stop(engines.main);
     engines.advance(200ms);

@@ -26,6 +26,16 @@ std::vector<Part> robots() { return {moving(navigation), speech}; }
 
 bool is_in_hall(std::string const& ref) { return ref.starts_with("hall."); }
 
+char const* name_of(Client const& client) {
+    constexpr std::array names{"the operator", "the operator of one", "the observer", "the administrator"};
+    return names[static_cast<std::size_t>(client.role)];
+}
+
+char const* name_of(What what) {
+    constexpr std::array names{"subscribe", "bind", "release", "start", "stop", "suspend", "resume"};
+    return names[static_cast<std::size_t>(what)];
+}
+
 std::string id_of(std::uint64_t command) { return "c" + std::to_string(command); }
 
 std::uint64_t number_in(std::string const& text) { return std::stoull(text.substr(text.find_first_of("0123456789"))); }
@@ -44,8 +54,9 @@ std::uint64_t started(ScriptedComponent const& robot) {
 
 }  // namespace
 
-Schedule::Schedule(std::uint64_t seed, Over over)
+Schedule::Schedule(std::uint64_t seed, Over over, std::ostream* story)
     : dice_{seed},
+      story_{story},
       clients_{Client{.role = Role::operates}, Client{.role = Role::operates_one}, Client{.role = Role::observes},
                Client{.role = Role::administrates}} {
     if (over == Over::sub_engine) {
@@ -56,6 +67,7 @@ Schedule::Schedule(std::uint64_t seed, Over over)
         alone_ = std::make_unique<World>(robots(), EngineSettings{});
         refs_ = {"navigation", "speech"};
     }
+    begun_ = main().now.steady;
     main().keep_journal();
     main().rights_of = [this](std::string const& id) -> std::shared_ptr<Rights const> {
         auto const client = std::ranges::find_if(clients_, [&](Client const& each) { return each.rights->id() == id; });
@@ -124,17 +136,14 @@ void Schedule::act() {
 }
 
 void Schedule::act_as(Client& client) {
-    if (client.session.text.empty()) return leave_or_return(client);
+    if (!client.is_linked || !client.is_alive) return one_in(3) ? leave_or_return(client) : void();
     auto const& ref = refs_[static_cast<std::size_t>(below(static_cast<int>(refs_.size())))];
     switch (below(8)) {
         case 0:
-            if (client.role == Role::administrates && one_in(3))
-                for (auto& other : clients_) other.bound.erase(ref);  // from now on, it may have lost it
-            return begin(client, Bind{Application::identifier(ref), Switching::none, client.role == Role::administrates},
-                         {.what = What::bind, .ref = ref});
+            return bind(client, ref, client.role == Role::administrates && one_in(3));
         case 1:
             if (!one_in(4)) return read(client);
-            client.bound.erase(ref);
+            may_lose(client, ref);
             return begin(client, Release{Application::identifier(ref)}, {.what = What::release, .ref = ref});
         case 2:
             return begin(client, Subscribe{"reached_target", {}, true});
@@ -143,6 +152,19 @@ void Schedule::act_as(Client& client) {
         default:
             return command(client, ref);
     }
+}
+
+void Schedule::bind(Client& client, std::string const& ref, bool take_over) {
+    if (take_over)
+        for (auto& other : clients_) may_lose(other, ref);
+    begin(client, Bind{Application::identifier(ref), Switching::none, take_over}, {.what = What::bind, .ref = ref});
+}
+
+// It does not rely on this component any more, also if a binding is still being asked for.
+void Schedule::may_lose(Client& client, std::string const& ref) {
+    client.bound.erase(ref);
+    for (auto& each : client.asked)
+        if (each.what == What::bind && each.ref == ref) each.what = What::other;
 }
 
 void Schedule::command(Client& client, std::string const& ref) {
@@ -188,7 +210,11 @@ void Schedule::happen_to_disk() {
 }
 
 void Schedule::happen_to_hall() {
-    switch (below(6)) {
+    auto const what = below(6);
+    constexpr std::array words{"the link breaks", "the link breaks", "answers are late",
+                               "it may die",      "all is well",     "all is well"};
+    tell("the hall:", words[static_cast<std::size_t>(what)]);
+    switch (what) {
         case 0:
         case 1:
             return engines_->cut();
@@ -208,6 +234,7 @@ void Schedule::happen_to_hall() {
 
 // The process of the engine dies and begins again, and the clients reconnect.
 void Schedule::crash() {
+    tell("the engine dies");
     take_answers(false);
     bool const was_promised = stops_ == Stops::promised;
     for (auto& client : clients_) client.asked.clear();
@@ -222,10 +249,13 @@ void Schedule::crash() {
     expect(engine().everything_is_stopped() || !was_promised, "a stop of everything survives the death of the process");
     stops_ = engine().everything_is_stopped() ? Stops::promised : Stops::no;
     for (auto& client : clients_)
+        if (!client.is_stored && !client.session.text.empty()) forget_session(client);
+    for (auto& client : clients_)
         if (client.is_linked) engine().link_opened(client.session, LinkKind::websocket, main().now);
 }
 
 void Schedule::stop_or_clear() {
+    tell(stops_ == Stops::no ? "everything is stopped" : "the stop is cleared");
     if (stops_ != Stops::no) {
         main().engine->and_work([&] { engine().clear(); }, main().now);
         stops_ = Stops::no;
@@ -253,8 +283,11 @@ void Schedule::give_rights(Client& client) {
 void Schedule::open_session(Client& client) {
     write(true);
     journal().then = Then::stored;
+    auto const steps = journal().steps;
     client.session = main().connect_as(client.rights).session;
+    client.is_stored = journal().steps > steps;
     journal().then = Then::later;
+    tell(name_of(client), "opens a session", client.is_stored ? "" : "that is not stored");
     client.is_linked = client.is_alive = true;
 }
 
@@ -282,9 +315,11 @@ void Schedule::leave_or_return(Client& client) {
         client.is_linked = false;
     }
     if (was_there) client.silent_since = main().now.steady;
+    tell(name_of(client), !client.is_linked ? "has lost its link" : client.is_alive ? "is there" : "hangs");
 }
 
 void Schedule::lose_rights(Client& client) {
+    tell(name_of(client), "loses its rights");
     client.rights->withdraw();
     main().engine->end_withdrawn(main().now);
     forget_session(client);
@@ -292,6 +327,7 @@ void Schedule::lose_rights(Client& client) {
 }
 
 void Schedule::begin(Client& client, Operation const& operation, Asked asked) {
+    tell(name_of(client), "asks:", name_of(asked.what), asked.ref, asked.number == 0 ? "" : id_of(asked.number));
     asked.operation = main().begin_to_say(client.session, operation);
     client.asked.push_back(std::move(asked));
 }
@@ -309,7 +345,7 @@ void Schedule::take_answers(bool written) {
             if (auto const* reply = std::get_if<Reply>(&*each.operation->said))
                 note(client, each, *reply, written);
             else if (std::get<Refusal>(*each.operation->said) == Refusal::no_session)
-                expect(!client.is_linked, "a session with a link stays");
+                expect(!client.is_linked || !client.is_stored, "a session with a link stays", name_of(client));
         }
     }
 }
@@ -317,6 +353,8 @@ void Schedule::take_answers(bool written) {
 // An answer that comes before the disk has written is no promise if it may come while the journal fails.
 void Schedule::note(Client& client, Asked const& asked, Reply const& reply, bool written) {
     auto const& outcome = outcome_of(reply);
+    tell("answer to", name_of(client), asked.ref, asked.number == 0 ? "" : id_of(asked.number), to_text(outcome.return_code),
+         outcome.reason, written ? "(written)" : "");
     bool const is_ok = outcome.return_code == ReturnCode::ok;
     bool const commands = asked.what != What::other && asked.what != What::release;
     if (commands) expect(!is_ok || client.role != Role::observes, "an observer commands nothing");
@@ -338,7 +376,8 @@ void Schedule::note(Client& client, Asked const& asked, Reply const& reply, bool
 void Schedule::read(Client& client) {
     auto const queue = client.session.text.empty() ? nullptr : engine().notifications(client.session, client.rights.get());
     if (queue == nullptr) {
-        expect(client.session.text.empty() || !client.is_linked, "a session with a link stays");
+        expect(client.session.text.empty() || !client.is_linked || !client.is_stored, "a session with a link stays",
+               name_of(client));
         return forget_session(client);
     }
     for (auto const& each : queue->read(client.last, 1'000)) note(client, each);
@@ -351,11 +390,14 @@ void Schedule::note(Client& client, Numbered const& numbered) {
            std::to_string(sequence));
     client.last = sequence;
     if (auto const* completed = std::get_if<Completed>(&notification->body)) {
+        tell(name_of(client), "receives", sequence, "completed", completed->command_id.text, to_text(completed->status));
         auto const number = number_in(completed->command_id.text);
         auto const& command = commands_.at(number);
         expect(command.by == &client, "a completion is for the client whose command it is", completed->command_id.text);
         expect(++client.completed[number] == 1, "a command completes once", completed->command_id.text);
-        expect(!command.is_refused, "a refused command does not complete", completed->command_id.text);
+        bool const is_abort = completed->status == CompletedStatus::abort;
+        expect(!command.is_refused || is_abort, "a refused command is at most aborted, after a crash",
+               completed->command_id.text);
         bool const says_done = completed->status == CompletedStatus::ok && command.has_run;
         expect(!says_done || command.has_finished, "a start is OK when the robot has finished", completed->command_id.text);
     } else if (auto const* event = std::get_if<ReceiveEvent>(&notification->body)) {
@@ -374,11 +416,13 @@ void Schedule::note(Client& client, Numbered const& numbered) {
 void Schedule::write(bool stored) {
     if (!journal().has_waiting()) return;
     take_answers(false);
+    tell("the disk", stored ? "writes" : "does not write");
     journal().settle(stored);
     is_written_ = stored;
     auto& engine = *main().engine;
     engine.and_work([&] { stored ? engine.stored(main().now) : engine.not_stored(main().now); }, main().now);
     is_written_ = false;
+    for (auto& client : clients_) client.is_stored = client.is_stored || stored;
     take_answers(stored);
 }
 
@@ -419,6 +463,8 @@ void Schedule::watch_robots() {
 
 void Schedule::robot_called(std::string const& ref, ScriptedComponent const& component, std::string const& call) {
     auto& motion = motions_[ref];
+    constexpr std::array told{"start", "halt", "suspend", "resume"};
+    if (std::ranges::find(told, call) != told.end()) tell("robot", ref, call, call == "start" ? id_of(started(component)) : "");
     if (call == "start") {
         auto& command = commands_.at(started(component));
         expect(!std::exchange(command.has_run, true), "a command runs once", id_of(started(component)));
@@ -487,7 +533,7 @@ void Schedule::check_that_everything_works() {
         expect(chief.asked.empty(), "every operation is answered");
     };
     for (auto const& ref : refs_) {
-        for (auto& client : clients_) client.bound.erase(ref);
+        for (auto& client : clients_) may_lose(client, ref);
         ask(Bind{Application::identifier(ref), Switching::none, true}, {.what = What::bind, .ref = ref});
         auto const number = ++last_number_;
         commands_[number] = {.by = &chief};

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
+#include <ostream>
 #include <random>
 #include <set>
 #include <string>
@@ -41,6 +41,7 @@ struct Client {
     std::shared_ptr<Rights const> rights{};
     int turn = 0;  // of its rights
     SessionId session{};
+    bool is_stored = false;  // its session
     bool is_linked = false;
     bool is_alive = true;   // answers pings
     Steady silent_since{};  // while it is not linked or not alive
@@ -54,7 +55,8 @@ struct Client {
 
 class Schedule {
 public:
-    Schedule(std::uint64_t seed, Over);
+    // `story`: what happens, for people; null: not needed.
+    Schedule(std::uint64_t seed, Over, std::ostream* story = nullptr);
 
     // Returns the promises that were broken, the first ones only.
     std::vector<std::string> run();
@@ -62,6 +64,8 @@ public:
 private:
     void act();
     void act_as(Client&);
+    void bind(Client&, std::string const& ref, bool take_over);
+    static void may_lose(Client&, std::string const& ref);
     void command(Client&, std::string const& ref);
     void happen_to_robot(std::string const& ref);
     void happen_to_disk();
@@ -88,6 +92,13 @@ private:
     void robot_called(std::string const& ref, ScriptedComponent const&, std::string const& call);
     void finish();
     void check_that_everything_works();
+    template <class... Words>
+    void tell(Words const&... words) {
+        if (story_ == nullptr) return;
+        *story_ << std::chrono::duration_cast<std::chrono::milliseconds>(main().now.steady - begun_).count() << " ms";
+        ((*story_ << ' ' << words), ...);
+        *story_ << '\n';
+    }
     void expect(bool holds, std::string const& promise, std::string const& what = {});
 
     int below(int end) { return static_cast<int>(dice_() % static_cast<unsigned>(end)); }
@@ -98,6 +109,8 @@ private:
     ScriptedComponent& robot(std::string const& ref);
 
     std::mt19937_64 dice_;
+    std::ostream* const story_;
+    Steady begun_{};
     std::unique_ptr<World> alone_;  // or
     std::unique_ptr<TwoEngines> engines_;
     std::vector<std::string> refs_;

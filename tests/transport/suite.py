@@ -166,7 +166,7 @@ class Peer:
         self.socket = socket.create_connection(address, timeout=10)
         self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         key = base64.b64encode(os.urandom(16))
-        self.socket.sendall(b"GET /rois HTTP/1.1\r\nHost: %s:%d\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: %s\r\nSec-WebSocket-Version: 13\r\n\r\n" % (address[0].encode(), address[1], key))
+        self.socket.sendall(b"GET /rois HTTP/1.1\r\nHost: %s:%d\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: %s\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Protocol: rois.xml.v1\r\n\r\n" % (address[0].encode(), address[1], key))
         self.received = b""
         while b"\r\n\r\n" not in self.received:
             if not self.more():

@@ -71,15 +71,14 @@ void Engine::Core::answer_when_stored(SharedAsked const& asked, Reply&& reply) {
 }
 
 Engine::Core::Later Engine::Core::run_when_stored(Session& session, SharedAsked const& asked, CommandUnitSequence const& sequence,
-                                                  std::vector<Preparation> prepared, Reply reply, Instant now) {
-    bool const waits = std::ranges::any_of(prepared, [](Preparation const& each) { return each.asks(); });
+                                                  std::vector<Preparation> prepared, Reply reply, Runs runs, Instant now) {
     auto execution = executor_.make(session, sequence, std::move(prepared));
     if (!recorder_.stores(session) || !recorder_.must_wait()) {
         executor_.begin(execution, now);
         return reply;
     }
-    if (!waits) executor_.begin(execution, now);
-    if (!waits) {
+    if (runs == Runs::at_once) {
+        executor_.begin(execution, now);
         answer_when_stored(asked, std::move(reply));
         return {};
     }
