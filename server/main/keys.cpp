@@ -370,6 +370,12 @@ std::vector<Key> network_keys() {
             "max_header", "maximum bytes of an HTTP header", [](GatewaySettings & s) -> auto& { return s.net.max_header; }, 1'024,
             1 << 20),
         whole_number<std::size_t>(
+            "max_header_fields", "maximum number of header fields of an HTTP request",
+            [](GatewaySettings & s) -> auto& { return s.net.max_header_fields; }, 16, 1'024),
+        whole_number<std::size_t>(
+            "max_target", "maximum bytes of the target of an HTTP request",
+            [](GatewaySettings & s) -> auto& { return s.net.max_target; }, 1'024, 1 << 20),
+        whole_number<std::size_t>(
             "max_depth", "maximum depth of nested elements in a document",
             [](GatewaySettings & s) -> auto& { return s.net.document.depth; }, 8, 1'024),
         whole_number<std::size_t>(
@@ -378,6 +384,12 @@ std::vector<Key> network_keys() {
         whole_number<std::size_t>(
             "max_elements", "maximum number of elements of a document",
             [](GatewaySettings & s) -> auto& { return s.net.document.elements; }, 16, 1e6),
+        whole_number<std::size_t>(
+            "max_name_length", "maximum bytes of the name of an element or attribute",
+            [](GatewaySettings & s) -> auto& { return s.net.document.name_length; }, 64, 4'096),
+        whole_number<std::size_t>(
+            "max_fragments", "maximum number of frames of a WebSocket message",
+            [](GatewaySettings & s) -> auto& { return s.net.max_fragments; }, 1, 1e6),
         choice<xml::Validation>(
             "validation", "how documents are validated: fast, with tables made from the schemas where they suffice, or in full",
             [](GatewaySettings & s) -> auto& { return s.net.validation; },
@@ -397,6 +409,9 @@ std::vector<Key> network_keys() {
         seconds(
             "ping_interval", "time between signs of life on WebSockets and event streams",
             [](GatewaySettings & s) -> auto& { return s.net.ping_interval; }),
+        seconds(
+            "max_poll_wait", "longest time that a long poll may wait for notifications",
+            [](GatewaySettings & s) -> auto& { return s.net.max_poll_wait; }, 1, 3600),
         seconds(
             "shutdown_timeout", "time for clients to receive their last notifications when the gateway stops",
             [](GatewaySettings & s) -> auto& { return s.net.shutdown_timeout; }, 0.1, 8),

@@ -1,4 +1,5 @@
-// The limits and periods of the network layer. All are configurable.
+// The limits and periods of the network layer. Each has a configuration key (main/keys.cpp), except `tick`, `echo` and
+// `document.namespaces`.
 #pragma once
 
 #include <chrono>
@@ -39,11 +40,11 @@ struct Settings {
     std::size_t memory_budget = std::size_t{512} << 20;  // bytes; physical memory of the process
 
     std::size_t max_header = 16 * 1024;  // bytes of a request line and its header fields
-    std::size_t max_fields = 100;
+    std::size_t max_header_fields = 100;
     std::size_t max_target = 4 * 1024;  // bytes
     xml::DocumentLimits document;       // `bytes` also limits HTTP bodies and WebSocket messages
     xml::Validation validation = xml::Validation::fast;
-    std::size_t max_fragments = 1'024;         // of a WebSocket message
+    std::size_t max_fragments = 1'024;         // frames of a WebSocket message
     std::size_t max_requests_in_flight = 16;   // of one connection; with more unsent answers, nothing is read
     std::vector<std::string> hosts;            // names of the gateway, in the form of host_name (gateway/access/host_names.hpp)
     std::vector<std::string> allowed_origins;  // of web pages, besides those of the gateway: "https://console.example"
@@ -63,6 +64,7 @@ struct Settings {
     std::chrono::milliseconds idle_timeout = std::chrono::seconds{75};      // of an HTTP connection between two requests
     std::chrono::milliseconds write_timeout = std::chrono::seconds{30};     // for a peer to read the sent data
     std::chrono::milliseconds ping_interval = std::chrono::seconds{20};     // of WebSockets and event streams
+    std::chrono::milliseconds max_poll_wait = std::chrono::seconds{30};     // that a long poll may ask for
     std::chrono::milliseconds shutdown_timeout = std::chrono::seconds{5};   // for clients to read their last notifications
     std::chrono::milliseconds tick = std::chrono::milliseconds{10};         // of the engine
 

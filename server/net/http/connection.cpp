@@ -389,7 +389,7 @@ Task<> Connection::serve_websocket() {
 
 Task<Connection::Then> Connection::serve_notifications() {
     auto const& shared = loop_.shared();
-    auto const read = read_wanted(head_);
+    auto const read = read_wanted(head_, shared.settings().max_poll_wait);
     if (auto const* fault = std::get_if<Fault>(&read)) co_return reply(answer_of(*fault));
     if (shared.gateway.shutting_down()) co_return reply(answer_of(shutting_down()));
     auto wanted = std::get<NotificationsWanted>(read);

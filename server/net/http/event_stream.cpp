@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::size_t most_at_once = 64;    // notifications of one write
 constexpr std::size_t most_a_poll = 1'024;  // and of one answer
-constexpr std::uint64_t longest_wait = 30;  // seconds
 
 Fault bad_number(std::string_view name, std::string_view value, std::string const& limit = {}) {
     return {FaultCode::not_well_formed, std::string{name} + " must be a whole number" + limit + ", not " + quoted(value)};
@@ -32,7 +31,7 @@ void append_event(std::string& out, Numbered const& numbered) {
 
 }  // namespace
 
-std::variant<NotificationsWanted, Fault> read_wanted(RequestHead const& head) {
+std::variant<NotificationsWanted, Fault> read_wanted(RequestHead const& head, std::chrono::milliseconds longest_wait) {
     NotificationsWanted wanted;
     if (head.lists("Accept", "text/event-stream")) {
         wanted.as = NotificationsWanted::As::stream;
@@ -50,7 +49,9 @@ std::variant<NotificationsWanted, Fault> read_wanted(RequestHead const& head) {
     }
     if (auto const wait = head.parameter("wait")) {
         auto const number = to_number<std::uint64_t>(*wait);
-        if (!number || *number > longest_wait) return bad_number("wait", *wait, " of seconds, 30 at most");
+        auto const most = static_cast<std::uint64_t>(std::chrono::floor<std::chrono::seconds>(longest_wait).count());
+        if (!number || *number > most)
+            return bad_number("wait", *wait, " of seconds, " + std::to_string(most) + " at most (max_poll_wait)");
         wanted.wait = std::chrono::seconds{*number};
     }
     return wanted;

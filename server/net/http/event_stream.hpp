@@ -19,8 +19,9 @@ struct NotificationsWanted {
     std::chrono::seconds wait{0};
 };
 
-// Reads the header fields and the query of a request. Returns a fault for an invalid number.
-std::variant<NotificationsWanted, Fault> read_wanted(RequestHead const&);
+// Reads the header fields and the query of a request. Returns a fault for an invalid number, and for a `wait` of more than
+// `longest_wait`.
+std::variant<NotificationsWanted, Fault> read_wanted(RequestHead const&, std::chrono::milliseconds longest_wait);
 
 // Waits until there are notifications, the time has passed, or the peer has closed the connection. Answers with a fault if the
 // session is unknown.

@@ -89,8 +89,8 @@ std::optional<Fault> find_fault(std::string_view text, Settings const& settings,
         if (field.name() == http::field::content_length) lengths += field.value().contains(',') ? 2 : 1;
         if (field.name() == http::field::transfer_encoding) is_encoded = true;
     }
-    if (fields > settings.max_fields)
-        return Fault{FaultCode::header_too_large, "more than " + std::to_string(settings.max_fields) + " header fields"};
+    if (fields > settings.max_header_fields)
+        return Fault{FaultCode::header_too_large, "more than " + std::to_string(settings.max_header_fields) + " header fields"};
     if (is_folded(text)) return broken("a folded header line: send each header field in one line");
     if (hosts > 1 || (hosts == 0 && !head.is_http_1_0())) return broken("expected exactly one Host header");
     if (!may_be_authority(host)) return broken("Host " + quoted(host) + " is not a name or an address with an optional port");

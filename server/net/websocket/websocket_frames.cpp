@@ -146,8 +146,8 @@ std::optional<Received> MessageReader::rejected(Head const& head) const {
         return protocol_error("a new message before the last fragment of another one");
     if (head.payload > max_message_ - parts_.size())
         return violation(CloseCode::message_too_big, "the message is longer than max_body allows");
-    if (!head.last && fragments_ >= max_fragments_)
-        return violation(CloseCode::policy_violation, "the message has too many fragments");
+    if (fragments_ >= max_fragments_)
+        return violation(CloseCode::policy_violation, "the message has more frames than max_fragments allows");
     return {};
 }
 
