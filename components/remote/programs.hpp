@@ -13,7 +13,7 @@ struct ProgramTimes {
     std::chrono::milliseconds shortest_pause{1'000};  // before a program is started again; doubled each time
     std::chrono::milliseconds longest_pause{60'000};  // also: a program that has run longer restarts with the shortest
     std::chrono::milliseconds immediately{5'000};     // a program is given up after five ends within this time of its start
-    std::chrono::milliseconds to_end{2'000};          // from SIGTERM to SIGKILL
+    std::chrono::milliseconds to_end{2'000};          // from SIGTERM to SIGKILL; part of docs/safety.md#the-end
 };
 
 // Starts each program again when it has ended, and ends all of them with this process. Thread-safe.

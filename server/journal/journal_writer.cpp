@@ -22,8 +22,9 @@ void JournalWriter::store(std::shared_ptr<Changes const> changes) noexcept {
 }
 
 bool JournalWriter::finish(std::chrono::milliseconds longest) {
+    thread_.request_stop();
     std::unique_lock lock{mutex_};
-    return news_.wait_for(lock, longest, [this] { return next_ == nullptr && !is_writing_; });
+    return news_.wait_for(lock, longest, [this] { return is_closed_; });
 }
 
 std::string JournalWriter::why_no_commands() const {
@@ -37,15 +38,17 @@ void JournalWriter::run(std::stop_token const& stop) {
     while (true) {
         news_.wait_for(lock, stop, std::chrono::seconds{1}, [this] { return next_ != nullptr; });
         auto const changes = std::exchange(next_, nullptr);
-        if (changes == nullptr && stop.stop_requested()) return;
-        is_writing_ = true;
+        if (changes == nullptr && stop.stop_requested()) break;
         lock.unlock();
         if (changes != nullptr) write(*changes);
         note_room();
         lock.lock();
-        is_writing_ = false;
-        news_.notify_all();
     }
+    lock.unlock();
+    file_.reset();  // SQLite moves its log into the database, and waits for the disk
+    lock.lock();
+    is_closed_ = true;
+    news_.notify_all();
 }
 
 void JournalWriter::write(Changes const& changes) {

@@ -36,7 +36,8 @@ public:
     void store(std::shared_ptr<Changes const>) noexcept override;
     std::string why_no_commands() const override;
 
-    // Waits until everything that was given is written. Returns false if the disk needs longer than this.
+    // Waits until everything that was given is written and the file is closed. Changes that are given later are ignored. Returns
+    // false if the disk needs longer than this.
     bool finish(std::chrono::milliseconds longest);
 
     // For /metrics. Thread-safe.
@@ -52,7 +53,7 @@ private:
     void write(Changes const&);
     void note_room();
 
-    std::unique_ptr<JournalFile> file_;  // used only by the thread
+    std::unique_ptr<JournalFile> file_;  // used only by the thread, which closes it at its end
     Calls const calls_;
     std::atomic<bool> has_room_ = true;
     std::atomic<std::uint64_t> stored_ = 0;
@@ -60,7 +61,7 @@ private:
     std::mutex mutex_;  // guards the members below
     std::condition_variable_any news_;
     std::shared_ptr<Changes const> next_;
-    bool is_writing_ = false;
+    bool is_closed_ = false;
     std::jthread thread_;
 };
 

@@ -15,7 +15,7 @@ namespace rois {
 
 namespace {
 
-constexpr std::chrono::seconds longest_wait{2};  // for the disk, at the end
+constexpr std::chrono::seconds longest_wait{2};  // for the disk, at the end (docs/safety.md#the-end)
 
 }  // namespace
 

@@ -413,8 +413,9 @@ std::vector<Key> network_keys() {
             "max_poll_wait", "longest time that a long poll may wait for notifications",
             [](GatewaySettings & s) -> auto& { return s.net.max_poll_wait; }, 1, 3600),
         seconds(
-            "shutdown_timeout", "time for clients to receive their last notifications when the gateway stops",
-            [](GatewaySettings & s) -> auto& { return s.net.shutdown_timeout; }, 0.1, 8),
+            "shutdown_timeout",
+            "time for clients to receive their last notifications, and for components to halt, when the gateway stops",
+            [](GatewaySettings & s) -> auto& { return s.net.shutdown_timeout; }, 0.1, 5),  // see docs/safety.md#the-end
     };
 }
 

@@ -65,8 +65,9 @@ struct Settings {
     std::chrono::milliseconds write_timeout = std::chrono::seconds{30};     // for a peer to read the sent data
     std::chrono::milliseconds ping_interval = std::chrono::seconds{20};     // of WebSockets and event streams
     std::chrono::milliseconds max_poll_wait = std::chrono::seconds{30};     // that a long poll may ask for
-    std::chrono::milliseconds shutdown_timeout = std::chrono::seconds{5};   // for clients to read their last notifications
-    std::chrono::milliseconds tick = std::chrono::milliseconds{10};         // of the engine
+    std::chrono::milliseconds shutdown_timeout =
+        std::chrono::seconds{5};                                     // for clients to read the last notifications, and halts
+    std::chrono::milliseconds tick = std::chrono::milliseconds{10};  // of the engine
 
     // WebSockets return each message instead of answering it. For suites that test WebSockets (tests/transport): the gateway has
     // no key for it.

@@ -17,4 +17,7 @@ public:
 void bind_and_complete(HttpClient&, int count);
 void complete(HttpClient&, int count);
 
+// Sends requests without reading answers, until the gateway reads no more.
+void stuff(Line&, std::string const& request);
+
 }  // namespace rois::test

@@ -3,10 +3,26 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <chrono>
+
+#include "kit/profile_folder.hpp"
+#include "kit/vocabulary.hpp"
 #include "server/websocket_client.hpp"
 
 namespace rois::test {
 namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto unstoppable = ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml";
+
+// Sends SIGTERM to the gateway, and waits for its end. Returns how long that has taken.
+std::chrono::steady_clock::duration time_to_end(GatewayProcess& gateway, Ended& ended) {
+    auto const begun = std::chrono::steady_clock::now();
+    gateway.signal(SIGTERM);
+    ended = gateway.wait();
+    return std::chrono::steady_clock::now() - begun;
+}
 
 TEST(Shutdown, EndsWithZeroOnBothSignals) {
     for (int const number : {SIGTERM, SIGINT}) {
@@ -77,7 +93,7 @@ TEST(Shutdown, AnswersRequestsOnTheirWayWith503) {
 }
 
 TEST(Shutdown, WaitsUntilAllComponentsHaveHalted) {
-    GatewayProcess gateway{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--shutdown-timeout", "8"}};
+    GatewayProcess gateway{{"--scenario", unstoppable, "--shutdown-timeout", "5"}};
     gateway.signal(SIGTERM);
     auto const ended = gateway.wait();
     EXPECT_EQ(ended.exit_code, 0);
@@ -86,10 +102,11 @@ TEST(Shutdown, WaitsUntilAllComponentsHaveHalted) {
 }
 
 TEST(Shutdown, NamesComponentsThatDidNotHaltInTime) {
-    GatewayProcess gateway{
-        {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--sim-speed", "0", "--shutdown-timeout", "0.5"}};
-    gateway.signal(SIGTERM);
-    auto const ended = gateway.wait();
+    GatewayProcess gateway{{"--scenario", unstoppable, "--sim-speed", "0", "--shutdown-timeout", "0.5"}};
+    Ended ended;
+    auto const took = time_to_end(gateway, ended);
+    EXPECT_GE(took, 500ms);
+    EXPECT_LT(took, 3s) << "the default is 5 s";
     EXPECT_EQ(ended.exit_code, 71);
     EXPECT_THAT(ended.error, testing::HasSubstr("navigation did not confirm that it stands still"));
 }
@@ -100,8 +117,43 @@ TEST(Shutdown, DoesNotWaitForClientsThatNeverRead) {
     silent.call("connect");
     HttpClient half{gateway};
     half.line().send("GET /heal");
-    gateway.signal(SIGTERM);
-    EXPECT_EQ(gateway.wait().exit_code, 0);
+    HttpClient greedy{gateway};
+    stuff(greedy.line(), "GET /rois/schemas/rois.xsd HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    Ended ended;
+    auto const took = time_to_end(gateway, ended);
+    EXPECT_EQ(ended.exit_code, 0);
+    EXPECT_GE(took, 500ms) << "it waits for a client that may read yet";
+    EXPECT_LT(took, 3s) << "the default is 5 s";
+}
+
+// All parts of the end take as long as they may, except the journal (tests/journal/process_test.cpp).
+TEST(Shutdown, EndsWithinTenSecondsWithTheLongestTimeout) {
+    kit::ProfileFolder const folder;
+    folder.put("engines.json", R"({"engines": [{"name": "deaf", "joins": "deaf", "command": ["sh", "-c",
+        "trap '' TERM; echo deaf to SIGTERM; while true; do sleep 0.1; done"]}]})");
+    GatewayProcess gateway{
+        {"--scenario", unstoppable, "--sim-speed", "0", "--shutdown-timeout", "5", "--engines", folder.name() + "/engines.json"}};
+    EXPECT_THAT(gateway.log_with("deaf to SIGTERM"), testing::HasSubstr("deaf to SIGTERM"));
+    WebSocketClient silent{gateway};
+    silent.call("connect");
+    HttpClient desk{gateway}, greedy{gateway};
+    desk.call("connect");
+    EXPECT_EQ(desk.call("bind", component_ref("speech_synthesis")).return_code(), "OK");
+    auto const speech = kit::unit({.component = "speech_synthesis", .id = "speech", .arguments = {kit::speech_text("Hello.")}});
+    EXPECT_EQ(desk.call("execute", kit::sequence(speech)).return_code(), "OK");
+    stuff(greedy.line(), "GET /rois/schemas/rois.xsd HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    Ended ended;
+    auto const took = time_to_end(gateway, ended);
+    EXPECT_EQ(ended.exit_code, 71) << ended.error;
+    EXPECT_GE(took, 5s);
+    EXPECT_LE(took, 10s);
+}
+
+// The parts after it need the other five seconds (docs/safety.md#the-end).
+TEST(Shutdown, TakesNoLongerTimeout) {
+    auto const refused = run_gateway({"--shutdown-timeout", "5.001", "--check-config"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.error, testing::HasSubstr("a number of seconds from 0.1 to 5"));
 }
 
 }  // namespace
