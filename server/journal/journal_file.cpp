@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <boost/crc.hpp>
 #include <cerrno>
 #include <cstring>
@@ -21,9 +22,18 @@ namespace {
 constexpr std::int64_t application = 0x526f4953;  // "RoIS"
 constexpr std::int64_t version = 1;
 constexpr std::size_t page = 4'096;
-constexpr std::size_t of_log = std::size_t{8} << 20;  // bytes that SQLite's log may need besides the database
-constexpr int longest_log = 256;                      // pages
+constexpr std::size_t page_in_log = page + 24;  // SQLite's log has a head before each page
+constexpr int longest_log = 256;                // pages; no step begins behind more
 constexpr std::size_t reserve_bytes = std::size_t{4} << 20;
+
+// Returns the largest number of pages of the database, so that all files together take at most `most_bytes`: the reserve, the
+// database and its log. A step writes each page that it changes once into the log. So the log has at most `longest_log` pages,
+// and those of one step, which may be all pages of the database. A few more pages are for the head of the log and the last page
+// of a step, which SQLite may write twice.
+std::int64_t most_pages(std::size_t most_bytes) {
+    auto const fixed = reserve_bytes + (longest_log + 16) * page_in_log;
+    return static_cast<std::int64_t>((most_bytes - fixed) / (page + page_in_log));
+}
 
 constexpr auto settings =
     "PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA wal_autocheckpoint = 0;"
@@ -92,8 +102,10 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
     bool const is_new = make_file(name_);
     open();
     check_header(is_new);
-    auto const pages = most_bytes > 2 * of_log ? (most_bytes - of_log) / page : most_bytes / (2 * page);
-    number(("PRAGMA max_page_count = " + std::to_string(pages)).c_str());
+    log_pages_ = longest_log;  // an earlier process may have left a long log
+    most_pages_ = most_pages(most_bytes);
+    spare_pages_ = std::min<std::int64_t>(reserve_bytes / page, most_pages_ / 4);
+    number(("PRAGMA max_page_count = " + std::to_string(most_pages_)).c_str());
     begin_ = prepared("BEGIN IMMEDIATE");
     commit_ = prepared("COMMIT");
     rollback_ = prepared("ROLLBACK");
@@ -101,6 +113,9 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
     erase_ = prepared("DELETE FROM record WHERE kind = ? AND session = ? AND key = ?");
     forget_ = prepared("DELETE FROM record WHERE kind = ? AND session = ? AND key <= ?");
     end_ = prepared("DELETE FROM record WHERE kind IN ('command', 'notification', 'session', 'subscription') AND session = ?");
+    pages_ = prepared("PRAGMA page_count");
+    free_pages_ = prepared("PRAGMA freelist_count");
+    count_pages();
     keep_reserve(Steady::clock::now());
 }
 
@@ -235,11 +250,31 @@ JournalFile::Result JournalFile::judged() {
 }
 
 JournalFile::Result JournalFile::store(RecordChanges const& changes) {
-    if (write(changes)) return Result::stored;
-    auto const result = judged();
-    if (result != Result::no_room || !has_reserve_) return result;
-    give_up_reserve();
+    auto result = attempt(changes);
+    if (result == Result::no_room && has_reserve_) {
+        give_up_reserve();
+        result = attempt(changes);
+    }
+    if (result == Result::stored) count_pages();
+    return result;
+}
+
+// Begins no step behind a long log, so that the log stays short.
+JournalFile::Result JournalFile::attempt(RecordChanges const& changes) {
+    if (auto const tidied = tidy(); tidied != Result::stored) return tidied;
     return write(changes) ? Result::stored : judged();
+}
+
+// Keeps the last number if SQLite has no memory to count.
+void JournalFile::count_pages() {
+    auto const count = [](Statement& statement) -> std::optional<std::int64_t> {
+        std::optional<std::int64_t> found;
+        if (sqlite3_step(statement.get()) == SQLITE_ROW) found = sqlite3_column_int64(statement.get(), 0);
+        sqlite3_reset(statement.get());
+        return found;
+    };
+    auto const all = count(pages_), free = count(free_pages_);
+    if (all && free) used_pages_ = *all - *free;
 }
 
 JournalFile::Result JournalFile::tidy() {

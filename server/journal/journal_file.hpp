@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -26,7 +27,8 @@ public:
 // Belongs to this process alone while it is open. Not thread-safe.
 class JournalFile {
 public:
-    // Makes the folder and the file if they do not exist. Throws BadJournal: the file is in use, damaged, of another program, or
+    // Makes the folder and the file if they do not exist. All files in the folder together take at most `most_bytes`, unless the
+    // database is larger already; then it does not grow. Throws BadJournal: the file is in use, damaged, of another program, or
     // of a later version.
     JournalFile(std::string const& folder, std::size_t most_bytes);
     ~JournalFile();
@@ -50,9 +52,9 @@ public:
     // Why the last `store` or `tidy` did not succeed.
     std::string const& problem() const { return problem_; }
 
-    // A part of the disk is kept for the ends of commands. Without it no command should begin. `keep_reserve` makes it again, if
-    // it can, at most once a second.
-    bool has_reserve() const { return has_reserve_; }
+    // A part of the disk and a part of the database are kept for the ends of commands. Without both, no command should begin.
+    // `keep_reserve` makes the part of the disk again, if it can, at most once a second.
+    bool has_reserve() const { return has_reserve_ && used_pages_ + spare_pages_ <= most_pages_; }
     void keep_reserve(Steady now);
 
 private:
@@ -68,8 +70,10 @@ private:
     bool run(char const* sql);
     std::int64_t number(char const* pragma);
     Statement prepared(char const* sql);
+    Result attempt(RecordChanges const&);
     bool write(RecordChanges const&);
     bool step(Statement&);
+    void count_pages();
     Result judged();
     bool note_failure();
     void give_up_reserve();
@@ -79,7 +83,10 @@ private:
     std::string reserve_;
     std::unique_ptr<sqlite3, Close> database_;
     int log_pages_ = 0;
-    Statement begin_, commit_, rollback_, set_, erase_, forget_, end_;
+    std::int64_t most_pages_ = 0;   // of the database
+    std::int64_t spare_pages_ = 0;  // of them: kept for the ends of commands
+    std::int64_t used_pages_ = 0;   // of them: with records
+    Statement begin_, commit_, rollback_, set_, erase_, forget_, end_, pages_, free_pages_;
     std::string problem_;
     int failure_ = 0;  // SQLite's code for it
     bool has_reserve_ = false;

@@ -5,9 +5,16 @@
 
 namespace rois::journal {
 
+namespace {
+
+constexpr auto no_room =
+    "the journal has no room, because the disk is full or state_bytes is reached: no command begins until it has";
+
+}  // namespace
+
 JournalWriter::JournalWriter(std::unique_ptr<JournalFile> file, Calls calls)
     : file_{std::move(file)}, calls_{std::move(calls)}, has_room_{file_->has_reserve()} {
-    if (!has_room_) calls_.say("the disk has no room for the journal: no command begins until it has");
+    if (!has_room_) calls_.say(no_room);
     thread_ = std::jthread{[this](std::stop_token const& stop) { run(stop); }};
 }
 
@@ -29,7 +36,7 @@ bool JournalWriter::finish(std::chrono::milliseconds longest) {
 
 std::string JournalWriter::why_no_commands() const {
     if (has_room_) return {};
-    return "the disk has no room for the journal: no command begins until it has";
+    return no_room;
 }
 
 // Looks now and then whether a full disk has room again, also without changes.
@@ -69,8 +76,7 @@ void JournalWriter::write(Changes const& changes) {
 void JournalWriter::note_room() {
     file_->keep_reserve(std::chrono::steady_clock::now());
     if (has_room_.exchange(file_->has_reserve()) == file_->has_reserve()) return;
-    calls_.say(file_->has_reserve() ? "the disk has room for the journal again"
-                                    : "the disk has no room for the journal: no command begins until it has");
+    calls_.say(file_->has_reserve() ? "the journal has room again" : no_room);
 }
 
 }  // namespace rois::journal

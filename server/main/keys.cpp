@@ -259,7 +259,8 @@ std::vector<Key> access_keys() {
          Key::Kind::text, [](GatewaySettings& s, std::string const& text) { return s.state = text, true; },
          [](GatewaySettings const& s) { return s.state; }},
         whole_number<std::size_t>(
-            "state_bytes", "maximum size of the journal", [](GatewaySettings & s) -> auto& { return s.state_bytes; }, 1e7, 1e12),
+            "state_bytes", "maximum bytes of all files in the journal's folder",
+            [](GatewaySettings & s) -> auto& { return s.state_bytes; }, 1e7, 1e12),
     };
 }
 

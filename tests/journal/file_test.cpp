@@ -5,6 +5,9 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -168,6 +171,60 @@ TEST_F(JournalsFile, ThatIsFullChangesNothingAndTakesMoreWhenThereIsRoom) {
     EXPECT_EQ(file.read().size(), session - 1);
     EXPECT_EQ(file.store({.ended = {1, 2}}), JournalFile::Result::stored);
     EXPECT_EQ(file.store({.set = {large(session)}}), JournalFile::Result::stored);
+}
+
+// A step that changes all records writes as many pages into SQLite's log as the database has.
+TEST_F(JournalsFile, TakesNoMoreThanItsLimitWithItsLogAndTheReserve) {
+    constexpr std::size_t most = 10'000'000;
+    auto const at = Steady::clock::now();
+    std::uintmax_t largest = 0;
+    std::uint64_t sessions = 0;
+    int refused = 0;
+    for (int start = 0; start < 4; ++start) {
+        JournalFile file{folder.name(), most};
+        for (int step = 1; step <= 20; ++step) {
+            auto const text = std::string(200'000, static_cast<char>('a' + step));
+            RecordChanges changes{.set = {record(sessions + 1, "large", text)}};
+            for (std::uint64_t session = 1; step % 3 == 0 && session <= sessions; ++session)
+                changes.set.push_back(record(session, "large", text));
+            auto const result = file.store(changes);
+            ASSERT_NE(result, JournalFile::Result::broken) << file.problem();
+            if (result == JournalFile::Result::stored) ++sessions;
+            if (result == JournalFile::Result::no_room) ++refused;
+            file.keep_reserve(at + std::chrono::hours{20 * start + step});
+            largest = std::max(largest, folder.bytes());
+            if (start % 2 == 1) file.tidy();
+        }
+        EXPECT_FALSE(file.has_reserve()) << "no command may begin";
+    }
+    EXPECT_GT(refused, 0);
+    EXPECT_GT(sessions, 5U);
+    EXPECT_LE(largest, most);
+    JournalFile file{folder.name(), most};
+    EXPECT_EQ(file.read().size(), sessions);
+    EXPECT_EQ(file.store({.ended = {1, 2, 3, 4, 5}}), JournalFile::Result::stored);
+    file.keep_reserve(at + std::chrono::hours{1'000});
+    EXPECT_TRUE(file.has_reserve()) << "commands may begin again";
+}
+
+TEST_F(JournalsFile, IsReadQuickly) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "sanitizers are slow";
+#endif
+    constexpr int many = 100'000;
+    RecordChanges changes;
+    for (int i = 0; i < many; ++i)
+        changes.set.push_back(record(static_cast<std::uint64_t>(i % 100), "command-" + std::to_string(i), std::string(200, 'x')));
+    store(changes);
+    JournalFile file{folder.name(), plenty};
+    auto const cpu_time = [] {
+        timespec used{};
+        ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+        return std::chrono::seconds{used.tv_sec} + std::chrono::nanoseconds{used.tv_nsec};
+    };
+    auto const begun = cpu_time();
+    EXPECT_EQ(file.read().size(), static_cast<std::size_t>(many));
+    EXPECT_LT(cpu_time() - begun, std::chrono::seconds{2});
 }
 
 }  // namespace rois::journal

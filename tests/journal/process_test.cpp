@@ -166,6 +166,63 @@ TEST_F(GatewayWithJournal, RefusesCommandsOnAFullDiskAndRecovers) {
                 ElementsAre("completed long ABORT", "completed s OK", "receive_error", "completed next ABORT"));
 }
 
+TEST_F(GatewayWithJournal, TakesAtMostStateBytesAndThenRefusesCommands) {
+    constexpr std::uintmax_t most = 10'000'000;
+    start({"--state-bytes", std::to_string(most)});
+    auto& desk = connected();
+    desk.call("bind", component_ref("speech_synthesis"));
+    std::uintmax_t largest = 0;
+    int subscriptions = 0;
+    std::vector<HttpClient*> subscribers;
+    auto const subscribe = [&] {
+        if (subscriptions % 4 == 0) subscribers.push_back(&connected());  // each session may have 1 MiB of conditions
+        auto const text = std::to_string(++subscriptions) + std::string(200'000, 'x');
+        auto const condition = where(either(equal("component_ref", "person_detection"), equal("component_ref", text)));
+        EXPECT_EQ(subscribers.back()->call("subscribe", text_element("event_type", "person_detected") + condition).return_code(),
+                  "OK");
+        largest = std::max(largest, folder.bytes());
+    };
+    auto next = long_speech;
+    auto const speak = [&] {
+        next.id = "speech-" + std::to_string(subscriptions);
+        return desk.call("execute", list(next));
+    };
+    while (speak().return_code() == "OK" && subscriptions < 100) subscribe();
+    auto const refused = speak();
+    EXPECT_EQ(refused.return_code(), "OUT_OF_RESOURCES") << refused.body;
+    EXPECT_THAT(refused.reason(), HasSubstr("state_bytes"));
+    for (int i = 0; i < 10; ++i) subscribe();
+    EXPECT_EQ(desk.call("execute", list({.component = "speech_synthesis", .type = "stop"})).return_code(), "OK");
+    EXPECT_LE(largest, most);
+    for (auto* const each : subscribers) {
+        EXPECT_EQ(each->call("disconnect").return_code(), "OK");
+        each->session.clear();
+    }
+    EXPECT_TRUE(eventually([&] { return speak().return_code() == "OK"; }));
+    EXPECT_LE(folder.bytes(), most);
+}
+
+// Without a session, SQLite must still move its log into the database. With one, its end must be stored, too.
+TEST_F(GatewayWithJournal, EndsInTimeWhileTheDiskIsSlow) {
+    for (bool const with_session : {false, true}) {
+        start();
+        auto& desk = connected();
+        desk.call("bind", component_ref("speech_synthesis"));
+        if (!with_session) desk.call("disconnect");
+        desk.session.clear();
+        let_disk_be("slow");
+        auto const begun = std::chrono::steady_clock::now();
+        gateway->signal(SIGTERM);
+        auto const ended = gateway->wait();
+        EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds{10});
+        EXPECT_EQ(ended.exit_code, 0) << ended.error;
+        EXPECT_THAT(ended.error, HasSubstr("the disk does not answer"));
+        let_disk_be("fine");
+        gateway.reset();
+        clients.clear();
+    }
+}
+
 TEST_F(GatewayWithJournal, StopsWhileTheDiskIsSlow) {
     start();
     auto& desk = connected();

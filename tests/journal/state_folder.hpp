@@ -3,9 +3,11 @@
 
 #include <stdlib.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace rois::test {
@@ -25,6 +27,16 @@ public:
 
     std::string const& name() const { return name_; }
     std::string file() const { return name_ + "/journal.db"; }
+    // The bytes of all files in it.
+    std::uintmax_t bytes() const {
+        std::uintmax_t sum = 0;
+        for (auto const& entry : std::filesystem::directory_iterator{name_}) {
+            std::error_code gone;
+            auto const size = entry.file_size(gone);
+            if (!gone) sum += size;
+        }
+        return sum;
+    }
     std::vector<std::string> arguments() const { return {"--state", name_}; }
 
 private:
