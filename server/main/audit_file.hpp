@@ -23,7 +23,7 @@ namespace rois {
 class AuditFile {
 public:
     struct Limits {
-        std::size_t bytes = std::size_t{10} << 20;  // of a file; then it becomes FILE.1, and FILE.1 becomes FILE.2
+        std::size_t bytes = std::size_t{10} << 20;  // of a file; then audit.log becomes audit.1.log, and that audit.2.log
         std::size_t files = 10;                     // that are kept besides the present one
         std::size_t waiting = 10'000;               // lines
         // Refusals of one token, or of all clients without one, in a second. Others are counted in the next line about them, so

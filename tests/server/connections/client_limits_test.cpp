@@ -192,6 +192,40 @@ TEST(EventStreams, OfASessionAreEightAtMost) {
     EXPECT_EQ(status, "200") << "one has closed";
 }
 
+TEST(EventStreams, OfASessionAreAsManyAsTheKeyAllows) {
+    GatewayProcess const gateway{{"--max-streams-per-session", "2"}};
+    HttpClient client{gateway}, first{gateway}, second{gateway}, third{gateway};
+    client.call("connect");
+    auto const status_of = [&](HttpClient& stream) {
+        return stream
+            .say("GET /rois/notifications HTTP/1.1\r\nHost: localhost\r\nAccept: text/event-stream\r\nRoIS-Session: " +
+                 client.session + "\r\n\r\n")
+            .status;
+    };
+    EXPECT_EQ(status_of(first), 200);
+    EXPECT_EQ(status_of(second), 200);
+    EXPECT_EQ(status_of(third), 429);
+}
+
+// A connection beyond the limit is not served before another one has closed.
+TEST(MediaConnections, AreAsManyAsTheKeyAllows) {
+    GatewayProcess gateway{{"--media", "127.0.0.1:0", "--max-media-connections", "1"}};
+    std::string const mark = "media are served under http://127.0.0.1:";
+    auto const log = gateway.log_with(mark);
+    auto const begin = log.find(mark);
+    ASSERT_NE(begin, log.npos) << log;
+    auto address = gateway.address();
+    address.port = static_cast<std::uint16_t>(std::stoi(log.substr(begin + mark.size())));
+    auto first = std::make_unique<Line>(address);
+    kit::HttpClient second{address};
+    second.line().send("GET /unknown HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    second.line().set_patience(std::chrono::milliseconds{500});
+    EXPECT_THROW(second.read(), LineEnded) << "the first connection is open";
+    first.reset();
+    second.line().set_patience(address.patience);
+    EXPECT_EQ(second.read().status, 404);
+}
+
 TEST(WebSocketWithoutASession, ClosesAfterAWhile) {
     GatewayProcess const gateway{{"--connect-timeout", "0.3", "--ping-interval", "5"}};
     WebSocketClient mute{gateway}, speaks{gateway}, left{gateway};

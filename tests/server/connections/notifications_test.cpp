@@ -115,6 +115,19 @@ TEST(LongPoll, RefusesBadNumbers) {
     EXPECT_EQ(client.get("/rois/notifications", {{"Accept", "text/event-stream"}, {"Last-Event-ID", "x"}}).status, 400);
 }
 
+TEST(LongPoll, WaitsAtMostAsLongAsTheKeyAllows) {
+    for (auto const& [most, beyond] : {std::pair{"2", "3"}, {"40", "41"}}) {
+        GatewayProcess const gateway{{"--max-poll-wait", most}};
+        HttpClient client{gateway};
+        bind_and_complete(client, 1);
+        EXPECT_THAT(sequences(client.get("/rois/notifications?wait=" + std::string{most})), ElementsAre(1));
+        auto const refused = client.get("/rois/notifications?wait=" + std::string{beyond});
+        EXPECT_EQ(refused.status, 400);
+        EXPECT_EQ(refused.reason(), "wait must be a whole number of seconds, " + std::string{most} +
+                                        " at most (max_poll_wait), not '" + beyond + "'");
+    }
+}
+
 TEST(LongPoll, RefusesAPositionThatWasNeverGivenOut) {
     HttpClient client;
     bind_and_complete(client, 3);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -244,6 +245,15 @@ TEST_F(Tokens, ThatAreWrongGet429AfterTenInAMinute) {
     EXPECT_EQ(guess(), 429);
 }
 
+TEST_F(Tokens, ThatAreWrongGet429AfterAsManyAsTheKeyAllows) {
+    file.add("desk", "operator");
+    GatewayProcess const gateway{file.of_gateway({"--max-wrong-tokens", "3"})};
+    HttpClient stranger{gateway};
+    auto const guess = [&] { return stranger.get("/rois/profile", {{"Authorization", "Bearer guess"}}).status; };
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(guess(), 401) << i;
+    EXPECT_EQ(guess(), 429);
+}
+
 TEST_F(Tokens, LetOnlyAdministratorsTakeOver) {
     auto const service = file.add("desk", "operator"), administrator = file.add("chief", "administrator");
     GatewayProcess const gateway{file.of_gateway({"--audit-log", file.folder() + "/audit.log"})};
@@ -304,6 +314,33 @@ TEST_F(Tokens, AreNamedInTheAuditLogAndNeverShown) {
         EXPECT_THAT(text, Not(HasSubstr(secret)));
     EXPECT_LT(std::ranges::count(text, '\n'), 60) << "refusals do not flood it";
     EXPECT_EQ(run_shell("stat -c %a " + log).out, "600\n");
+}
+
+// A bind and a release write two lines of about 100 bytes: 300 of each make more than three files of 10,000 bytes.
+TEST_F(Tokens, FillAsManyFilesOfTheAuditLogAsTheKeysAllow) {
+    auto const log = file.folder() + "/audit.log";
+    auto const token = file.add("desk", "operator");
+    {
+        GatewayProcess const gateway{
+            file.of_gateway({"--audit-log", log, "--audit-log-bytes", "10000", "--audit-log-files", "2"})};
+        kit::HttpClient desk{with_token(token, gateway)};
+        desk.call("connect");
+        for (int i = 0; i < 300; ++i) {
+            EXPECT_EQ(bind(desk, "navigation"), "OK");
+            EXPECT_EQ(outcome(desk, "release", component_ref("navigation")), "OK");
+        }
+    }
+    auto const size_of = [&](std::string const& name) {
+        std::error_code missing;
+        auto const size = std::filesystem::file_size(file.folder() + "/" + name, missing);
+        return missing ? 0 : size;
+    };
+    for (auto const* name : {"audit.log", "audit.1.log", "audit.2.log"}) {
+        EXPECT_GT(size_of(name), 0U) << name;
+        EXPECT_LE(size_of(name), 10'000U) << name;
+    }
+    EXPECT_GT(size_of("audit.1.log"), 9'000U);
+    EXPECT_FALSE(std::filesystem::exists(file.folder() + "/audit.3.log"));
 }
 
 TEST_F(Tokens, CountTheSessionsOfTheirHolders) {
