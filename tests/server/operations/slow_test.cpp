@@ -1,5 +1,7 @@
 // Requests behind one that a component does not answer (decisions 36 and 37).
 #include <algorithm>
+#include <chrono>
+#include <optional>
 #include <thread>
 
 #include "kit/profile_folder.hpp"
@@ -14,9 +16,17 @@ using kit::component_ref;
 
 // One component answers no queries. The gateway waits for it for `question_deadline`.
 struct SlowGateway : GatewayProcess {
-    explicit SlowGateway(std::string const& question_deadline)
-        : GatewayProcess{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/silent.xml", "--sim-speed", "20",
-                          "--question-deadline", question_deadline}} {}
+    explicit SlowGateway(std::string const& question_deadline, std::vector<std::string> const& more = {})
+        : GatewayProcess{arguments(question_deadline, more)} {}
+
+private:
+    static std::vector<std::string> arguments(std::string const& question_deadline, std::vector<std::string> const& more) {
+        std::vector<std::string> all{"--scenario",          ROIS_SOURCE_DIR "/tests/server/data/silent.xml",
+                                     "--sim-speed",         "20",
+                                     "--question-deadline", question_deadline};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
 };
 
 Xml position_query() { return text_element("query_type", "robot_position"); }
@@ -31,6 +41,42 @@ bool metrics_come_to(GatewayProcess& gateway, std::string const& line) {
         std::this_thread::sleep_for(5ms);
     }
     return false;
+}
+
+std::string post_in(std::string const& session, std::string const& body) {
+    return "POST /rois HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/xml\r\nRoIS-Session: " + session +
+           "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
+}
+
+Xml stop_of_speech() { return kit::sequence(kit::unit({.component = "speech_synthesis", .type = "stop", .id = "stop"})); }
+
+// The robot speaks. Two requests wait for a silent component, and a stop of the speech is behind them. `arrived` returns the
+// return code of the first answer if it has arrived. Expects that the stop does not act before.
+void expect_no_stop_before_the_first_answer(GatewayProcess& gateway, auto const& arrived) {
+    HttpClient observer{gateway};
+    std::optional<std::string> first;
+    while (!first) {
+        auto const metrics = observer.get("/metrics").body;
+        first = arrived();
+        if (!first) {
+            ASSERT_THAT(metrics, HasSubstr("rois_commands_completed_total{status=\"ABORT\"} 0\n"));
+        }
+    }
+    EXPECT_EQ(*first, "TIMEOUT");
+    EXPECT_TRUE(metrics_come_to(gateway, "rois_commands_completed_total{status=\"ABORT\"} 1")) << "then it acts";
+}
+
+// Calls `read` without waiting for bytes that have not arrived. Returns nothing if they have not.
+std::optional<std::string> read_now(Line& line, auto const& read) {
+    std::optional<std::string> found;
+    line.set_patience(0ms);
+    try {
+        found = read();
+    } catch (LineEnded const&) {
+        found.reset();
+    }
+    line.set_patience(20s);
+    return found;
 }
 
 struct Slow : testing::Test {
@@ -63,6 +109,46 @@ TEST_F(Slow, AStopBehindASlowQueryActsAtOnce) {
     desk.ask("query", position_query());
     desk.ask("execute", kit::sequence(kit::unit({.component = "navigation", .type = "stop", .id = "stop"})));
     EXPECT_TRUE(metrics_come_to(gateway, "rois_commands_completed_total{status=\"ABORT\"} 1"));
+}
+
+// With the default, which is 16, the stop acts at once.
+TEST(RequestsInFlight, OfAWebSocketAreAsManyAsTheKeyAllows) {
+    SlowGateway gateway{"1", {"--max-requests-in-flight", "2"}};
+    WebSocketClient desk{gateway};
+    desk.call("connect");
+    desk.call("bind", component_ref("speech_synthesis"));
+    EXPECT_EQ(return_code(desk.call("execute", kit::sequence(kit::unit(speak_long("speech"))))), "OK");
+    for (int i = 0; i < 2; ++i) desk.ask("query", position_query());
+    desk.ask("execute", stop_of_speech());
+    expect_no_stop_before_the_first_answer(
+        gateway, [&] { return read_now(desk.line(), [&] { return return_code(desk.next_document()); }); });
+}
+
+TEST(RequestsInFlight, OverHttpAreAsManyAsTheKeyAllows) {
+    SlowGateway gateway{"1", {"--max-requests-in-flight", "2"}};
+    HttpClient desk{gateway};
+    desk.call("connect");
+    desk.call("bind", component_ref("speech_synthesis"));
+    EXPECT_EQ(desk.call("execute", kit::sequence(kit::unit(speak_long("speech")))).return_code(), "OK");
+    auto const query = post_in(desk.session, kit::request("query", position_query()));
+    desk.line().send(query + query + post_in(desk.session, kit::request("execute", stop_of_speech())));
+    expect_no_stop_before_the_first_answer(gateway,
+                                           [&] { return read_now(desk.line(), [&] { return desk.read().return_code(); }); });
+    EXPECT_EQ(desk.read().return_code(), "TIMEOUT");
+    EXPECT_STREQ(desk.read().root().name(), "execute_response");
+}
+
+// The counter-case over HTTP.
+TEST(AnswersBehindASlowOne, DoNotKeepAStopFromActingOverHttp) {
+    SlowGateway gateway{"60"};
+    HttpClient desk{gateway};
+    desk.call("connect");
+    desk.call("bind", component_ref("speech_synthesis"));
+    EXPECT_EQ(desk.call("execute", kit::sequence(kit::unit(speak_long("speech")))).return_code(), "OK");
+    auto const query = post_in(desk.session, kit::request("query", position_query()));
+    desk.line().send(query + query + post_in(desk.session, kit::request("execute", stop_of_speech())));
+    EXPECT_TRUE(metrics_come_to(gateway, "rois_commands_completed_total{status=\"ABORT\"} 1"));
+    desk.session.clear();
 }
 
 TEST_F(Slow, ADelayedAnswerHoldsBackNothingElse) {
@@ -144,10 +230,7 @@ TEST(AnswersBehindASlowOne, KeepTheOrderOfTheirRequestsOverHttp) {
     SlowGateway gateway{"0.5"};
     HttpClient desk{gateway};
     desk.call("connect");
-    auto const post = [&](std::string const& body) {
-        return "POST /rois HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/xml\r\nRoIS-Session: " + desk.session +
-               "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
-    };
+    auto const post = [&](std::string const& body) { return post_in(desk.session, body); };
     auto const query = post(kit::request("query", position_query()));
     EXPECT_EQ(desk.say(query + post(kit::request("search")) +
                            "POST /rois/stop HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n\r\n" +
