@@ -1,9 +1,12 @@
-// Hostile documents: they leave no memory in use, and each of many thousands is answered.
+// Hostile documents: they leave no memory in use, they take little time, and each of many thousands is answered.
 #include <algorithm>
+#include <chrono>
 #include <random>
+#include <string>
 #include <thread>
 #include <vector>
 
+#include "kit/cpu_time.hpp"
 #include "xml/speaking.hpp"
 #include "xml/validation/grammars.hpp"
 #include "xml/validation/validator.hpp"
@@ -55,6 +58,90 @@ TEST(HostileDocument, ForeignNamespacesNeverReachTheGrammars) {
         EXPECT_EQ(std::get<Fault>(answer).code, FaultCode::invalid);
     }
     EXPECT_EQ(pool.getStringCount(), names);
+}
+
+// A document at one of the limits. `how` names the limit, for messages.
+struct Worst {
+    std::string how;
+    std::string text;
+};
+
+// Repeats `one` as often as it fits between the others into a document of 1 MiB.
+std::string filled(std::string const& before, std::string const& one, std::string const& after) {
+    auto const room = DocumentLimits{}.bytes - before.size() - after.size();
+    std::string text = before;
+    for (auto times = room / one.size(); times > 0; --times) text += one;
+    return text + after;
+}
+
+std::string times(std::size_t many, std::string const& one) {
+    std::string all;
+    for (std::size_t i = 0; i < many; ++i) all += one;
+    return all;
+}
+
+std::vector<Worst> worst_documents() {
+    DocumentLimits const limits;
+    std::string const whole = document("search", "|");
+    auto const bar = whole.find('|');
+    auto const begin = whole.substr(0, bar), end = whole.substr(bar + 1);
+    std::string const filter = begin + "<condition><fes:Filter>", filter_end = "</fes:Filter></condition>" + end;
+    auto const comparison = [](std::string const& literal, std::string const& attributes = {}) {
+        return "<fes:PropertyIsEqualTo" + attributes + "><fes:ValueReference>name</fes:ValueReference><fes:Literal>" + literal +
+               "</fes:Literal></fes:PropertyIsEqualTo>";
+    };
+    auto const nots = limits.depth - 5;                  // besides search, condition, Filter, the comparison and its reference
+    auto const comparisons = (limits.elements - 4) / 3;  // besides search, condition, Filter and Or
+    std::string declarations;
+    for (std::size_t i = 1; i < limits.attributes; ++i)
+        declarations += " xmlns:n" + std::to_string(i) + "='http://www.omg.org/spec/RoIS/20240801'";
+    std::string many_names, nested_names, closing;
+    for (std::size_t i = 1; i < limits.elements; ++i) {
+        auto const name = "n" + std::to_string(i) + std::string(180, 'x');
+        many_names += "<" + name + "/>";
+        if (i >= limits.depth) continue;
+        nested_names += "<" + name + times(limits.attributes, " a" + name + "=''") + ">";
+        closing.insert(0, "</" + name + ">");
+    }
+    return {
+        {"nested predicates", filter + times(nots, "<fes:Not>") + comparison("x") + times(nots, "</fes:Not>") + filter_end},
+        {"many predicates", filter + "<fes:Or>" + times(comparisons, comparison("x")) + "</fes:Or>" + filter_end},
+        {"namespace declarations", filled(filter + "<fes:Or>", comparison("x", declarations), "</fes:Or>" + filter_end)},
+        {"many names", begin + many_names + end},
+        {"long names, nested, with the same attribute again and again", begin + nested_names + closing + end},
+        {"a long text", filled(filter + comparison("x").substr(0, comparison("").find("</fes:Literal>")), "x",
+                               comparison("").substr(comparison("").find("</fes:Literal>")) + filter_end)},
+        {"references", filled(filter + comparison("x").substr(0, comparison("").find("</fes:Literal>")), "&amp;",
+                              comparison("").substr(comparison("").find("</fes:Literal>")) + filter_end)},
+        {"white space", filled(begin, " \n", end)},
+        {"comments", filled(begin, "<!---->", end)},
+        {"CDATA sections", filled(begin, "<![CDATA[ ]]>", end)},
+        {"begun comments", filled(begin, "<!--", end)},
+        {"begun tags", filled(begin, "<", end)},
+        {"ended tags", filled(begin, "</search>", end)},
+        {"lines without an end", filled(begin, "<a\n", end)},
+    };
+}
+
+TEST(HostileDocument, AtTheLimitsTakesLessThanASecond) {
+    constexpr std::chrono::seconds most{kit::has_sanitizer ? 15 : 1};
+    for (auto const validation : {Validation::fast, Validation::full}) {
+        RequestReader reader{schemas(), {}, validation};
+        reader.read(document("connect"));  // the first document creates the parser
+        for (auto const& [how, text] : worst_documents()) {
+            ASSERT_LE(text.size(), DocumentLimits{}.bytes) << how;
+            EXPECT_LT(kit::cpu_time_of([&] { reader.read(text); }), most) << how;
+        }
+    }
+}
+
+TEST(HostileDocument, IsReadIfItOnlyReachesALimit) {
+    for (auto const& [how, text] : worst_documents()) {
+        if (how != "nested predicates" && how != "many predicates" && how != "a long text" && how != "comments") continue;
+        auto const answer = read(text);
+        auto const* const refused = std::get_if<Fault>(&answer);
+        EXPECT_EQ(refused, nullptr) << how << ": " << refused->reason;
+    }
 }
 
 // Returns the text with one to three random changes.
