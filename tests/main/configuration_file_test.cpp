@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "main/configuration_file.hpp"
 #include "main/keys.hpp"
 #include "main/temporary_file.hpp"
@@ -92,6 +95,33 @@ TEST(Keys, ChangeNothingIfAValueIsInvalid) {
         if (key.kind != Key::Kind::number) continue;
         EXPECT_FALSE(key.set(settings, "x")) << key.name;
         EXPECT_EQ(key.show(settings), key.show(GatewaySettings{})) << key.name;
+    }
+}
+
+// Finds two keys that set the same member of the settings.
+TEST(Keys, SetOnlyTheirOwnValue) {
+    GatewaySettings const before;
+    for (auto const& key : keys()) {
+        GatewaySettings after;
+        auto const changes = [&](char const* value) { return key.set(after, value) && key.show(after) != key.show(before); };
+        bool const changed = std::ranges::any_of(std::array{"0.5",         "3",
+                                                            "7",           "300",
+                                                            "2000",        "100000",
+                                                            "20000000",    "x",
+                                                            "127.0.0.1:1", "https://a.example",
+                                                            "192.0.2.1",   "ws://a.example:1",
+                                                            "100MiB",      "json",
+                                                            "debug",       "none",
+                                                            "on",          "yes",
+                                                            "any",         "required",
+                                                            "continue",    "full"},
+                                                 changes);
+        EXPECT_TRUE(changed) << key.name << ": no value of this test fits";
+        for (auto const& other : keys()) {
+            if (other.name != key.name) {
+                EXPECT_EQ(other.show(after), other.show(before)) << key.name << " changes " << other.name;
+            }
+        }
     }
 }
 
