@@ -362,7 +362,7 @@ std::vector<Key> network_keys() {
          show_proxies},
         whole_number<std::size_t>(
             "max_requests_in_flight",
-            "maximum number of answers that wait for a WebSocket; the gateway then stops reading from it",
+            "maximum number of answers of a connection that wait to be sent; the gateway then stops reading from it",
             [](GatewaySettings & s) -> auto& { return s.net.max_requests_in_flight; }, 1, 1'024),
         whole_number<std::size_t>(
             "max_body", "maximum bytes of a request document", [](GatewaySettings & s) -> auto& { return s.net.document.bytes; },

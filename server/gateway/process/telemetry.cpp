@@ -212,7 +212,7 @@ private:
                 static_cast<double>(numbers.stored));
         counter("rois_journal_failures_total", "How often changes could not be stored in the journal.",
                 static_cast<double>(numbers.not_stored));
-        gauge("rois_journal_has_room", "1 if the disk has room for the journal, so that commands may begin.", numbers.has_room);
+        gauge("rois_journal_has_room", "1 if the journal has room, so that commands may begin.", numbers.has_room);
     }
 
     void begin(std::string name, std::string help, MetricType type) {
