@@ -40,10 +40,10 @@ public:
     // Changes this engine's components. Throws std::exception with the reason if it refuses. Returns why frames and places are
     // left out.
     virtual std::vector<std::string> change(ComponentChange) = 0;
-    // The session before a restart of this engine; it is asked for once. The session now. The ends of commands of the earlier
-    // one.
+    // The session before a restart of this engine; it is asked for once. The session now: calls `then`, on any thread, when it is
+    // stored for the time after a restart. The ends of commands of the earlier one.
     virtual Engine::EarlierSession earlier_session(std::string const& sub_engine) = 0;
-    virtual void session_opened(std::string const& sub_engine, SessionId const&) = 0;
+    virtual void session_opened(std::string const& sub_engine, SessionId const&, std::function<void()> then) = 0;
     virtual void commands_ended(std::string const& sub_engine, std::vector<CommandEnded>) = 0;
     // Returns the reason if one of these instances is this engine, or belongs to another sub engine. Otherwise assigns them to
     // this sub engine, instead of its earlier ones, and returns nothing. Instances of an entry with `engine` belong to no sub
@@ -119,6 +119,7 @@ private:
     bool is_flooded();
     void go_on_when_handled(std::uint64_t era);
     void opened(Connect::Reply const&);
+    void begin_session(SessionId const&);
     void resumed(ReturnCode);
     void session_ended();
     void forget_session();

@@ -123,7 +123,9 @@ private:
 
     std::vector<std::string> change(ComponentChange change) override { return host_.change(std::move(change)); }
     Engine::EarlierSession earlier_session(std::string const& sub_engine) override { return host_.earlier_session(sub_engine); }
-    void session_opened(std::string const& sub_engine, SessionId const& id) override { host_.session_opened(sub_engine, id); }
+    void session_opened(std::string const& sub_engine, SessionId const& id, std::function<void()> then) override {
+        host_.session_opened(sub_engine, id, std::move(then));
+    }
     void commands_ended(std::string const& sub_engine, std::vector<CommandEnded> ended) override {
         host_.commands_ended(sub_engine, std::move(ended));
     }

@@ -33,8 +33,8 @@ public:
         std::function<Engine::EarlierSession(std::string const& engine)> earlier_session = [](std::string const&) {
             return Engine::EarlierSession{};
         };
-        std::function<void(std::string const& engine, SessionId const&)> session_opened = [](std::string const&,
-                                                                                             SessionId const&) {};
+        std::function<void(std::string const& engine, SessionId const&, std::function<void()> then)> session_opened =
+            [](std::string const&, SessionId const&, std::function<void()> const& then) { then(); };
         std::function<void(std::string const& engine, std::vector<CommandEnded>)> commands_ended =
             [](std::string const&, std::vector<CommandEnded> const&) {};
     };

@@ -237,8 +237,19 @@ void RemoteEngine::take(xml::NumberedNotification const& notification) {
 
 void RemoteEngine::opened(Connect::Reply const& reply) {
     if (reply.return_code != ReturnCode::ok) return give_up_link("no session: " + reply.reason);
-    session_ = reply.session;
-    host_->session_opened(settings_.name, session_);
+    auto begin = [weak = weak_from_this(), era = era_, session = reply.session] {
+        auto const self = weak.lock();
+        if (!self) return;
+        self->run([era, session](RemoteEngine& engine) {
+            if (engine.era_ == era && !engine.is_open_) engine.begin_session(session);
+        });
+    };
+    host_->session_opened(settings_.name, reply.session, std::move(begin));
+}
+
+// The session is stored: if this engine dies, the next one knows it.
+void RemoteEngine::begin_session(SessionId const& session) {
+    session_ = session;
     is_given_up_ = false;
     subscribed_.clear();
     last_sequence_ = 0;

@@ -201,9 +201,10 @@ public:
     // Lets the engine handle what components have reported.
     void handle_reports();
 
-    // After a restart (Engine::earlier_session).
+    // After a restart (Engine::earlier_session). `then` is called when the session is stored, or at once without a journal: with
+    // the gateway locked, on any thread.
     Engine::EarlierSession earlier_session(std::string const& provider) const;
-    void session_opened_there(std::string const& provider, SessionId const&);
+    void session_opened_there(std::string const& provider, SessionId const&, std::function<void()> then);
     void ended_there(std::string const& provider, std::vector<CommandEnded>);
 
     // Called by the journal: the engine's changes were stored, or could not be.

@@ -28,9 +28,10 @@ Engine::EarlierSession Gateway::earlier_session(std::string const& provider) con
     return engine_.earlier_session(provider);
 }
 
-void Gateway::session_opened_there(std::string const& provider, SessionId const& id) {
+void Gateway::session_opened_there(std::string const& provider, SessionId const& id, std::function<void()> then) {
     Lock const lock{*this};
     engine_.session_opened_there(provider, id);
+    engine_.when_stored(std::move(then));
 }
 
 void Gateway::ended_there(std::string const& provider, std::vector<CommandEnded> ended) {

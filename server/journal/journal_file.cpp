@@ -212,6 +212,10 @@ bool JournalFile::note_failure() {
 
 bool JournalFile::write(RecordChanges const& changes) {
     if (!step(begin_)) return false;
+    for (auto const session : changes.ended) {  // first: they make room
+        put(end_.get(), 1, session);
+        if (!step(end_)) return false;
+    }
     for (auto const& key : changes.gone) {
         put(erase_.get(), 1, key);
         if (!step(erase_)) return false;
@@ -225,10 +229,6 @@ bool JournalFile::write(RecordChanges const& changes) {
         put(set_.get(), 4, record.value);
         put(set_.get(), 5, sum_of(record));
         if (!step(set_)) return false;
-    }
-    for (auto const session : changes.ended) {
-        put(end_.get(), 1, session);
-        if (!step(end_)) return false;
     }
     return step(commit_);
 }

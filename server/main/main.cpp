@@ -334,7 +334,10 @@ int serve(CommandLine const& command) {
             .report = [](std::string const& name, std::string const& what) { spdlog::info("{}: {}", name, what); },
             .token = [&](std::string const& name) { return program_tokens.make(name); },
             .earlier_session = [&](std::string const& name) { return gateway.earlier_session(name); },
-            .session_opened = [&](std::string const& name, SessionId const& id) { gateway.session_opened_there(name, id); },
+            .session_opened =
+                [&](std::string const& name, SessionId const& id, std::function<void()> then) {
+                    gateway.session_opened_there(name, id, std::move(then));
+                },
             .commands_ended = [&](std::string const& name,
                                   std::vector<CommandEnded> ended) { gateway.ended_there(name, std::move(ended)); }});
         engine.add(remote_engines->pulse(), "pulse");

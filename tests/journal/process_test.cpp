@@ -198,7 +198,7 @@ TEST_F(GatewayWithJournal, TakesAtMostStateBytesAndThenRefusesCommands) {
         EXPECT_EQ(each->call("disconnect").return_code(), "OK");
         each->session.clear();
     }
-    EXPECT_TRUE(eventually([&] { return speak().return_code() == "OK"; }));
+    EXPECT_TRUE(eventually([&] { return speak().return_code() == "OK"; })) << speak().body;
     EXPECT_LE(folder.bytes(), most);
 }
 

@@ -154,8 +154,14 @@ public:
     Engine::EarlierSession earlier_session(std::string const& name) override {
         return engines_.main.engine->earlier_session(name);
     }
-    void session_opened(std::string const& name, SessionId const& id) override {
-        engines_.main.engine->session_opened_there(name, id);
+    void session_opened(std::string const& name, SessionId const& id, std::function<void()> then) override {
+        auto& engine = *engines_.main.engine;
+        engine.and_work(
+            [&] {
+                engine.session_opened_there(name, id);
+                engine.when_stored(std::move(then));
+            },
+            engines_.main.now);
     }
     void commands_ended(std::string const& name, std::vector<CommandEnded> ended) override {
         auto& engine = *engines_.main.engine;

@@ -53,6 +53,27 @@ struct Client {
     std::map<std::string, std::uint64_t> last_event{};  // by subscription and component
 };
 
+// --- What things are called ---
+
+inline char const* name_of(Client const& client) {
+    constexpr std::array names{"the operator", "the operator of one", "the observer", "the administrator"};
+    return names[static_cast<std::size_t>(client.role)];
+}
+
+inline char const* name_of(Asked::What what) {
+    constexpr std::array names{"subscribe", "bind", "release", "start", "stop", "suspend", "resume"};
+    return names[static_cast<std::size_t>(what)];
+}
+
+inline std::string id_of(std::uint64_t command) { return "c" + std::to_string(command); }
+
+inline std::uint64_t number_in(std::string const& text) { return std::stoull(text.substr(text.find_first_of("0123456789"))); }
+
+// Starts a component with the number of the command.
+CommandUnit start_of(std::string const& ref, std::uint64_t number);
+
+inline bool is_in_hall(std::string const& ref) { return ref.starts_with("hall."); }
+
 class Schedule {
 public:
     // `story`: what happens, for people; null: not needed.
@@ -134,6 +155,7 @@ private:
     std::map<std::uint64_t, Command> commands_;
     enum class Stops : std::uint8_t { no, asked, promised } stops_ = Stops::no;
     unsigned stops_asked_ = 0;
+    bool disk_has_failed_ = false;
     bool is_written_ = false;  // while the engine learns that the disk has written
     std::vector<std::string> broken_;
 };

@@ -64,6 +64,10 @@ void Recorder::Collected::forget(Session& session) {
     sessions.erase(&session);
     with_news.erase(&session);
     std::erase_if(commands, [&](auto const& command) { return command->session == &session || command->session == nullptr; });
+    auto const is_of_it = [&](auto const& each) { return each.session == session.number; };
+    std::erase_if(others.subscriptions, is_of_it);
+    std::erase_if(others.unsubscribed, is_of_it);
+    std::erase_if(others.forgotten_commands, is_of_it);
 }
 
 // The changes of `earlier` that are still true come before these.
@@ -98,9 +102,9 @@ void Recorder::changed(Session& session) {
 
 void Recorder::ended(Session& session) {
     if (!stores(session)) return;
-    changed_.others.ended.push_back(session.number);
     changed_.forget(session);
     given_.forget(session);
+    changed_.others.ended.push_back(session.number);
     session.is_stored = false;
 }
 
