@@ -227,6 +227,8 @@ void Schedule::pass(std::chrono::milliseconds time) {
         for (auto const& client : clients_)
             if (client.is_linked && client.is_alive) engine().note_pong(client.session, main().now);
         engines_ ? engines_->advance(50ms) : alone_->advance(50ms);
+        disk_is_slow_for_ = journal().has_waiting() ? disk_is_slow_for_ + 50ms : 0ms;
+        disk_has_failed_ = disk_has_failed_ || disk_is_slow_for_ >= 1s;
         take_answers(false);
         check_motion();
     }

@@ -156,6 +156,7 @@ private:
     enum class Stops : std::uint8_t { no, asked, promised } stops_ = Stops::no;
     unsigned stops_asked_ = 0;
     bool disk_has_failed_ = false;
+    std::chrono::milliseconds disk_is_slow_for_{0};
     bool is_written_ = false;  // while the engine learns that the disk has written
     std::vector<std::string> broken_;
 };
