@@ -29,13 +29,14 @@ protected:
     // Repeats the request on new connections: the first one may have been cut.
     static HttpReply ask(GatewayProcess const& gateway, std::string const& session, auto const& what) {
         for (int tries = 0;; ++tries) {
+            HttpClient client{gateway};
+            client.session = session;
             try {
-                HttpClient client{gateway};
-                client.session = session;
                 auto const reply = what(client);
                 client.session.clear();
                 return reply;
             } catch (LineEnded const&) {
+                client.session.clear();  // the session goes on
                 if (tries == 20) throw;
                 std::this_thread::sleep_for(20ms);
             }
