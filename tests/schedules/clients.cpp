@@ -1,4 +1,4 @@
-// What the clients of a schedule do, what they are promised, and what they receive.
+// The clients of a schedule: their operations, and the promises and notifications that they get.
 #include <algorithm>
 #include <utility>
 
@@ -139,7 +139,7 @@ void Schedule::take_answers(bool written) {
     }
 }
 
-// An answer that comes before the disk has written is no promise if it may come while the journal fails.
+// An answer before the disk has written is not a promise if it may come while the journal fails.
 void Schedule::note(Client& client, Asked const& asked, Reply const& reply, bool written) {
     auto const& outcome = outcome_of(reply);
     tell("answer to", name_of(client), asked.ref, asked.number == 0 ? "" : id_of(asked.number), to_text(outcome.return_code),

@@ -12,7 +12,7 @@ namespace {
 using Then = MemoryJournal::Then;
 using What = Asked::What;
 
-// How long a robot may move when nobody is there who could stop it: the motion lease, and in a sub engine the time to notice
+// How long a robot may move without a client that could stop it: the motion lease, and in a sub engine the time to notice
 // that the link has gone.
 constexpr auto longest_motion = 2'500ms;
 constexpr auto longest_motion_in_hall = 6s;
@@ -242,7 +242,7 @@ void Schedule::check_motion() {
         bool const is_attended = owner.is_linked && owner.is_alive && !(is_in_hall(ref) && engines_->is_cut());
         if (is_attended) motion.unattended_since = now;
         auto const longest = is_in_hall(ref) ? std::chrono::milliseconds{longest_motion_in_hall} : longest_motion;
-        expect(now - motion.unattended_since <= longest, "a robot does not move on when nobody can stop it", ref);
+        expect(now - motion.unattended_since <= longest, "a robot does not move on without a client that can stop it", ref);
     }
 }
 

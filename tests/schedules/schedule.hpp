@@ -137,11 +137,11 @@ private:
     std::vector<std::string> refs_;
     std::array<Client, 4> clients_;
 
-    // What a robot does, as seen from outside.
+    // The motion of a robot, as seen from outside.
     struct Motion {
         std::uint64_t command = 0;  // 0: it stands still
         std::uint64_t suspended = 0;
-        Steady unattended_since{};  // nobody is there who could stop it
+        Steady unattended_since{};  // without a client that could stop it
     };
     std::map<std::string, Motion> motions_;  // by component
 

@@ -234,7 +234,7 @@ def shown(answers):
 
 
 def run(address, name, octets, expected, rng):
-    """Returns what was wrong."""
+    """Returns the first difference, or None."""
     for way, pieces in in_pieces(octets, rng):
         peer = Peer(address)
         with peer.socket:
