@@ -97,13 +97,14 @@ void JournalFile::Close::operator()(sqlite3* database) const { sqlite3_close(dat
 void JournalFile::Close::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 
 JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
-    : name_{folder + "/journal.db"}, reserve_{folder + "/reserve"} {
+    : name_{folder + "/journal.db"},
+      reserve_{folder + "/reserve"},
+      log_pages_{longest_log},  // an earlier process may have left a long log
+      most_pages_{most_pages(most_bytes)} {
     make_folder(folder);
     bool const is_new = make_file(name_);
     open();
     check_header(is_new);
-    log_pages_ = longest_log;  // an earlier process may have left a long log
-    most_pages_ = most_pages(most_bytes);
     spare_pages_ = std::min<std::int64_t>(reserve_bytes / page, most_pages_ / 4);
     number(("PRAGMA max_page_count = " + std::to_string(most_pages_)).c_str());
     begin_ = prepared("BEGIN IMMEDIATE");

@@ -60,11 +60,12 @@ void JournalWriter::run(std::stop_token const& stop) {
 
 void JournalWriter::write(Changes const& changes) {
     auto result = JournalFile::Result::no_room;
-    std::string problem = "there is no memory";
+    std::string problem;
     try {
         result = file_->store(records_of(changes));
         problem = file_->problem();
     } catch (std::bad_alloc const&) {
+        problem = "there is no memory";
     }
     if (result == JournalFile::Result::broken) return calls_.broken(file_->name() + ": " + problem);
     bool const stored = result == JournalFile::Result::stored;

@@ -131,7 +131,7 @@ void Schedule::happen_to_robot(std::string const& ref) {
         case 3:
             acts.halts_later = one_in(3);
             break;
-        case 4:
+        default:
             acts.stands_still();
             break;
     }

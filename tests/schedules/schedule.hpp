@@ -147,7 +147,7 @@ private:
 
     std::uint64_t last_number_ = 0;  // of commands and events
     struct Command {
-        Client* by;
+        Client* by = nullptr;
         bool has_run = false;
         bool has_finished = false;  // the robot says so
         bool is_refused = false;

@@ -194,9 +194,10 @@ void Executor::run_start(SharedCommand const& command, Instant now) {
 
 void Executor::store_arguments(Command const& command) {
     auto& component = *command.component;
-    auto const before = recorder_.is_on() ? component.parameters : ParameterList{};
+    bool const is_stored = command.session != nullptr && recorder_.stores(*command.session);
+    auto const before = is_stored ? component.parameters : ParameterList{};
     component.parameters = component.merged(std::move(component.parameters), command.arguments);
-    if (recorder_.is_on() && component.parameters != before) recorder_.changed(*command.session);
+    if (is_stored && component.parameters != before) recorder_.changed(*command.session);
 }
 
 void Executor::go_on_with_start(SharedCommand const& command, Instant now) {

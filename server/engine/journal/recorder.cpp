@@ -190,7 +190,7 @@ void Recorder::give(StoredEngine const& engine) noexcept {
     }
 }
 
-void Recorder::call(std::vector<Then> list, bool stored, Instant now, Attempts& attempts) {
+void Recorder::call(std::vector<Then> const& list, bool stored, Instant now, Attempts& attempts) {
     for (auto const& then : list) attempts([&] { then(stored, now); });
 }
 

@@ -89,7 +89,7 @@ private:
 
     std::shared_ptr<Changes> changes(StoredEngine const&, std::vector<Shown>&);
     void add_notifications(Session&, Changes&, std::vector<Shown>&);
-    static void call(std::vector<Then> list, bool stored, Instant now, Attempts&);
+    static void call(std::vector<Then> const& list, bool stored, Instant now, Attempts&);
 
     Outbox& readers_;
     Sessions const& sessions_;
