@@ -21,7 +21,8 @@ fail() {
 ip link set lo up
 unshare --net sleep 300 &
 peer=$!
-until [[ $(readlink /proc/$peer/ns/net) != $(readlink /proc/$$/ns/net) ]]; do :; done
+own=$(readlink /proc/$$/ns/net)
+until namespace=$(readlink /proc/$peer/ns/net) && [[ $namespace != "$own" ]]; do :; done
 of_peer() { nsenter --target $peer --net "$@"; }
 ip link add robot type veth peer name desk netns $peer
 ip address add 10.9.0.1/24 dev robot
