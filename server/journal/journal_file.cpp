@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "journal/log_check.hpp"
 #include "types/text/texts.hpp"
 #include "types/unique_descriptor.hpp"
 
@@ -81,13 +82,21 @@ void make_folder(std::string const& folder) {
         throw BadJournal{"state: cannot make the folder " + rois::quoted(folder) + ": " + std::strerror(errno)};
 }
 
+// The file may come from a copy that everyone may read.
+void keep_to_owner(int file, std::string const& name) {
+    if (::fchmod(file, S_IRUSR | S_IWUSR) == 0) return;
+    throw BadJournal{"state: cannot make " + rois::quoted(name) + " readable for its owner only: " + std::strerror(errno)};
+}
+
 // Returns whether the file is empty. Makes it if it does not exist: SQLite would let everyone read it.
 bool make_file(std::string const& name) {
     UniqueDescriptor const file{::open(name.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, S_IRUSR | S_IWUSR)};
     struct stat found {};
+    if (file.get() < 0 && errno == ELOOP) throw BadJournal{"state: " + rois::quoted(name) + " is a symbolic link"};
     if (file.get() < 0 || ::fstat(file.get(), &found) != 0)
         throw BadJournal{"state: cannot write " + rois::quoted(name) + ": " + std::strerror(errno)};
     if (!S_ISREG(found.st_mode)) throw BadJournal{"state: " + rois::quoted(name) + " is not a file"};
+    keep_to_owner(file.get(), name);
     return found.st_size == 0;
 }
 
@@ -103,6 +112,7 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
       most_pages_{most_pages(most_bytes)} {
     make_folder(folder);
     bool const is_new = make_file(name_);
+    check_log(is_new);
     open();
     check_header(is_new);
     spare_pages_ = std::min<std::int64_t>(reserve_bytes / page, most_pages_ / 4);
@@ -124,6 +134,19 @@ JournalFile::~JournalFile() = default;
 
 void JournalFile::refuse(std::string const& why) const { throw BadJournal{"state: " + rois::quoted(name_) + " " + why}; }
 
+// SQLite would drop what is behind a damaged place in its log, as after a write that was cut short.
+void JournalFile::check_log(bool is_new) const {
+    auto const log = name_ + "-wal";
+    UniqueDescriptor const file{::open(log.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
+    if (file.get() < 0 && errno == ENOENT) return;
+    struct stat found {};
+    if (file.get() < 0 || ::fstat(file.get(), &found) != 0 || !S_ISREG(found.st_mode))
+        throw BadJournal{"state: cannot read " + rois::quoted(log)};
+    keep_to_owner(file.get(), log);
+    if (is_new && found.st_size > 0) refuse("is missing or empty, and its log " + rois::quoted(log) + " is not");
+    if (is_damaged_log(file.get())) throw BadJournal{"state: " + rois::quoted(log) + " is damaged"};
+}
+
 void JournalFile::open() {
     sqlite3* opened = nullptr;
     auto const result = sqlite3_open_v2(name_.c_str(), &opened, SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX, nullptr);
@@ -136,7 +159,9 @@ void JournalFile::open() {
 // Looks who made the file before it changes anything.
 void JournalFile::check_header(bool is_new) {
     auto const refuse_by = [&](int code) {
-        if ((code & 0xff) == SQLITE_BUSY) refuse("is in use by another gateway");
+        if ((code & 0xff) == SQLITE_BUSY) refuse("is in use by another gateway or program");
+        if ((code & 0xff) == SQLITE_READONLY)
+            refuse(std::string{"or its folder cannot be written: "} + sqlite3_errmsg(database_.get()));
         if ((code & 0xff) == SQLITE_NOTADB) refuse("is not a journal of rois-gateway, or it is damaged");
         refuse(std::string{"cannot be read, it may be damaged: "} + sqlite3_errmsg(database_.get()));
     };
@@ -165,6 +190,9 @@ void JournalFile::check_pages() {
     auto const check = prepared("PRAGMA quick_check(1)");
     auto const result = sqlite3_step(check.get());
     if (result != SQLITE_ROW || text_at(check.get(), 0) != "ok") refuse("is damaged");
+    auto const parts = prepared("SELECT sql FROM sqlite_schema");
+    bool const is_ours = sqlite3_step(parts.get()) == SQLITE_ROW && text_at(parts.get(), 0) == table;
+    if (!is_ours || sqlite3_step(parts.get()) != SQLITE_DONE) refuse("has other tables than a journal of rois-gateway");
 }
 
 bool JournalFile::run(char const* sql) { return sqlite3_exec(database_.get(), sql, nullptr, nullptr, nullptr) == SQLITE_OK; }
@@ -298,7 +326,8 @@ void JournalFile::keep_reserve(Steady now) {
     if (has_reserve_ || (tried_ && now - *tried_ < std::chrono::seconds{1})) return;
     tried_ = now;
     UniqueDescriptor const file{::open(reserve_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR)};
-    has_reserve_ = file.get() >= 0 && ::posix_fallocate(file.get(), 0, reserve_bytes) == 0;
+    has_reserve_ =
+        file.get() >= 0 && ::fchmod(file.get(), S_IRUSR | S_IWUSR) == 0 && ::posix_fallocate(file.get(), 0, reserve_bytes) == 0;
     if (!has_reserve_) ::unlink(reserve_.c_str());
 }
 

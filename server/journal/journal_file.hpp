@@ -64,6 +64,7 @@ private:
     };
     using Statement = std::unique_ptr<sqlite3_stmt, Close>;
 
+    void check_log(bool is_new) const;
     void open();
     void check_header(bool is_new);
     void check_pages();

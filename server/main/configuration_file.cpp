@@ -31,6 +31,9 @@ void set(GatewaySettings& settings, std::string const& name, json const& value, 
 
 std::string text_of_file(std::string const& file) {
     if (std::filesystem::is_directory(file)) throw BadSettings{file + ": cannot be read: this is a directory; name a file in it"};
+    std::error_code error;
+    if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+        throw BadSettings{file + ": cannot be read: this is not a regular file"};
     std::ifstream stream{file, std::ios::binary};
     std::string text{std::istreambuf_iterator<char>{stream}, {}};
     if (!stream.is_open() || stream.bad()) throw BadSettings{file + ": cannot be read: " + std::strerror(errno)};

@@ -1,6 +1,7 @@
 #include "main/gateway_journal.hpp"
 
 #include <spdlog/spdlog.h>
+#include <algorithm>
 
 #include <chrono>
 #include <cstdlib>
@@ -45,7 +46,10 @@ GatewayJournal::GatewayJournal(OpenedJournal opened, Engine& engine, Gateway& ga
 }
 
 void GatewayJournal::restore(Tokens& tokens) {
-    if (auto const sessions = state_.sessions.size(); sessions > 0)
+    auto const may_return = [&](StoredSession const& session) {
+        return session.rights.empty() || tokens.rights_of(session.rights) != nullptr;
+    };
+    if (auto const sessions = std::ranges::count_if(state_.sessions, may_return); sessions > 0)
         spdlog::info("journal: {} {} of the last start can be resumed", sessions, sessions == 1 ? "session" : "sessions");
     engine_.restore(std::exchange(state_, {}), [&](std::string const& id) { return tokens.rights_of(id); },
                     {std::chrono::steady_clock::now(), std::chrono::system_clock::now()});

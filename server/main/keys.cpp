@@ -369,7 +369,7 @@ std::vector<Key> network_keys() {
             1'024, 1 << 30),
         whole_number<std::size_t>(
             "max_header", "maximum bytes of an HTTP header", [](GatewaySettings & s) -> auto& { return s.net.max_header; }, 1'024,
-            1 << 20),
+            1 << 16),  // Beast's longest field
         whole_number<std::size_t>(
             "max_header_fields", "maximum number of header fields of an HTTP request",
             [](GatewaySettings & s) -> auto& { return s.net.max_header_fields; }, 16, 1'024),

@@ -3,7 +3,9 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <map>
 #include <memory>
@@ -245,6 +247,8 @@ private:
     std::map<std::string, std::shared_ptr<Rights const>> given_;
 };
 
+constexpr std::chrono::milliseconds longest_reading{300};  // of files after SIGHUP, at the end (docs/safety.md#the-end)
+
 // Makes all parts in the order of their dependencies, and serves until a signal arrives.
 int serve(CommandLine const& command) {
     auto const& settings = command.settings;
@@ -334,10 +338,8 @@ int serve(CommandLine const& command) {
             .report = [](std::string const& name, std::string const& what) { spdlog::info("{}: {}", name, what); },
             .token = [&](std::string const& name) { return program_tokens.make(name); },
             .earlier_session = [&](std::string const& name) { return gateway.earlier_session(name); },
-            .session_opened =
-                [&](std::string const& name, SessionId const& id, std::function<void()> then) {
-                    gateway.session_opened_there(name, id, std::move(then));
-                },
+            .session_opened = [&](std::string const& name, SessionId const& id,
+                                  std::function<void()> then) { gateway.session_opened_there(name, id, std::move(then)); },
             .commands_ended = [&](std::string const& name,
                                   std::vector<CommandEnded> ended) { gateway.ended_there(name, std::move(ended)); }});
         engine.add(remote_engines->pulse(), "pulse");
@@ -400,6 +402,11 @@ int serve(CommandLine const& command) {
     spdlog::info("listening on {}", server.url());
     auto const exit_code = server.run() ? done : not_halted;
     if (journal) journal->finish(exit_code);
+    if (!reloading.finish(longest_reading)) {
+        spdlog::error("SIGHUP: a file that is being read does not answer");
+        spdlog::default_logger_raw()->flush();
+        std::_Exit(exit_code);
+    }
     spdlog::info("stopped");
     return exit_code;
 }
@@ -466,6 +473,7 @@ int complain(std::exception const& error, Exit code) {
 
 int main(int argc, char** argv) {
     rois::protect_standard_files();
+    std::signal(SIGHUP, SIG_IGN);  // until there is something to read again
     try {
         rois::xml::Platform const platform;
         return rois::run(argc, argv);

@@ -18,19 +18,28 @@ void Reloading::ask() {
         std::lock_guard const lock{mutex_};
         is_asked_ = true;
     }
-    asked_.notify_one();
+    news_.notify_all();
+}
+
+bool Reloading::finish(std::chrono::milliseconds longest) {
+    thread_.request_stop();
+    std::unique_lock lock{mutex_};
+    return news_.wait_for(lock, longest, [this] { return !is_reading_; });
 }
 
 void Reloading::run(std::stop_token const& stop) {
     std::unique_lock lock{mutex_};
-    while (asked_.wait(lock, stop, [this] { return is_asked_; })) {
+    while (news_.wait(lock, stop, [this] { return is_asked_; })) {
         is_asked_ = false;
+        is_reading_ = true;
         lock.unlock();
         auto const problems = reload();
         telemetry_.reloaded(problems.empty());
         for (auto const& problem : problems) spdlog::warn("SIGHUP: nothing is changed: {}", problem);
         if (problems.empty()) spdlog::info("SIGHUP: {} read again", listed(parts_, &Part::name));
         lock.lock();
+        is_reading_ = false;
+        news_.notify_all();
     }
 }
 

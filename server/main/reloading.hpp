@@ -1,6 +1,7 @@
 // Reads the files again after SIGHUP, and makes all changes or none.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -28,15 +29,19 @@ public:
     // Thread-safe; returns at once.
     void ask();
 
+    // Reads nothing more. Returns false if a file is still being read after this time: then the destructor would wait for it.
+    bool finish(std::chrono::milliseconds longest);
+
 private:
     void run(std::stop_token const&);
     std::vector<std::string> reload() const;
 
     std::vector<Part> const parts_;
     Telemetry& telemetry_;
-    std::mutex mutex_;  // guards the next two
-    std::condition_variable_any asked_;
+    std::mutex mutex_;  // guards the next three
+    std::condition_variable_any news_;
     bool is_asked_ = false;
+    bool is_reading_ = false;
     std::jthread thread_;
 };
 

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -83,6 +85,10 @@ TEST_F(JournalsFile, CanOnlyBeReadByItsOwner) {
     struct stat found {};
     ASSERT_EQ(::stat(folder.file().c_str(), &found), 0);
     EXPECT_EQ(found.st_mode & 0777, 0600);
+    ASSERT_EQ(::chmod(folder.file().c_str(), 0666), 0);
+    store({.set = {record(1, "b", "x")}});
+    ASSERT_EQ(::stat(folder.file().c_str(), &found), 0);
+    EXPECT_EQ(found.st_mode & 0777, 0600) << "also if it comes from elsewhere";
 }
 
 TEST_F(JournalsFile, IsMadeWithItsFolder) {
@@ -94,6 +100,57 @@ TEST_F(JournalsFile, IsMadeWithItsFolder) {
 TEST_F(JournalsFile, BelongsToOneGatewayAtATime) {
     JournalFile const file{folder.name(), plenty};
     EXPECT_THAT(why_refused(folder.name()), HasSubstr("is in use by another gateway"));
+}
+
+TEST_F(JournalsFile, WithATriggerIsRefused) {
+    store({.set = {record(1, "a", "x")}});
+    run_sql(folder.file(), "CREATE TRIGGER t AFTER INSERT ON record BEGIN DELETE FROM record; END");
+    EXPECT_THAT(why_refused(folder.name()), HasSubstr("has other tables"));
+}
+
+TEST_F(JournalsFile, ThatIsASymbolicLinkIsRefused) {
+    ASSERT_EQ(::symlink("elsewhere", folder.file().c_str()), 0);
+    EXPECT_THAT(why_refused(folder.name()), HasSubstr("is a symbolic link"));
+}
+
+// As after a crash: the log has not been moved into the database.
+struct JournalsLog : JournalsFile {
+    JournalsLog() {
+        JournalFile file{folder.name(), plenty};
+        for (int i = 0; i < 20; ++i)
+            EXPECT_EQ(file.store({.set = {record(1, std::to_string(i), std::string(3'000, 'x'))}}), JournalFile::Result::stored);
+        std::filesystem::copy(folder.name(), crashed.name(), std::filesystem::copy_options::overwrite_existing);
+    }
+    std::string log() const { return crashed.file() + "-wal"; }
+    void change(std::uintmax_t place) {
+        std::fstream file{log(), std::ios::in | std::ios::out | std::ios::binary};
+        file.seekg(static_cast<std::streamoff>(place));
+        auto const byte = static_cast<char>(file.get() ^ 1);
+        file.seekp(static_cast<std::streamoff>(place));
+        file.put(byte);
+    }
+    StateFolder const crashed;
+};
+
+TEST_F(JournalsLog, IsRead) { EXPECT_EQ(keys_in(crashed.name()).size(), 20U); }
+
+TEST_F(JournalsLog, MayEndInTheMiddleOfAStep) {
+    std::filesystem::resize_file(log(), std::filesystem::file_size(log()) - 100);
+    EXPECT_EQ(keys_in(crashed.name()).size(), 19U);
+}
+
+TEST_F(JournalsLog, ThatIsDamagedIsRefused) {
+    for (std::uintmax_t const place : {8U, 20U, 40U, 60U, 5'000U, 40'000U}) {
+        change(place);
+        EXPECT_THAT(why_refused(crashed.name()), HasSubstr("-wal' is damaged")) << place;
+        change(place);
+    }
+    EXPECT_EQ(keys_in(crashed.name()).size(), 20U);
+}
+
+TEST_F(JournalsLog, WithoutItsDatabaseIsRefused) {
+    std::filesystem::resize_file(crashed.file(), 0);
+    EXPECT_THAT(why_refused(crashed.name()), HasSubstr("is missing or empty"));
 }
 
 TEST_F(JournalsFile, OfAnotherProgramIsRefused) {

@@ -38,7 +38,8 @@ StoredSession to_store(Session const& session) {
 StoredCommand to_store(Command const& command) {
     StoredCommand stored{
         .session = command.session->number, .id = command.id, .type = command.type, .ref = command.ref, .end = {}};
-    if (command.component) stored.provider = command.component->provider();
+    bool const is_asked_for = command.type != "set_parameter";  // its parameters may not have been stored
+    if (command.component && is_asked_for) stored.provider = command.component->provider();
     if (!stored.provider.empty()) stored.handle = static_cast<std::uint64_t>(command.handle);
     if (command.state == Command::State::ended)
         stored.end = {.status = command.status,
@@ -133,8 +134,9 @@ void Recorder::forgot(Session const& session, CommandId const& id) {
 
 std::string Recorder::why_no_commands() const {
     if (!is_on()) return {};
-    if (is_failing_) return "the journal cannot be written now: no command begins until it can";
-    return journal_->why_no_commands();
+    auto problem = journal_->why_no_commands();
+    if (problem.empty() && is_failing_) problem = "the journal cannot be written now: no command begins until it can";
+    return problem;
 }
 
 void Recorder::when_stored(Then then) { (changed_.any() ? waiting_ : then_).push_back(std::move(then)); }

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "kit/profile_folder.hpp"
 #include "server/application.hpp"
@@ -336,6 +338,22 @@ TEST_F(HangUp, ChangesNothingIfOneFileIsInvalid) {
     auto const metrics = client.get("/metrics", {{"Authorization", "Bearer " + token}}).body;
     EXPECT_THAT(metrics, HasSubstr("rois_reloads_total{outcome=\"refused\"} 1"));
     EXPECT_THAT(metrics, HasSubstr("rois_reloads_total{outcome=\"done\"} 0"));
+}
+
+// Opening it would wait for a program that writes.
+TEST_F(HangUp, ReadsNoPipe) {
+    put("{}");
+    GatewayProcess gateway{{"--config", file()}};
+    ASSERT_EQ(::unlink(file().c_str()), 0);
+    ASSERT_EQ(::mkfifo(file().c_str(), 0600), 0);
+    gateway.signal(SIGHUP);
+    EXPECT_THAT(gateway.log_with("nothing is changed: the settings"), HasSubstr("this is not a regular file"));
+    ASSERT_EQ(::unlink(file().c_str()), 0);
+    put("{}");
+    gateway.signal(SIGHUP);
+    gateway.log_with("the settings read again");
+    gateway.signal(SIGTERM);
+    EXPECT_EQ(gateway.wait().exit_code, 0);
 }
 
 TEST_F(HangUp, NeverEndsTheGateway) {
