@@ -119,7 +119,7 @@ struct JournalsLog : JournalsFile {
         JournalFile file{folder.name(), plenty};
         for (int i = 0; i < 20; ++i)
             EXPECT_EQ(file.store({.set = {record(1, std::to_string(i), std::string(3'000, 'x'))}}), JournalFile::Result::stored);
-        std::filesystem::copy(folder.name(), crashed.name(), std::filesystem::copy_options::overwrite_existing);
+        std::filesystem::copy(folder.name(), crashed.name(), std::filesystem::copy_options::recursive);
     }
     std::string log() const { return crashed.file() + "-wal"; }
     void change(std::uintmax_t place) {
