@@ -120,6 +120,7 @@ private:
     void go_on_when_handled(std::uint64_t era);
     void opened(Connect::Reply const&);
     void begin_session(SessionId const&);
+    void if_still_lost(Steady when, Steady lost_at, void (RemoteEngine::*then)(std::string const&), std::string what);
     void resumed(ReturnCode);
     void session_ended();
     void forget_session();

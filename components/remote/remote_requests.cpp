@@ -36,14 +36,15 @@ void RemoteEngine::attach(std::shared_ptr<ComponentRecord> const& record) {
 
 void RemoteEngine::bind(std::shared_ptr<ComponentRecord> const& record, Ticket ticket, Binding const& binding) {
     if (!is_open_) return record->answer(ticket, Failed{is_lost});
-    record->is_wanted = true;
+    if (!std::exchange(record->is_wanted, true)) record->stored.clear();  // of an earlier application
     if (!binding.parameters.empty()) record->store(binding.parameters);
     bool const is_same = std::exchange(record->switching, binding.switching) == binding.switching;
     if (record->is_held && record->binds_asked == 0 && is_same) return record->answer(ticket, Done{});
-    bind_there(record, [self = shared_from_this(), record, ticket](Reply const* reply) {
+    bool const restores = !binding.parameters.empty();
+    bind_there(record, [self = shared_from_this(), record, ticket, restores](Reply const* reply) {
         if (reply == nullptr) return record->answer(ticket, Failed{is_lost});
         auto const outcome = outcome_of(*reply);
-        if (record->is_held && !record->stored.empty()) self->restore_parameters(record);
+        if (record->is_held && restores) self->restore_parameters(record);
         if (outcome.return_code == ReturnCode::ok) return record->answer(ticket, Done{});
         auto reason = "in the engine " + quoted(self->settings_.name) + ": " + outcome.reason;
         if (outcome.return_code == ReturnCode::out_of_resources) return record->answer(ticket, Refused{std::move(reason)});

@@ -350,20 +350,23 @@ void RemoteEngine::give_up_link(std::string const& reason) {
     if (is_present_ && !lost_at_) {
         lost_at_ = host_->now();
         ++state_.losses;
-        auto const when_still_lost = [&](std::chrono::milliseconds time, void (RemoteEngine::*then)(std::string const&),
-                                         std::string what) {
-            host_->at(*lost_at_ + time, [self = shared_from_this(), at = lost_at_, then, what = std::move(what)] {
-                if (self->lost_at_ == at) ((*self).*then)(what);
-            });
-        };
-        when_still_lost(settings_.window, &RemoteEngine::give_up,
-                        "session given up: no link for " + std::to_string(settings_.window.count()) + " ms (window)");
-        when_still_lost(
-            settings_.resume_window, &RemoteEngine::leave,
+        if_still_lost(*lost_at_ + settings_.window, *lost_at_, &RemoteEngine::give_up,
+                      "session given up: no link for " + std::to_string(settings_.window.count()) + " ms (window)");
+        if_still_lost(
+            *lost_at_ + settings_.resume_window, *lost_at_, &RemoteEngine::leave,
             "its components leave: no link for " + std::to_string(settings_.resume_window.count()) + " ms (resume_window)");
     }
     show();
     await_next_attempt();
+}
+
+// A new session may have begun, whose profile has not come yet: then looks again later.
+void RemoteEngine::if_still_lost(Steady when, Steady lost_at, void (RemoteEngine::*then)(std::string const&), std::string what) {
+    host_->at(when, [self = shared_from_this(), lost_at, then, what = std::move(what)] {
+        if (self->lost_at_ != lost_at) return;
+        if (self->is_open_) return self->if_still_lost(self->host_->now() + time_for_attempt, lost_at, then, what);
+        ((*self).*then)(what);
+    });
 }
 
 // Ends the sub engine's commands. Its components are in ERROR until there is a new session. The sub engine ends the session now,

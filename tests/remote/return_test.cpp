@@ -138,6 +138,25 @@ TEST(ASubEngineThatReturnsAfterTheWindow, GetsANewSessionOnTheSameLink) {
     EXPECT_THAT(engines.asked(), testing::IsSupersetOf({"resume", "connect", "bind"}));
 }
 
+// The disk has just stored the new session when the window of the earlier one ends.
+TEST(ASubEngineThatReturnsAtTheEndOfTheWindow, IsUsedAgain) {
+    TwoEngines engines{{navigation}};
+    auto& journal = (engines.main.keep_journal(), *engines.main.journal);
+    auto desk = engines.main.connect();
+    engines.cut();
+    engines.hall.restart({navigation});
+    engines.advance(2'500ms);
+    journal.then = MemoryJournal::Then::later;
+    engines.repair();
+    engines.advance(450ms);
+    ASSERT_TRUE(journal.has_waiting());
+    journal.settle(true);
+    engines.main.engine->and_work([&] { engines.main.engine->stored(engines.main.now); }, engines.main.now);
+    journal.then = MemoryJournal::Then::stored;
+    engines.advance(1s);
+    EXPECT_EQ(desk.status_of("hall.navigation"), "READY");
+}
+
 // The main engine has died, and the hall has not.
 struct AMainEngineThatHasDied : testing::Test {
     AMainEngineThatHasDied() {

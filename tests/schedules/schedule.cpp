@@ -59,6 +59,8 @@ Schedule::Schedule(std::uint64_t seed, Over over, std::ostream* story)
 std::vector<std::string> Schedule::run() {
     for (int i = 0; i < 60 && broken_.empty(); ++i) act();
     if (broken_.empty()) finish();
+    if (engines_)
+        for (auto const& line : engines_->reported) tell("the engine about the hall:", line);
     return broken_;
 }
 
