@@ -237,6 +237,9 @@ void RemoteEngine::take(xml::NumberedNotification const& notification) {
 
 void RemoteEngine::opened(Connect::Reply const& reply) {
     if (reply.return_code != ReturnCode::ok) return give_up_link("no session: " + reply.reason);
+    is_given_up_ = false;
+    subscribed_.clear();
+    last_sequence_ = 0;
     auto begin = [weak = weak_from_this(), era = era_, session = reply.session] {
         auto const self = weak.lock();
         if (!self) return;
@@ -250,9 +253,6 @@ void RemoteEngine::opened(Connect::Reply const& reply) {
 // The session is stored: if this engine dies, the next one knows it.
 void RemoteEngine::begin_session(SessionId const& session) {
     session_ = session;
-    is_given_up_ = false;
-    subscribed_.clear();
-    last_sequence_ = 0;
     is_open_ = true;
     profile_asked_ = stop_is_asked_ = false;
     give_signs_of_life(era_);

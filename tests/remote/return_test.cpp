@@ -153,8 +153,10 @@ TEST(ASubEngineThatReturnsAtTheEndOfTheWindow, IsUsedAgain) {
     journal.settle(true);
     engines.main.engine->and_work([&] { engines.main.engine->stored(engines.main.now); }, engines.main.now);
     journal.then = MemoryJournal::Then::stored;
-    engines.advance(1s);
-    EXPECT_EQ(desk.status_of("hall.navigation"), "READY");
+    engines.advance(5s);
+    EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::ok);
+    EXPECT_EQ(engines.execute(desk, go("go", "hall.navigation")).return_code, ReturnCode::ok);
+    EXPECT_EQ(desk.status_of("hall.navigation"), "READY") << "for its owner";
 }
 
 // The main engine has died, and the hall has not.

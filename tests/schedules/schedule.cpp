@@ -168,6 +168,7 @@ void Schedule::happen_to_hall() {
 // The process of the engine dies and begins again, and the clients reconnect.
 void Schedule::crash() {
     tell("the engine dies");
+    ++deaths_;
     take_answers(false);
     bool const was_promised = stops_ == Stops::promised;
     for (auto& client : clients_) client.asked.clear();
@@ -300,8 +301,9 @@ void Schedule::finish() {
         while (!client.is_linked || !client.is_alive) leave_or_return(client);
     }
     journal().then = Then::stored;
-    // The session in the hall was not stored, and this engine died: a stop that it has asked for stays until someone clears it.
-    if (engines_ && disk_has_failed_) engines_->hall.engine->clear();
+    // A stop that it has passed on stays there until someone clears it: if the session there was not stored, and this engine
+    // died; if it died once more before it had cleared it.
+    if (engines_ && (disk_has_failed_ || deaths_ > 1)) engines_->hall.engine->clear();
     auto const is_back = [&] { return !engines_ || engines_->shown.is == EngineState::Is::present; };
     for (int i = 0; i < 100 && !is_back(); ++i) pass(700ms);  // the longest pause between two attempts is 30 s
     for (auto const& ref : refs_) {
