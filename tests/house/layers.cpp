@@ -17,7 +17,7 @@ Headers const xerces{"xercesc/"};
 Headers const pugixml{"pugixml.hpp", "pugiconfig.hpp"};
 Headers const boost{"boost/"};
 Headers const boost_geometry{"boost/geometry/"};
-Headers const boost_crc{"boost/crc.hpp"};
+Headers const boost_bytes{"boost/crc.hpp", "boost/endian/"};
 Headers const boost_address{"boost/asio/ip/address.hpp"};    // a value, no socket
 Headers const boost_streams{"boost/asio/", "boost/beast/"};  // for the health check
 Headers const openssl{"openssl/"};
@@ -50,7 +50,7 @@ std::vector<Layer> const layers{
     {"server/xml/", {"xml/", "types/"}, {xerces, pugixml}, Time::passed_in},
     {"server/engine/", {"engine/", "types/"}, {eigen, boost_geometry, {"fnmatch.h"}}, Time::passed_in},
     {"server/files/", {"files/"}, {}, Time::passed_in},
-    {"server/journal/", {"journal/", "engine/", "xml/", "types/"}, {boost_crc, json, sqlite, posix}, Time::read},
+    {"server/journal/", {"journal/", "engine/", "xml/", "types/"}, {boost_bytes, json, sqlite, posix}, Time::read},
     {"server/gateway/",
      {"gateway/", "engine/", "xml/", "types/"},
      {boost_address, openssl, prometheus, spdlog, posix},
