@@ -20,9 +20,9 @@ ENGINE, JOURNAL = "server/engine", "server/engine/journal"
 # Name, file, the text that is replaced, and by what.
 BUGS = [
     ("two clients bind one component", f"{ENGINE}/registry.cpp", "if (component.bound_to != nullptr && component.bound_to != &session) return Bound::taken;", ""),
-    ("commands begin while everything is stopped", f"{ENGINE}/command_interface.cpp", "if (everything_is_stopped_ && begins)", "if (false)"),
+    ("commands begin while everything is stopped", f"{ENGINE}/command_interface.cpp", "if (everything_is_stopped_ && begins)", "if (begins && false)"),
     ("observers may bind", f"{ENGINE}/command_interface.cpp", "if (!may_command(session.rights.get(), component->ref().code)) {", "if (false) {"),
-    ("events go to clients that may not see them", f"{ENGINE}/event_interface.cpp", "return may_see(one.rights, component.ref().code);", "return true;"),
+    ("events go to clients that may not see them", f"{ENGINE}/event_interface.cpp", "return may_see(one.rights, component.ref().code);", "return may_see(one.rights, component.ref().code) || true;"),
     ("motion without signs of life goes on", f"{ENGINE}/engine.cpp", "attempts([&] { hold_unproven_motion(now); });", ""),
     ("a command ends twice", f"{ENGINE}/commands/executor.cpp", "    if (command->state == Command::State::ended) return;\n    command->state = Command::State::ended;\n    command->status", "    command->state = Command::State::ended;\n    command->reported = false;\n    command->status"),
     ("what the disk did not take is forgotten", f"{JOURNAL}/recorder.cpp", "attempts([&] { changed_.add(std::exchange(given_, {})); });", ""),
@@ -31,12 +31,11 @@ BUGS = [
     ("notifications are shown before they are stored", f"{JOURNAL}/recorder.cpp", "    session.notifications->show_when_stored();\n", ""),
     ("a stop of everything is forgotten", f"{JOURNAL}/restoring.cpp", "everything_is_stopped_ = engine.is_stopped;", ""),
     ("commands are accepted before they are stored", f"{JOURNAL}/restoring.cpp", "if (!recorder_.stores(session) || !recorder_.must_wait()) {", "if (true) {"),
-    ("a command begins although everything was stopped meanwhile", f"{JOURNAL}/restoring.cpp", "if (stored && stopped == nullptr) {", "if (stored) {"),
     ("a command begins although it was not stored", f"{JOURNAL}/restoring.cpp", "if (stored && stopped == nullptr) {", "if (stopped == nullptr) {"),
     ("commands are not restored", f"{JOURNAL}/restoring.cpp", "for (auto& command : commands) restore(session, std::move(command), now);", "static_cast<void>(commands);"),
     ("numbers begin again after a restart", f"{ENGINE}/notifications/notification_queue.cpp", "if (!entries_.empty()) shown_ = given_ = last_sequence_ = entries_.back().sequence;", ""),
     ("a full disk refuses stops", f"{ENGINE}/command_interface.cpp", "lasts ? recorder_.why_no_commands() : std::string{}", "recorder_.why_no_commands()"),
-    ("the earlier session in a sub engine stays", "components/remote/remote_session.cpp", "link_->send(client::document_of({Disconnect{}, std::string{opening}}));", "end_earlier_session();"),
+    ("the earlier session in a sub engine stays", "components/remote/remote_session.cpp", "std::string{has_ended} + number_of(command)}));\n    link_->send(client::document_of({Disconnect{}, std::string{opening}}));", "std::string{has_ended} + number_of(command)}));\n    end_earlier_session();"),
 ]
 
 
