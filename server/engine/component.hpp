@@ -64,7 +64,7 @@ struct ComponentDescription {
 
 // A binding that an application asks for. `order`: the members of a logical component, in the sort order of the application's
 // condition; empty: it has none. `parameters`: those that the application has set before the engine was restarted; for components
-// of other engines, which have bound the component anew.
+// of other engines, which bind the component again.
 struct Binding {
     std::uint64_t session = 0;  // the number of the application's session
     Switching switching = Switching::none;

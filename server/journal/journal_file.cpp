@@ -134,7 +134,7 @@ JournalFile::~JournalFile() = default;
 
 void JournalFile::refuse(std::string const& why) const { throw BadJournal{"state: " + rois::quoted(name_) + " " + why}; }
 
-// SQLite would drop what is behind a damaged place in its log, as after a write that was cut short.
+// SQLite itself drops all steps behind a damaged place in its log, as after a write that was cut short.
 void JournalFile::check_log(bool is_new) const {
     auto const log = name_ + "-wal";
     UniqueDescriptor const file{::open(log.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};

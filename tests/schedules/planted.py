@@ -40,7 +40,7 @@ BUGS = [
 
 
 def copy():
-    """Copies what has changed."""
+    """Copies the files that differ."""
     names = subprocess.run(["git", "-C", ROOT, "ls-files"], check=True, capture_output=True, text=True).stdout.splitlines()
     for name in names:
         source, target = ROOT / name, COPY / "source" / name

@@ -94,7 +94,7 @@ class Cuts(unittest.TestCase):
         self.assertIn('return_code="OK"', answer)
 
     def completions(self):
-        """Reads until a command has completed, and returns what has."""
+        """Reads until a command has completed. Returns the ids of all commands that have."""
         while True:
             path = f"/rois/notifications?after={self.last}&wait=10"
             text = self.gateway.answer(self.gateway.http("", self.session, path, "GET"))

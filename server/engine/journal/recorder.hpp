@@ -62,7 +62,7 @@ public:
 
     // Whether something has changed, and the journal is not busy.
     bool has_something_to_give() const { return changed_.any() && !is_being_stored_ && !next_try_; }
-    // Gives it to the journal. If memory is missing, the next call tries again.
+    // Gives it to the journal; requires has_something_to_give(). If memory is missing, the next call tries again.
     void give(StoredEngine const&) noexcept;
     // The journal has stored the changes, or could not. Those that could not be stored are given again later.
     void stored(Instant now, Attempts&);

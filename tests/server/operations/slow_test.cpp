@@ -90,6 +90,15 @@ struct Slow : testing::Test {
     ~Slow() override { desk.keep_session(); }
 };
 
+// Begins to speak. Then sends, without waiting for answers, two queries that no component answers, and a stop.
+void stop_behind_two_queries(HttpClient& desk) {
+    desk.call("connect");
+    desk.call("bind", component_ref("speech_synthesis"));
+    EXPECT_EQ(desk.call("execute", kit::sequence(kit::unit(speak_long("speech")))).return_code(), "OK");
+    auto const query = post_in(desk.session, kit::request("query", position_query()));
+    desk.line().send(query + query + post_in(desk.session, kit::request("execute", stop_of_speech())));
+}
+
 }  // namespace
 
 TEST(AQueryWithoutAnAnswer, TimesOut) {
@@ -127,11 +136,7 @@ TEST(RequestsInFlight, OfAWebSocketAreAsManyAsTheKeyAllows) {
 TEST(RequestsInFlight, OverHttpAreAsManyAsTheKeyAllows) {
     SlowGateway gateway{"1", {"--max-requests-in-flight", "2"}};
     HttpClient desk{gateway};
-    desk.call("connect");
-    desk.call("bind", component_ref("speech_synthesis"));
-    EXPECT_EQ(desk.call("execute", kit::sequence(kit::unit(speak_long("speech")))).return_code(), "OK");
-    auto const query = post_in(desk.session, kit::request("query", position_query()));
-    desk.line().send(query + query + post_in(desk.session, kit::request("execute", stop_of_speech())));
+    stop_behind_two_queries(desk);
     expect_no_stop_before_the_first_answer(gateway,
                                            [&] { return read_now(desk.line(), [&] { return desk.read().return_code(); }); });
     EXPECT_EQ(desk.read().return_code(), "TIMEOUT");
@@ -142,11 +147,7 @@ TEST(RequestsInFlight, OverHttpAreAsManyAsTheKeyAllows) {
 TEST(AnswersBehindASlowOne, DoNotKeepAStopFromActingOverHttp) {
     SlowGateway gateway{"60"};
     HttpClient desk{gateway};
-    desk.call("connect");
-    desk.call("bind", component_ref("speech_synthesis"));
-    EXPECT_EQ(desk.call("execute", kit::sequence(kit::unit(speak_long("speech")))).return_code(), "OK");
-    auto const query = post_in(desk.session, kit::request("query", position_query()));
-    desk.line().send(query + query + post_in(desk.session, kit::request("execute", stop_of_speech())));
+    stop_behind_two_queries(desk);
     EXPECT_TRUE(metrics_come_to(gateway, "rois_commands_completed_total{status=\"ABORT\"} 1"));
     desk.session.clear();
 }
