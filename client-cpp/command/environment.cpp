@@ -15,7 +15,7 @@ namespace rois::command {
 namespace {
 
 // The configuration keys of rois-gateway (server/main/keys.cpp) as variables.
-constexpr std::array<std::string_view, 78> keys{"ROIS_ALLOWED_ORIGINS",
+constexpr std::array<std::string_view, 80> keys{"ROIS_ALLOWED_ORIGINS",
                                                 "ROIS_ALLOW_ANYONE",
                                                 "ROIS_AUDIT_LOG",
                                                 "ROIS_AUDIT_LOG_BYTES",
@@ -43,12 +43,14 @@ constexpr std::array<std::string_view, 78> keys{"ROIS_ALLOWED_ORIGINS",
                                                 "ROIS_MAX_CONDITION_BYTES",
                                                 "ROIS_MAX_CONNECTIONS",
                                                 "ROIS_MAX_CONNECTIONS_PER_ADDRESS",
+                                                "ROIS_MAX_CONTROL_FRAMES",
                                                 "ROIS_MAX_DEPTH",
                                                 "ROIS_MAX_ELEMENTS",
                                                 "ROIS_MAX_FRAGMENTS",
                                                 "ROIS_MAX_HEADER",
                                                 "ROIS_MAX_HEADER_FIELDS",
                                                 "ROIS_MAX_MEDIA_CONNECTIONS",
+                                                "ROIS_MAX_NAMESPACES",
                                                 "ROIS_MAX_NAME_LENGTH",
                                                 "ROIS_MAX_POLL_WAIT",
                                                 "ROIS_MAX_PREDICATES",

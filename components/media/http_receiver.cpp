@@ -33,6 +33,7 @@ using Error = boost::system::error_code;
 
 constexpr auto between_looks = Clock::duration{std::chrono::milliseconds{100}};  // interval of the checks for an ended channel
 constexpr auto longest_parting = std::chrono::seconds{1};
+constexpr auto between_cancels = std::chrono::milliseconds{1};
 constexpr auto most_behind = Clock::duration{std::chrono::seconds{1}};  // a slow receiver loses the data beyond this delay
 
 std::string head_of(std::string_view status, std::string_view content_type, std::string_view more = {}) {
@@ -245,12 +246,20 @@ Task<bool> secure(Connection& connection) {
 // Gives the receiver time to read the whole response before the connection closes.
 Task<> linger(Connection& connection) {
     Error error;
+    Timer timer{connection.executor()};
+    auto const end = Clock::now() + longest_parting;
+    // Ends `watch`: the shutdown would wait for its read, which has no deadline. A read that has just succeeded is not cancelled.
+    while (connection.tls && connection.watched && !connection.gone) {
+        if (Clock::now() >= end) co_return;
+        connection.stream.socket().cancel(error);
+        timer.expires_after(between_cancels);
+        co_await timer.async_wait(into(error));
+    }
     connection.stream.expires_after(longest_parting);
     if (connection.tls) co_await connection.tls->async_shutdown(into(error));
     connection.stream.socket().shutdown(asio::socket_base::shutdown_send, error);
     begin_to_watch(connection);
-    Timer timer{connection.executor()};
-    for (auto const end = Clock::now() + longest_parting; !connection.gone && Clock::now() < end;) {
+    while (!connection.gone && Clock::now() < end) {
         timer.expires_after(between_looks / 10);
         co_await timer.async_wait(into(error));
     }

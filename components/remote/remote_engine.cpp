@@ -15,7 +15,8 @@ namespace rois::remote {
 
 namespace {
 
-constexpr int deepest = 8;  // levels of engines
+constexpr std::size_t most_states = 100'000;  // of components that may be in the next profile
+constexpr int deepest = 8;                    // levels of engines
 constexpr std::chrono::seconds between_restores{1};
 // Names that a component's profile declares. The engine compares them with one another, while all applications wait.
 constexpr std::size_t most_names = 500;
@@ -108,7 +109,6 @@ void RemoteEngine::take_profile(GetProfile::Reply const& reply) {
         enter(reply);
     } catch (std::exception const& problem) {
         leave(problem.what());
-        session_ = {};
         return give_up_link(problem.what());
     }
     if (lost_at_ && !last_error_.empty()) host_->report(settings_.name, "present again");
@@ -296,13 +296,19 @@ void RemoteEngine::operator()(ReceiveEvent const& event) {
 void RemoteEngine::operator()(ReceiveError const& error) {
     auto const text = error.text.value_or("an error without a text");
     auto const record = error.component_ref ? record_of(error.component_ref->code) : nullptr;
+    bool const may_be_taken = error.error_type == ErrorType::user_defined_error && record && record->is_held;
+    if (may_be_taken) check_binding(record, [] {});
     if (record) return record->report(ErrorOccurred{error.error_type, text});
     if (!error.component_ref) note(text);  // else it is of a component that is not used here
 }
 
 void RemoteEngine::operator()(ComponentChanged const& changed) {
-    auto const& known = states_[changed.component_ref.code] = changed;
-    if (auto const record = record_of(changed.component_ref.code)) report_state(*record, known);
+    auto const& ref = changed.component_ref.code;
+    auto const record = record_of(ref);
+    bool const is_new = !record && !states_.contains(ref);
+    if (is_new && states_.size() >= most_states) return;  // no engine has so many components
+    auto const& known = states_[ref] = changed;
+    if (record) report_state(*record, known);
 }
 
 void RemoteEngine::report_state(ComponentRecord& record, ComponentChanged const& changed) const {

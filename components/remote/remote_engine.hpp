@@ -41,9 +41,11 @@ public:
     // left out.
     virtual std::vector<std::string> change(ComponentChange) = 0;
     // The session before a restart of this engine; it is asked for once. The session now: calls `then`, on any thread, when it is
-    // stored for the time after a restart. The ends of commands of the earlier one.
+    // stored for the time after a restart. The stop of everything that is to be cleared there (Engine::stopped_there). The ends
+    // of commands of the earlier session.
     virtual Engine::EarlierSession earlier_session(std::string const& sub_engine) = 0;
     virtual void session_opened(std::string const& sub_engine, SessionId const&, std::function<void()> then) = 0;
+    virtual void stopped_there(std::string const& sub_engine, std::optional<std::uint64_t> stop) = 0;
     virtual void commands_ended(std::string const& sub_engine, std::vector<CommandEnded>) = 0;
     // Returns the reason if one of these instances is this engine, or belongs to another sub engine. Otherwise assigns them to
     // this sub engine, instead of its earlier ones, and returns nothing. Instances of an entry with `engine` belong to no sub
@@ -159,7 +161,7 @@ private:
     void operator()(ReceiveEvent const&);
     void operator()(ReceiveError const&);
     void operator()(Completed const&);
-    void operator()(Lost const&) {}
+    void operator()(Lost const&) {}  // while there is a link, only events are lost
     void operator()(ProfileChanged const&) { ask_profile(); }
     void operator()(ComponentChanged const&);
     void operator()(Switched const&);
@@ -175,9 +177,11 @@ private:
     void command(std::shared_ptr<ComponentRecord> const&, std::string const& command_type, ParameterList arguments,
                  std::string const& id, std::function<void(CompletedStatus, std::string const& reason)> const& then);
     void judge_failed_halt(std::shared_ptr<ComponentRecord> const&);
+    void check_binding(std::shared_ptr<ComponentRecord> const&, std::function<void()> const& if_held);
     void halt_by_release(std::shared_ptr<ComponentRecord> const&);
     void ask_to_stop();
     void clear_stop_there();
+    void note_stop_there(std::optional<std::uint64_t> stop);
 
     SubEngine settings_;
     std::shared_ptr<RemoteEngineHost> host_;
@@ -215,7 +219,8 @@ private:
     EngineState state_;                     // the state that `show` passed on last
     bool everything_is_stopped_ = false;
     bool stop_is_asked_ = false;               // a `stop_everything` is not answered yet
-    std::optional<std::uint64_t> stop_there_;  // for `clear_stop`
+    bool has_resumed_ = false;                 // and no notification has come since
+    std::optional<std::uint64_t> stop_there_;  // to clear there; ClearStop::own: the number is not known (yet)
     bool is_over_ = false;
 };
 

@@ -126,6 +126,9 @@ private:
     void session_opened(std::string const& sub_engine, SessionId const& id, std::function<void()> then) override {
         host_.session_opened(sub_engine, id, std::move(then));
     }
+    void stopped_there(std::string const& sub_engine, std::optional<std::uint64_t> stop) override {
+        host_.stopped_there(sub_engine, stop);
+    }
     void commands_ended(std::string const& sub_engine, std::vector<CommandEnded> ended) override {
         host_.commands_ended(sub_engine, std::move(ended));
     }
@@ -238,6 +241,8 @@ void RemoteEngines::accept(UniqueDescriptor socket, std::string head, std::funct
         links->accept(std::move(*shared), head, may_join);
     });
 }
+
+bool is_in_the_clear(std::string const& url) { return client::is_in_the_clear(client::read_url(url)); }
 
 void RemoteEngines::join(Joining joining) {
     client::read_url(joining.url, joining.token);

@@ -35,6 +35,8 @@ public:
         };
         std::function<void(std::string const& engine, SessionId const&, std::function<void()> then)> session_opened =
             [](std::string const&, SessionId const&, std::function<void()> const& then) { then(); };
+        std::function<void(std::string const& engine, std::optional<std::uint64_t> stop)> stopped_there =
+            [](std::string const&, std::optional<std::uint64_t>) {};
         std::function<void(std::string const& engine, std::vector<CommandEnded>)> commands_ended =
             [](std::string const&, std::vector<CommandEnded> const&) {};
     };

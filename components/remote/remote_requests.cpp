@@ -181,11 +181,15 @@ void RemoteEngine::halt(std::shared_ptr<ComponentRecord> const& record, Ticket t
     });
 }
 
-// The halt has failed there, or another session there has taken the component over. `bind` tells which: it changes nothing if the
-// binding is still that of this engine.
+// The halt has failed there, or another session there has taken the component over.
 void RemoteEngine::judge_failed_halt(std::shared_ptr<ComponentRecord> const& record) {
-    ask(Bind{{.code = record->entry.ref}, record->switching}, [record](Reply const* reply) {
-        if (reply == nullptr || outcome_of(*reply).return_code != ReturnCode::out_of_resources) return record->fail_halt();
+    check_binding(record, [record] { record->fail_halt(); });
+}
+
+// `bind` changes nothing if the binding is still that of this engine. Otherwise the sub engine has ended what acted for it.
+void RemoteEngine::check_binding(std::shared_ptr<ComponentRecord> const& record, std::function<void()> const& if_held) {
+    ask(Bind{{.code = record->entry.ref}, record->switching}, [record, if_held](Reply const* reply) {
+        if (reply == nullptr || outcome_of(*reply).return_code != ReturnCode::out_of_resources) return if_held();
         record->is_held = false;
         record->end_activity();
     });
@@ -216,20 +220,28 @@ void RemoteEngine::clear_stop() {
 
 // Repeated in the next session if this one ends before the answer.
 void RemoteEngine::clear_stop_there() {
-    if (everything_is_stopped_ || !stop_there_) return;
+    if (everything_is_stopped_ || !stop_there_ || stop_is_asked_) return;
     ask(ClearStop{*stop_there_}, [self = shared_from_this()](Reply const* reply) {
-        if (reply != nullptr) self->stop_there_.reset();
+        if (reply != nullptr) self->note_stop_there({});
     });
 }
 
-// Asks until all components there stand still. A component program does not know this request: it has no other applications.
+// After a restart, this engine has to know what it must clear there.
+void RemoteEngine::note_stop_there(std::optional<std::uint64_t> stop) {
+    if (std::exchange(stop_there_, stop) != stop) host_->stopped_there(settings_.name, stop);
+}
+
+// Asks until all components there stand still. A component program does not know this request: it has no other applications. If
+// an earlier session has ended before the answer, the number of its stop is not known: asks again, to clear that stop.
 void RemoteEngine::ask_to_stop() {
-    if (!everything_is_stopped_ || !is_open_ || std::exchange(stop_is_asked_, true)) return;
+    bool const is_needed = everything_is_stopped_ || stop_there_ == ClearStop::own;
+    if (!is_needed || !is_open_ || std::exchange(stop_is_asked_, true)) return;
+    if (!stop_there_) note_stop_there(ClearStop::own);
     ask(StopEverything{}, [self = shared_from_this()](Reply const* reply) {
         self->stop_is_asked_ = false;
         auto const* stopped = reply == nullptr ? nullptr : std::get_if<StopEverything::Reply>(reply);
         if (stopped == nullptr) return;
-        if (stopped->stop) self->stop_there_ = stopped->stop;
+        self->note_stop_there(stopped->stop);
         if (!self->everything_is_stopped_) return self->clear_stop_there();
         if (stopped->return_code != ReturnCode::ok && stopped->return_code != ReturnCode::unsupported) return;
         bool is_waiting = false;

@@ -32,6 +32,7 @@ constexpr std::string_view was_performed = "performed ";
 
 void RemoteEngine::begin() {
     earlier_ = host_->earlier_session(settings_.name);
+    stop_there_ = earlier_.stop;
     show();
     attempt();
 }
@@ -133,7 +134,8 @@ void RemoteEngine::go_on_when_handled(std::uint64_t era) {
 // This engine was restarted. The sub engine tells how the commands of the earlier session have ended, and ends that session, with
 // what still runs in it. Perhaps a stop of everything was cleared here, and not yet there.
 void RemoteEngine::ask_about_earlier_commands() {
-    if (!everything_is_stopped_) link_->send(client::document_of({ClearStop{}, std::string{opening}}));
+    if (!everything_is_stopped_)
+        link_->send(client::document_of({ClearStop{stop_there_.value_or(ClearStop::own)}, std::string{opening}}));
     for (auto const command : earlier_.commands)
         link_->send(client::document_of({GetCommandResult{{id_of(command)}, {}}, std::string{has_ended} + number_of(command)}));
     link_->send(client::document_of({Disconnect{}, std::string{opening}}));
@@ -143,6 +145,7 @@ void RemoteEngine::take_earlier(xml::Answered const& answered) {
     auto const& [reply, id] = answered;
     if (auto const* resume = std::get_if<Resume::Reply>(&reply))
         return resume->return_code == ReturnCode::ok ? ask_about_earlier_commands() : end_earlier_session();
+    if (std::holds_alternative<ClearStop::Reply>(reply)) return note_stop_there({});
     if (std::holds_alternative<Disconnect::Reply>(reply)) return end_earlier_session();
     auto const* result = std::get_if<GetCommandResult::Reply>(&reply);
     auto const number = id.starts_with(has_ended) ? to_number<std::uint64_t>(id.substr(has_ended.size())) : std::nullopt;
@@ -232,12 +235,15 @@ void RemoteEngine::take(xml::NumberedNotification const& notification) {
     if (notification.sequence <= last_sequence_) return;  // it was received before
     last_sequence_ = notification.sequence;
     notifications_.count();
+    bool const is_missing = std::exchange(has_resumed_, false) && std::holds_alternative<Lost>(notification.notification);
+    if (is_missing && !commands_.empty())
+        return reject("notifications were lost while its link was");  // perhaps ends of commands
     std::visit([this](auto const& each) { (*this)(each); }, notification.notification);
 }
 
 void RemoteEngine::opened(Connect::Reply const& reply) {
     if (reply.return_code != ReturnCode::ok) return give_up_link("no session: " + reply.reason);
-    is_given_up_ = false;
+    is_given_up_ = has_resumed_ = false;
     subscribed_.clear();
     last_sequence_ = 0;
     auto begin = [weak = weak_from_this(), era = era_, session = reply.session] {
@@ -292,7 +298,8 @@ void RemoteEngine::resumed(ReturnCode code) {
     if (is_given_up_) return link_->send(client::document_of({Disconnect{}, std::string{opening}}));
     lost_at_.reset();
     failures_ = 0;
-    host_->report(settings_.name, "the link is back, and nothing was lost");
+    has_resumed_ = true;
+    host_->report(settings_.name, "the link is back");
     last_error_.clear();
     show();
     give_signs_of_life(era_);

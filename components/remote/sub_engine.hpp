@@ -52,6 +52,9 @@ struct SubEngine {
     bool operator==(SubEngine const&) const = default;
 };
 
+// Whether others could read messages to this valid URL of a gateway, or answer them: it is on another machine, and has no TLS.
+bool is_in_the_clear(std::string const& url);
+
 // Another engine, which this engine joins as a sub engine.
 struct Joining {
     std::string url;

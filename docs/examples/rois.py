@@ -11,6 +11,7 @@ from xml.sax.saxutils import escape
 
 M, R = "{urn:x-rois:psm:xml:message:1}", "{http://www.omg.org/spec/RoIS/20240801}"
 NAMES = f'xmlns="{M[1:-1]}" xmlns:rois="{R[1:-1]}" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"'
+LONGEST = 64_000_000  # bytes of an answer
 
 
 class Refused(Exception):
@@ -151,6 +152,8 @@ class Engine:
                 with urllib.request.urlopen(urllib.request.Request(self.url + path, body, headers), timeout=patience) as answer:
                     while piece := answer.read1():
                         came += piece
+                        if len(came) > LONGEST:
+                            raise NoAnswer(f"the answer of {self.url} is longer than {LONGEST} bytes")
                     return ElementTree.fromstring(came)
             except urllib.error.HTTPError as fault:
                 raise Refused(reason_of(fault)) from None
@@ -167,7 +170,7 @@ class Engine:
 def reason_of(error):
     """Code and reason of a fault; only the HTTP status if the answer is not from a gateway."""
     try:
-        fault = ElementTree.fromstring(error.read())
+        fault = ElementTree.fromstring(error.read(LONGEST))
     except (OSError, http.client.HTTPException, ElementTree.ParseError):
         return str(error)
     return f"{fault.get('code')}: {fault.findtext(M + 'reason')}" if fault.tag == M + "fault" else str(error)

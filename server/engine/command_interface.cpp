@@ -54,15 +54,18 @@ std::optional<Objection> why_not_prepared(Preparation& command, std::optional<Co
     }
     command.begin = std::move(*begin);
     if (component.bound_to != &session) return objection(ReturnCode::error, not_bound(component.ref().code));
-    if (begins_action(command.command_type) && component.halts != command.halts)
+    if (begins_action(command.command_type) && component.stops != command.stops)
         return objection(ReturnCode::error,
                          "the component " + quoted(component.ref().code) + " was stopped before the command could begin");
     return {};
 }
 
-// The results that the command may have. After a restart its component may be absent: then those that it has.
+// The results that the command may have. After a restart its component may be absent, or have another profile: then those that
+// it has.
 std::vector<ParameterProfile> results_of(Command const& command) {
-    if (command.component) return find_message(command.component->profile(), MessageKind::command, command.type)->results;
+    auto const* message =
+        command.component ? find_message(command.component->profile(), MessageKind::command, command.type) : nullptr;
+    if (message != nullptr) return message->results;
     std::vector<ParameterProfile> results;
     for (auto const& each : command.results.parameters)
         results.push_back({.name = each.name, .data_type_ref = each.data_type_ref, .default_value = {}, .description = {}});
@@ -98,7 +101,7 @@ private:
 }  // namespace
 
 Reply Engine::Core::perform(Session& session, Search const& search, Instant) {
-    auto selection = Selection::compile(search.condition, vocabulary());
+    auto selection = Selection::compile(search.condition, vocabulary(session));
     if (auto* problem = std::get_if<std::string>(&selection))
         return refused<Search::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     Search::Reply reply;
@@ -117,6 +120,7 @@ Reply Engine::Core::bind(Session& session, ToBindNow const& wanted, Instant now)
             component.switching = wanted.as.switching;
             component.preference = component.is_logical() ? wanted.condition : nullptr;
             recorder_.changed(session);
+            forget_absent(session, component.ref().code);
             if (!mine) trace_->bound(session.number, component.ref().code);
             return Bind::Reply{};
         case Registry::Bound::not_halted:
@@ -210,7 +214,7 @@ Engine::Core::Later Engine::Core::bind_one(Session& session, SharedAsked const& 
 // Decisions 4 and 6: binds the first free match in the order of preference. If none is free, returns a match that the session has
 // bound already.
 Engine::Core::Later Engine::Core::perform(Session& session, BindAny const& bind, SharedAsked const& asked, Instant now) {
-    auto compiled = Selection::compile(bind.condition, vocabulary());
+    auto compiled = Selection::compile(bind.condition, vocabulary(session));
     if (auto* problem = std::get_if<std::string>(&compiled))
         return refused<BindAny::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     auto const& selection = std::get<Selection>(compiled);
@@ -295,8 +299,15 @@ Engine::Core::Later Engine::Core::bind_first(Session& session, SharedAsked const
     return {};
 }
 
+bool Engine::Core::forget_absent(Session& session, std::string const& ref) {
+    return std::erase_if(session.absent, [&](StoredBinding const& each) { return each.ref == ref; }) > 0;
+}
+
 Reply Engine::Core::perform(Session& session, Release const& release_, Instant now) {
+    bool const was_absent = forget_absent(session, release_.component_ref.code);
+    if (was_absent) recorder_.changed(session);
     auto [component, problem] = registry_.meant(release_.component_ref, session);
+    if (component == nullptr && was_absent) return Release::Reply{};
     if (component == nullptr) return refused<Release::Reply>(ReturnCode::bad_parameter, std::move(problem));
     if (component->bound_to == &session) {
         executor_.release(session, *component, now);
@@ -336,7 +347,7 @@ Reply Engine::Core::perform(Session& session, GetParameter const& get, Instant) 
 
 // The members have moved since `bind_any` sorted them.
 void Engine::Core::order_members(RegisteredComponent const& logical, Session const& session) {
-    auto const compiled = Selection::compile(*logical.preference, vocabulary());
+    auto const compiled = Selection::compile(*logical.preference, vocabulary(session));
     if (!std::holds_alternative<Selection>(compiled)) return;
     auto order = members_in_order(logical, std::get<Selection>(compiled), session);
     logical.hosted().call([order = std::move(order)](Component& component) { component.members_ordered(order); });
@@ -470,7 +481,7 @@ Reply Engine::Core::perform(Session& session, GetCommandResult const& get, Insta
     for (auto const* name : {"status", "reason"})
         known.add({.name = name, .data_type_ref = {"string", {}, {}, {}}, .default_value = {}, .description = {}});
     known.add(declared);
-    if (auto problem = choose(results, get.condition, known, get.command_id.text))
+    if (auto problem = choose(results, get.condition, known, get.command_id.text, session))
         return refused<GetCommandResult::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     GetCommandResult::Reply reply;
     reply.results = std::move(results);

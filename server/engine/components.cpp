@@ -172,7 +172,7 @@ std::shared_ptr<EngineProfile const> Engine::Core::profile_without_members() con
 // Without the sub engines of which the client sees no component.
 std::shared_ptr<EngineProfile const> Engine::Core::profile_seen_by(Rights const* rights,
                                                                    std::shared_ptr<EngineProfile const> const& profile) const {
-    if (rights == nullptr || rights->sees_everything()) return profile;
+    if (may_see_everything(rights)) return profile;
     Names hidden;
     for (auto const& [ref, component] : registry_.all())
         if (!rights->sees(ref)) hidden.insert(ref);
@@ -191,7 +191,7 @@ void Engine::Core::enter(SharedComponent const& component) {
     auto const& entry = registry_.add(component).entry();
     registry_.mark_members();
     list(profile_, entry.engine, entry.ref);
-    forget_shared_profiles();
+    forget_shared();
     expect_providers(registry_.all().size() + devices_.size());
     component->hosted().attach();
 }
@@ -272,12 +272,33 @@ std::vector<std::string> Engine::Core::add_space(Places& all, BelongingsOf const
 }
 
 // The frames and places for another engine. Places that are not boxes are left out: messages have no form for them.
-Space Engine::Core::space() const {
-    Space space{.frames = places_.frames.others(), .places = {}};
-    for (auto const& place : places_.all) {
+Places const& Engine::Core::places_seen_by(Rights const* rights) const {
+    if (may_see_everything(rights)) return places_;
+    if (auto const known = places_seen_.find(rights->seen()); known != places_seen_.end()) return known->second;
+    auto seen = belongings_;
+    std::erase_if(seen, [&](auto const& each) {
+        auto const is_seen = [&](auto const& component) {
+            return component.second->provider() == each.first && rights->sees(component.first);
+        };
+        return !each.first.empty() && std::ranges::none_of(registry_.all(), is_seen);
+    });
+    Places places;
+    try {
+        places = places_of(seen);
+    } catch (std::invalid_argument const&) {
+        places = own_places_;  // they are placed in frames that the client does not see
+    }
+    add_space(places, seen, {});
+    return places_seen_.emplace(rights->seen(), std::move(places)).first->second;
+}
+
+Space Engine::Core::space(Rights const* rights) const {
+    auto const& places = places_seen_by(rights);
+    Space space{.frames = places.frames.others(), .places = {}};
+    for (auto const& place : places.all) {
         if (place.area.shape != Geometry::Shape::box) continue;
         auto& area = space.places.emplace_back(place).area;
-        if (area.crs.empty()) area.crs = places_.frames.own();
+        if (area.crs.empty()) area.crs = places.frames.own();
     }
     return space;
 }
@@ -327,14 +348,15 @@ std::vector<std::string> Engine::Core::change(ComponentChange change, Instant no
     std::swap(profile_, profile);
     std::swap(belongings_, belongings);
     std::swap(places_, places);
-    forget_shared_profiles();
+    forget_shared();
     if (going.empty() && coming.empty() && !has_new_space && profile == profile_) return left_out;
     Attempts attempts;
     for (auto const& component : going) attempts([&] { leave(component, now); });
     for (auto const& component : coming) attempts([&] { component->hosted().attach(); });
     for (auto const& component : coming)
         attempts([&] { executor_.halt(*component, CompletedStatus::abort, "it was just added", now); });
-    profile_change_unreported_ = true;
+    bool const concerns_all = has_new_space || (going.empty() && coming.empty());
+    attempts([&] { note_profile_change(going, coming, concerns_all ? &change.provider : nullptr); });
     attempts([&] { restore_absent(now); });
     attempts([&] { report_profile_change(now); });
     attempts([&] { settle(now); });
@@ -342,13 +364,31 @@ std::vector<std::string> Engine::Core::change(ComponentChange change, Instant no
     return left_out;
 }
 
-// At most once a second: components may come and go often. A tick reports a later change.
+// `whole_provider`: the change concerns all of its components, such as their places; null: only those that come or go.
+void Engine::Core::note_profile_change(std::vector<SharedComponent> const& going, std::vector<SharedComponent> const& coming,
+                                       std::string const* whole_provider) {
+    profile_change_unreported_ = true;
+    for (auto const* list : {&going, &coming})
+        for (auto const& component : *list) changed_refs_.insert(component->ref().code);
+    if (whole_provider == nullptr) return;
+    for (auto const& [ref, component] : registry_.all())
+        if (component->provider() == *whole_provider) changed_refs_.insert(ref);
+}
+
+// At most once a second: components may come and go often. A tick reports a later change. Sessions that see none of the changed
+// components learn nothing.
 void Engine::Core::report_profile_change(Instant now) {
     if (!profile_change_unreported_) return;
     if (profile_change_reported_ && now.steady - *profile_change_reported_ < std::chrono::seconds{1}) return;
     auto const notification = std::make_shared<OutgoingNotification const>(ProfileChanged{});
     Attempts attempts;
-    for (auto const& [id, session] : sessions_) attempts([&, &to = *session] { notifier_.notify(to, notification); });
+    for (auto const& [id, session] : sessions_) {
+        auto const* rights = session->rights.get();
+        auto const is_seen = [&](std::string const& ref) { return rights->sees(ref); };
+        if (may_see_everything(rights) || std::ranges::any_of(changed_refs_, is_seen))
+            attempts([&, &to = *session] { notifier_.notify(to, notification); });
+    }
+    changed_refs_.clear();
     profile_change_reported_ = now.steady;
     profile_change_unreported_ = false;
     attempts.rethrow();

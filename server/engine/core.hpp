@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -52,6 +53,7 @@ public:
     void restore(StoredState, RightsOf const&, Instant now);
     EarlierSession earlier_session(std::string const& provider) const;
     void session_opened_there(std::string const& provider, SessionId const&);
+    void stopped_there(std::string const& provider, std::optional<std::uint64_t> stop);
     void ended_there(std::string const& provider, std::vector<CommandEnded>, Instant now);
     void stored(Instant now);
     void not_stored(Instant now);
@@ -106,7 +108,11 @@ private:
     static std::vector<ComponentProfile> profiles_of(BelongingsOf const&);
     Places places_of(BelongingsOf const&) const;
     static std::vector<std::string> add_space(Places&, BelongingsOf const&, std::string const& provider);
-    Space space() const;
+    // Frames and places without those of sub engines of which the client sees no component. Valid until the next change.
+    Places const& places_seen_by(Rights const*) const;
+    Space space(Rights const*) const;
+    void note_profile_change(std::vector<std::shared_ptr<RegisteredComponent>> const& going,
+                             std::vector<std::shared_ptr<RegisteredComponent>> const& coming, std::string const* whole_provider);
     void report_profile_change(Instant now);
 
     // Sessions of other engines (engine_sessions.cpp)
@@ -135,6 +141,8 @@ private:
     Reply perform(Session&, GetErrorDetail const&, Instant now);
     bool owns_present_stop(Session const&) const;
     bool present_stop_has_owners() const;
+    static std::string owner_of(Session const&);
+    void follow_ended_owner(Session const&);
     Reply perform(Session&, StopEverything const&, Instant now);
     Reply perform(Session&, ClearStop const&, Instant now);
 
@@ -172,6 +180,8 @@ private:
     // hold is in force, or asks again. Without the session, the operation is refused.
     void answer_later(SharedAsked const&, std::function<Later(Session&)> const& make);
     void answer(SharedAsked const&, Session const&, Reply&&);
+    // The ref of the only component that the operation names, if the session sees it; otherwise empty.
+    std::string_view component_named_by(Operation const&, Session const&) const;
 
     // The journal (journal/restoring.cpp)
     StoredEngine stored_engine() const;
@@ -185,6 +195,10 @@ private:
     void restore(Session&, StoredCommand&&, Instant now);
     void restore(Session&, StoredBinding const&, Instant now);
     bool restore(StoredSubscription const&);
+    void take_answer(Session&, RegisteredComponent&, StoredBinding const&, std::optional<ComponentAnswer> const&, Instant now);
+    void bind_again(Session&, RegisteredComponent&, StoredBinding const&, Instant now);
+    void ask_absent_again(Instant now);
+    static bool forget_absent(Session&, std::string const& ref);  // returns whether a binding of this component waited
     void restore_absent(Instant now);
 
     // Event interface (event_interface.cpp)
@@ -205,9 +219,23 @@ private:
     ReceiveError noted(FoundError const&, Instant now);
 
     // Conditions (conditions.cpp)
-    Vocabulary vocabulary(Declarations const* results = nullptr) const {
-        return {
-            .places = &places_, .parameters = &registry_.parameters(), .results = results, .main_engine = profile_.object.name};
+    // The components and places that this session sees; null: all.
+    Perspective perspective(Session const* asker, Perspective::Of of) const {
+        return {registry_, places_, asker == nullptr ? places_ : places_seen_by(asker->rights.get()), asker, of};
+    }
+    // The names that the asker may use: those of components that it sees.
+    Vocabulary vocabulary(Session const& asker) const {
+        auto const* rights = asker.rights.get();
+        return {.places = &places_,
+                .seen_places = &places_seen_by(rights),
+                .parameters = &registry_.parameters(rights),
+                .main_engine = profile_.object.name};
+    }
+    // The same, and the results of this message.
+    Vocabulary vocabulary(Session const& asker, MessageKind kind, std::string_view message) const {
+        auto with_results = vocabulary(asker);
+        with_results.results = &registry_.results(kind, message, asker.rights.get());
+        return with_results;
     }
     // Returns whether one of these components may ever match, now or after a change of its state.
     bool may_ever_match(Filter const&, ComponentsInOrder possible, Session const& asker) const;
@@ -226,13 +254,15 @@ private:
     // The members of a logical component in the order of the selection.
     std::vector<std::string> members_in_order(RegisteredComponent const&, Selection const&, Session const& asker) const;
     // Removes the results that do not match (decision 19). Returns why the condition is invalid, or nullopt.
-    std::optional<std::string> choose(Results&, QueryExpression const&, Declarations const& known, std::string_view id) const;
+    std::optional<std::string> choose(Results&, QueryExpression const&, Declarations const& known, std::string_view id,
+                                      Session const& asker) const;
     // The reply to get_event_detail or get_error_detail. `kind` is "event" or "error".
     template <class R>
-    R reply_with(Details::Answer const&, std::string_view kind, std::string const& id, QueryExpression const&) const;
+    R reply_with(Details::Answer const&, std::string_view kind, std::string const& id, QueryExpression const&,
+                 Session const& asker) const;
     // Sets the results of this reply. Returns why there are none, or nullopt.
     std::optional<std::string> choose_details(Results&, Details::Answer const&, std::string_view kind, std::string const& id,
-                                              QueryExpression const&) const;
+                                              QueryExpression const&, Session const& asker) const;
 
     // Sessions (engine.cpp)
     void end(Session&, std::string_view why, Instant now);
@@ -269,13 +299,15 @@ private:
     // The copies that callers share; null until the first call.
     mutable std::shared_ptr<EngineProfile const> shared_profile_;
     mutable std::shared_ptr<EngineProfile const> shared_profile_without_members_;
-    void forget_shared_profiles() {
+    void forget_shared() {
         shared_profile_.reset();
         shared_profile_without_members_.reset();
+        places_seen_.clear();
     }
     Agenda agenda_;
     Places own_places_;
-    Places places_;  // the own ones, and those of all providers
+    Places places_;                                                   // the own ones, and those of all providers
+    mutable std::map<std::vector<std::string>, Places> places_seen_;  // by the patterns of clients that do not see everything
     std::shared_ptr<Inbox> inbox_ = std::make_shared<Inbox>();
     ProvidersToRun to_run_;
     ProvidersToRun left_for_clock_;
@@ -295,11 +327,13 @@ private:
     Recorder recorder_;
     Subscriptions subscriptions_;
     std::map<std::string, std::string> sessions_there_;  // of this engine in its sub engines, by provider
+    std::map<std::string, std::uint64_t> stops_there_;   // StoredEngine::stops_there
     struct Undecided {
         std::string provider;
         std::shared_ptr<Command> command;
     };
     std::vector<Undecided> undecided_;                      // commands from before a restart, whose ends the sub engines may know
+    bool asks_absent_again_ = false;                        // soon
     std::vector<StoredSubscription> absent_subscriptions_;  // from before a restart, to events that no component has yet
     Deadlines deadlines_;
     Deadlines::Ticket last_due_ = Deadlines::first();  // of the deadlines that were carried out since the last tick
@@ -318,8 +352,8 @@ private:
     bool sessions_must_end_ = false;
     bool shutting_down_ = false;
     bool everything_is_stopped_ = false;
-    std::size_t stops_of_ended_sessions_ = 0;  // owners of the present stop that have ended without clearing it
-    std::uint64_t last_stop_ = 0;              // a number that no other stop has, also not one before the engine was started
+    std::vector<std::string> ended_owners_;  // of the present stop (owner_of); they have not cleared it
+    std::uint64_t last_stop_ = 0;            // a number that no other stop has, also not one before the engine was started
     std::function<void(bool)> on_stop_ = [](bool) {};
     std::optional<Steady> stop_reported_;    // when the sessions last received the error of a stop of everything
     bool stop_unreported_ = false;           // a later stop has not been reported yet: a tick will report it
@@ -327,6 +361,7 @@ private:
     std::uint64_t pushed_at_last_call_ = 0;  // of the owners: Notifier::pushed
     std::optional<Steady> profile_change_reported_;
     bool profile_change_unreported_ = false;
+    std::set<std::string> changed_refs_;  // of the components that this change concerns
     std::uint64_t events_published_ = 0;
     std::uint64_t errors_published_ = 0;
     std::uint64_t last_session_ = 0;
@@ -351,9 +386,9 @@ R refused(ReturnCode code, std::string reason) {
 
 template <class R>
 R Engine::Core::reply_with(Details::Answer const& details, std::string_view kind, std::string const& id,
-                           QueryExpression const& condition) const {
+                           QueryExpression const& condition, Session const& asker) const {
     R reply;
-    auto problem = choose_details(reply.results, details, kind, id, condition);
+    auto problem = choose_details(reply.results, details, kind, id, condition, asker);
     return problem ? refused<R>(ReturnCode::bad_parameter, *std::move(problem)) : reply;
 }
 

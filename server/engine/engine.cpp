@@ -36,8 +36,10 @@ namespace {
 constexpr std::chrono::milliseconds signs_of_life_wanted{1'000};
 
 // Whether the answer tells something that must still be true after a restart. `execute` and `set_parameter` have waited for the
-// journal before they ran. `disconnect` needs no promise: without its application, the session ends anyway.
-bool is_lasting(Operation const& operation) {
+// journal before they ran, but a refusal may be about a command that is being stored ("the command_id is in use"). `disconnect`
+// needs no promise: without its application, the session ends anyway.
+bool is_lasting(Operation const& operation, ReturnCode return_code) {
+    if (return_code != ReturnCode::ok) return std::holds_alternative<Execute>(operation);
     return std::visit(
         []<class Known>(Known const&) {
             return std::same_as<Known, Connect> || std::same_as<Known, Bind> || std::same_as<Known, BindAny> ||
@@ -77,13 +79,31 @@ void Engine::Core::take(std::shared_ptr<Asked> const& asked, Instant now) {
     if (reply) answer(asked, *session, std::move(*reply));
 }
 
+std::string_view Engine::Core::component_named_by(Operation const& operation, Session const& session) const {
+    auto const* named = std::visit(
+        []<class Known>(Known const& known) -> Identifier const* {
+            if constexpr (requires { known.component_ref; }) return &known.component_ref;
+            if constexpr (std::same_as<Known, Execute>) {
+                auto const& units = known.command_unit_list.command_unit_list;
+                auto const* only = units.size() == 1 ? std::get_if<CommandMessage>(&units.front().unit) : nullptr;
+                if (only != nullptr) return &only->component_ref;
+            }
+            return nullptr;
+        },
+        operation);
+    bool const is_known = named != nullptr && registry_.meant(*named, session).component != nullptr;
+    return is_known ? std::string_view{named->code} : std::string_view{};
+}
+
 void Engine::Core::answer(SharedAsked const& asked, Session const& session, Reply&& reply) {
     auto const& outcome = outcome_of(reply);
     if (outcome.return_code != ReturnCode::ok) {
         Attempts attempts;
-        attempts([&] { trace_->refused(session.number, asked->operation(), outcome); });
+        attempts([&] {
+            trace_->refused(session.number, asked->operation(), outcome, component_named_by(asked->operation(), session));
+        });
     }
-    if (outcome.return_code == ReturnCode::ok && is_lasting(asked->operation()))
+    if (is_lasting(asked->operation(), outcome.return_code))
         answer_when_stored(asked, std::move(reply));
     else
         asked->answer(std::move(reply));
@@ -239,6 +259,7 @@ void Engine::Core::remove(Session& session, Instant now) {
     for (auto* component : session.bound) {
         component->bound_to = nullptr;
         notify_of_release(*component, now);
+        trace_->released(session.number, component->ref().code);
     }
     subscriptions_.remove_all(session);
     pass_on_unread(session, now);
@@ -248,7 +269,8 @@ void Engine::Core::remove(Session& session, Instant now) {
     trace_->session_ended(session.number, session.why_it_ends);
     free_slots_.push_back(session.events.slot);  // cannot throw: `connect` reserved the room
     std::erase(engines_, &session);
-    if (owns_present_stop(session)) ++stops_of_ended_sessions_;
+    if (owns_present_stop(session))
+        attempts([&] { ended_owners_.push_back(owner_of(session)); });  // else it needs POST /rois/clear
     if (session.owner != nullptr) session.owner->own_session = nullptr;
     sessions_.erase(sessions_.find(session.id));
 }
@@ -256,7 +278,7 @@ void Engine::Core::remove(Session& session, Instant now) {
 void Engine::Core::stop_everything(Instant now) {
     everything_is_stopped_ = true;
     stop_unreported_ = true;
-    stops_of_ended_sessions_ = 0;
+    ended_owners_.clear();
     ++last_stop_;
     recorder_.changed_engine();
     Attempts attempts;

@@ -147,9 +147,13 @@ public:
     struct EarlierSession {
         SessionId id;  // empty: there is none
         std::vector<CommandHandle> commands{};
+        std::optional<std::uint64_t> stop{};  // as in `stopped_there`
     };
     EarlierSession earlier_session(std::string const& provider) const;
     void session_opened_there(std::string const& provider, SessionId const&);
+    // A stop of everything that this engine has asked for there, and has to clear there (decision 34): its number, or
+    // ClearStop::own while the number is not known; nullopt: it is cleared.
+    void stopped_there(std::string const& provider, std::optional<std::uint64_t> stop);
     void ended_there(std::string const& provider, std::vector<CommandEnded>, Instant now);
     // Called by the journal, with the engine locked; call `work` afterwards.
     void stored(Instant now);

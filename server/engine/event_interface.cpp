@@ -11,7 +11,7 @@ Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instan
     auto const& components = registry_.with(MessageKind::event, subscribe.event_type);
     if (components.possible({}, {Members::shown, session.rights.get()}).next() == nullptr)
         return refused<Subscribe::Reply>(ReturnCode::unsupported, "no component has the event " + quoted(subscribe.event_type));
-    auto filter = Filter::compile(subscribe.condition, vocabulary(&registry_.results(MessageKind::event, subscribe.event_type)));
+    auto filter = Filter::compile(subscribe.condition, vocabulary(session, MessageKind::event, subscribe.event_type));
     if (auto* problem = std::get_if<std::string>(&filter))
         return refused<Subscribe::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     auto& wanted = std::get<Filter>(filter);
@@ -46,14 +46,16 @@ std::optional<std::string> Engine::Core::no_room_for(Session const& session, Fil
 }
 
 Reply Engine::Core::perform(Session& session, Unsubscribe const& unsubscribe, Instant) {
-    subscriptions_.remove(session, unsubscribe.subscribe_id);
-    recorder_.unsubscribed(session, unsubscribe.subscribe_id);
+    auto const& id = unsubscribe.subscribe_id;
+    auto const is_it = [&](StoredSubscription const& each) { return each.session == session.number && each.id == id; };
+    bool const was_absent = std::erase_if(absent_subscriptions_, is_it) > 0;
+    if (subscriptions_.remove(session, id) || was_absent) recorder_.unsubscribed(session, id);
     return Unsubscribe::Reply{};
 }
 
 Reply Engine::Core::perform(Session& session, GetEventDetail const& get, Instant now) {
     auto const& id = get.event_id.text;
-    return reply_with<GetEventDetail::Reply>(events_.find(id, session.events, now), "event", id, get.condition);
+    return reply_with<GetEventDetail::Reply>(events_.find(id, session.events, now), "event", id, get.condition, session);
 }
 
 namespace {
@@ -73,12 +75,13 @@ Declarations declared_details(MessageProfile const* message) {
 }  // namespace
 
 std::optional<std::string> Engine::Core::choose_details(Results& results, Details::Answer const& details, std::string_view kind,
-                                                        std::string const& id, QueryExpression const& condition) const {
+                                                        std::string const& id, QueryExpression const& condition,
+                                                        Session const& asker) const {
     auto const kind_text = std::string{kind};
     if (details.found == Details::Found::unknown) return "unknown " + kind_text + "_id " + quoted(id);
     if (details.found == Details::Found::expired) return "the details of the " + kind_text + " " + quoted(id) + " have expired";
     results = *details.results;
-    return choose(results, condition, declared_details(details.message.get()), id);
+    return choose(results, condition, declared_details(details.message.get()), id, asker);
 }
 
 namespace {
@@ -120,18 +123,25 @@ bool Engine::Core::deliver(RegisteredComponent& component, std::string const& ev
                            Instant now, Attempts& deliveries) {
     auto const subscriptions = subscriptions_.possible(event_type, component);
     std::string event_id;  // made when a subscriber matches
-    Perspective no_asker{registry_, places_, nullptr, Perspective::Of::present};
+    auto no_asker = perspective(nullptr, Perspective::Of::present);
     MessageCandidate const candidate{no_asker.candidate(component), *results};
     auto const matches = [&](Subscription const& subscription, Session const& asker) {
-        Perspective askers{registry_, places_, &asker, Perspective::Of::present};
+        auto askers = perspective(&asker, Perspective::Of::present);
         return subscription.filter.match(MessageCandidate{askers.candidate(component), *results}) == Match::yes;
     };
     bool begun = false;  // some subscriber may have been notified
     auto const sees = [&](Subscription::Subscriber const& one) { return may_see(one.rights, component.ref().code); };
     auto const deliver_to = [&](Subscription& subscription) {
         if (std::ranges::none_of(subscription.subscribers, sees)) return;
-        bool const each = subscription.filter.depends_on_asker();
-        if (!each && subscription.filter.match(candidate) != Match::yes) return;
+        auto const is_restricted = [](Subscription::Subscriber const& one) { return !may_see_everything(one.rights); };
+        bool const each = subscription.filter.depends_on_asker() ||
+                          (subscription.filter.restricts() && std::ranges::any_of(subscription.subscribers, is_restricted));
+        auto const is_for = [&](Subscription::Subscriber const& one) {
+            return sees(one) && (!each || matches(subscription, *one.session));
+        };
+        bool const is_for_some =
+            each ? std::ranges::any_of(subscription.subscribers, is_for) : subscription.filter.match(candidate) == Match::yes;
+        if (!is_for_some) return;
         if (event_id.empty()) {
             auto const& profile = component.entry().profile;
             event_id = events_.add(results, {profile, find_message(*profile, MessageKind::event, event_type)}, now);
@@ -147,7 +157,7 @@ bool Engine::Core::deliver(RegisteredComponent& component, std::string const& ev
         auto const& subscribers = subscription.subscribers;
         for (auto const& subscriber : subscribers) {
             deliveries([&] {
-                if (!sees(subscriber) || (each && !matches(subscription, *subscriber.session))) return;
+                if (!is_for(subscriber)) return;
                 events_.add_receiver(subscriber.slot);
                 notifier_.notify(*subscriber.queue, notifications.of(subscriber.inline_results),
                                  component.answer_to(*subscriber.session));

@@ -17,6 +17,9 @@ void Engine::restore(StoredState state, RightsOf const& rights_of, Instant now) 
 }
 Engine::EarlierSession Engine::earlier_session(std::string const& provider) const { return core_->earlier_session(provider); }
 void Engine::session_opened_there(std::string const& provider, SessionId const& id) { core_->session_opened_there(provider, id); }
+void Engine::stopped_there(std::string const& provider, std::optional<std::uint64_t> stop) {
+    core_->stopped_there(provider, stop);
+}
 void Engine::ended_there(std::string const& provider, std::vector<CommandEnded> ended, Instant now) {
     core_->ended_there(provider, std::move(ended), now);
 }

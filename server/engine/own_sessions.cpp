@@ -105,10 +105,13 @@ void Engine::Core::call_owners(Instant now) {
 // Notifies the session that has agreed on switching, and those that receive all switches.
 void Engine::Core::publish(RegisteredComponent const& component, MemberSwitched&& switched) {
     auto const notification = std::make_shared<OutgoingNotification const>(
-        Switched{component.ref(), std::move(switched.from), std::move(switched.to), std::move(switched.reason)});
+        Switched{component.ref(), switched.from, switched.to, std::move(switched.reason)});
     for (auto const& [id, session] : sessions_) {
         bool const agreed = component.bound_to == session.get() && component.switching != Switching::none;
-        bool const sees = may_see(session->rights.get(), component.ref().code);
+        auto const* rights = session->rights.get();
+        auto const& ref = component.ref().code;
+        bool const sees_members = may_see(rights, switched.from) && may_see(rights, switched.to);
+        bool const sees = may_command(rights, ref) || (may_see(rights, ref) && sees_members);
         if (agreed || (session->receives_switches && sees))
             notifier_.notify(*session, notification, component.answer_to(*session));
     }

@@ -119,13 +119,13 @@ private:
 // session works with, then the order of SortBy, or the lowest code. The answer is the first row of the component that matches. If
 // a component fails or does not answer in time, the next one is asked (decision 36).
 Engine::Core::Later Engine::Core::perform(Session& session, Query const& query, SharedAsked const& asked, Instant now) {
-    auto vocabulary = this->vocabulary(&registry_.results(MessageKind::query, query.query_type));
+    auto vocabulary = this->vocabulary(session, MessageKind::query, query.query_type);
     vocabulary.first = Vocabulary::First::parameters;
     auto compiled = Selection::compile(query.condition, vocabulary);
     if (auto* problem = std::get_if<std::string>(&compiled)) return refused(ReturnCode::bad_parameter, std::move(*problem));
     auto& selection = std::get<Selection>(compiled);
     auto const& able = registry_.with(MessageKind::query, query.query_type);
-    bool const sees_all = session.rights == nullptr || session.rights->sees_everything();
+    bool const sees_all = may_see_everything(session.rights.get());
     bool const of_whole_engine = sees_all && !selection.filter().restricts() && !selection.sorts() && !able.all().empty();
     bool const looks_up = able.all().size() > few || !registry_.logical().empty();
     auto const demand = looks_up ? selection.filter().demand() : std::nullopt;
@@ -154,7 +154,7 @@ std::vector<Results> Engine::Core::known_answer(Session const& session, Register
 // would be asked only if all earlier ones failed.
 Engine::Core::Later Engine::Core::Inquiry::of_one_component(Session& session, std::vector<RegisteredComponent*> const& able,
                                                             Instant now) {
-    Perspective looked_at{core_.registry_, core_.places_, &session, Perspective::Of::present};
+    auto looked_at = core_.perspective(&session, Perspective::Of::present);
     bool has_choice = false;
     for (auto* component : able) {
         auto const match = selection_.match(looked_at.candidate(*component));
@@ -241,7 +241,7 @@ void Engine::Core::Inquiry::sort(std::vector<Match>& found, Perspective& looked_
 }
 
 Engine::Core::Later Engine::Core::Inquiry::choose(Session& session, Instant now) {
-    Perspective looked_at{core_.registry_, core_.places_, &session, Perspective::Of::present};
+    auto looked_at = core_.perspective(&session, Perspective::Of::present);
     return choose(looked_at, session, now);
 }
 

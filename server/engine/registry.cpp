@@ -313,13 +313,13 @@ bool RegisteredComponent::to_engine_frame(Results& results, std::string_view mes
 
 bool RegisteredComponent::is_position(std::string_view parameter) const { return is_among(positions_, parameter); }
 
-std::optional<std::string> RegisteredComponent::why_no_frame(ParameterList const& normalized) const {
+std::optional<std::string> RegisteredComponent::why_no_frame(ParameterList const& normalized, Rights const* asker) const {
     if (frames_.own().empty()) return {};
     for (auto const& parameter : normalized) {
         auto const& crs = parameter.data_type_ref.codebook_ref;
         if (is_position(parameter.name) && !frames_.know(crs))
-            return "parameter " + quoted(parameter.name) + ": the frame " + quoted(crs, 200) +
-                   " is not known here; expected one of " + first_listed(frames_.names());
+            return "parameter " + quoted(parameter.name) + ": the frame " + quoted(crs, 200) + " is not known here" +
+                   (may_see_everything(asker) ? "; expected one of " + first_listed(frames_.names()) : "");
     }
     return {};
 }
@@ -396,7 +396,7 @@ RegisteredComponent& Registry::add(std::shared_ptr<RegisteredComponent> componen
     if (!added) throw std::runtime_error("there are two components with the ref " + quoted(ref));
     place->second = std::move(component);
     auto& registered = *place->second;
-    parameters_.reset();
+    parameters_.clear();
     index_.add(registered);
     if (registered.moves()) moving_.push_back(&registered);
     if (registered.is_logical()) logical_.push_back(&registered);
@@ -410,7 +410,7 @@ void Registry::remove(RegisteredComponent const& component) {
     std::erase(logical_, &component);
     for (auto const& message : component.profile().messages) change(message).components.remove(component);
     components_.erase(component.ref().code);
-    parameters_.reset();
+    parameters_.clear();
 }
 
 void Registry::mark_members() noexcept {
@@ -420,10 +420,10 @@ void Registry::mark_members() noexcept {
             if (auto* member = find(ref)) member->is_member = true;
 }
 
-// Marks the collected results of the message as outdated.
+// Forgets the collected results of the message.
 Registry::Providers& Registry::change(MessageProfile const& message) {
     auto& providers = by_message_[message.kind][message.name];
-    providers.results.reset();
+    providers.results.clear();
     return providers;
 }
 
@@ -433,17 +433,6 @@ Registry::Providers const& Registry::providers(MessageKind kind, std::string_vie
     if (by_name == by_message_.end()) return none;
     auto const found = by_name->second.find(message);
     return found == by_name->second.end() ? none : found->second;
-}
-
-Declarations const& Registry::parameters() const {
-    if (parameters_) return *parameters_;
-    auto& gathered = parameters_.emplace();
-    for (auto const& [ref, component] : components_) {
-        gathered.add(component->settable());
-        if (auto const* message = find_message(component->profile(), MessageKind::query, "get_parameter"))
-            gathered.add(message->results);
-    }
-    return gathered;
 }
 
 RegisteredComponent* Registry::find(std::string_view ref) const {
@@ -466,16 +455,6 @@ Registry::Lookup Registry::meant(Identifier const& ref, Session const& asker) co
     if (ref.authority.empty() || own.authority.empty() || equal_ignoring_case(ref.authority, own.authority))
         return {component, {}};
     return foreign("authority", ref.authority, {own.authority});
-}
-
-Declarations const& Registry::results(MessageKind kind, std::string_view message) const {
-    auto const& [components, results] = providers(kind, message);
-    static Declarations const none;
-    if (components.all().empty()) return none;
-    if (results) return *results;
-    auto& gathered = results.emplace();
-    for (auto const* component : components.all()) gathered.add(find_message(component->profile(), kind, message)->results);
-    return gathered;
 }
 
 Registry::Bound Registry::bind(RegisteredComponent& component, Session& session, Instant now) {

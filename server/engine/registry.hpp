@@ -112,7 +112,8 @@ public:
     std::optional<Located> const& location() const { return state_.location; }
 
     // Returns which position is in an unknown frame, or nullopt. The parameters must be normalized.
-    std::optional<std::string> why_no_frame(ParameterList const& normalized) const;
+    // It lists the known frames to those who see everything.
+    std::optional<std::string> why_no_frame(ParameterList const& normalized, Rights const* asker = nullptr) const;
 
     // Returns which identifier is from a codebook that the component does not know (decision 31), or nullopt. `profiles`: the
     // parameters' profiles. The parameters must be normalized.
@@ -164,6 +165,7 @@ public:
     bool stands_still = false;  // has confirmed a halt, and nothing has begun since
 
     std::uint64_t halts = 0;  // how often it was halted
+    std::uint64_t stops = 0;  // how often what it did was ended, other than by a `start` that replaces another
 
     // `suspend` was called for a lease that ended, and is not confirmed yet.
     bool is_being_held = false;
@@ -257,20 +259,23 @@ public:
     // The components whose profile has this message.
     ComponentIndex const& with(MessageKind kind, std::string_view message) const { return providers(kind, message).components; }
 
-    // The results of this message in all profiles. Valid until the components change.
-    Declarations const& results(MessageKind, std::string_view message) const;
-
-    // The parameters of all components, for conditions. Valid until the components change.
-    Declarations const& parameters() const;
+    // The results of this message in the profiles of the components that a client sees, for conditions. Valid until the
+    // components change.
+    Declarations const& results(MessageKind, std::string_view message, Rights const*) const;
+    // The parameters of these components. Valid until the components change.
+    Declarations const& parameters(Rights const*) const;
 
     enum class Bound : std::uint8_t { ok, taken, not_halted };
     static Bound bind(RegisteredComponent&, Session&, Instant now);
 
 private:
-    // The components that have a message, and its results; nullopt if the results must be collected again.
+    // By the patterns of those who see them; nullopt: everything. They are collected when they are needed.
+    using Seen = std::map<std::optional<std::vector<std::string>>, Declarations>;
+
+    // The components that have a message, and its results.
     struct Providers {
         ComponentIndex components;
-        mutable std::optional<Declarations> results;
+        mutable Seen results;
     };
     using ByName = std::map<std::string, Providers, std::less<>>;
 
@@ -281,7 +286,7 @@ private:
     std::vector<RegisteredComponent*> moving_;
     std::vector<RegisteredComponent*> logical_;
     ComponentIndex index_;
-    mutable std::optional<Declarations> parameters_;  // nullopt if they must be collected again
+    mutable Seen parameters_;
     std::map<MessageKind, ByName> by_message_;
 };
 

@@ -19,7 +19,10 @@ public:
     bool sees(std::string const& ref) const { return matches(sees_, ref); }
     // Whether the client may bind it.
     bool commands(std::string const& ref) const { return sees(ref) && matches(commands_, ref); }
-    bool sees_everything() const { return matches(sees_, "*"); }
+    // Whether one of the patterns is "*".
+    bool sees_everything() const;
+    // Whether one of the patterns fits every ref that begins with this text.
+    bool sees_all_of(std::string const& beginning) const;
 
     // From now on nothing is allowed. The owner then lets the engine end the sessions (Engine::end_withdrawn).
     void withdraw() const { is_withdrawn_ = true; }
@@ -42,6 +45,7 @@ private:
 
 // Null: a client without limits.
 inline bool may_see(Rights const* rights, std::string const& ref) { return rights == nullptr || rights->sees(ref); }
+inline bool may_see_everything(Rights const* rights) { return rights == nullptr || rights->sees_everything(); }
 inline bool may_command(Rights const* rights, std::string const& ref) { return rights == nullptr || rights->commands(ref); }
 
 }  // namespace rois

@@ -42,7 +42,7 @@ struct Session {
     Details::Asker errors;
 
     std::set<RegisteredComponent*> bound;
-    std::vector<StoredBinding> absent;  // bindings from before a restart, to components that have not returned yet
+    std::vector<StoredBinding> absent;  // bindings from before a restart, until their components have returned and confirmed them
     std::set<Subscription*> subscriptions;
     std::size_t predicates = 0;                                                // total in the conditions of the subscriptions
     std::size_t condition_bytes = 0;                                           // total length of the texts in these conditions
@@ -64,7 +64,8 @@ struct Session {
 
     bool receives_switches = false;  // of all components
 
-    bool is_stored = false;  // in the journal
+    bool is_stored = false;        // the journal keeps it
+    bool has_been_stored = false;  // once, perhaps as it was earlier
 
     // The client is another engine (decision 39), or a logical component.
     bool is_engine = false;

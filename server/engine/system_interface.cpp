@@ -134,8 +134,21 @@ bool Engine::Core::owns_present_stop(Session const& session) const {
 }
 
 bool Engine::Core::present_stop_has_owners() const {
-    return stops_of_ended_sessions_ > 0 ||
+    return !ended_owners_.empty() ||
            std::ranges::any_of(sessions_, [&](auto const& each) { return owns_present_stop(*each.second); });
+}
+
+// Whose stop it is, for a session that follows one that has ended: of a client with the same token, and of an engine if it is
+// one.
+std::string Engine::Core::owner_of(Session const& session) {
+    auto const* rights = session.rights.get();
+    return (session.is_engine ? "engine " : "client ") + (rights == nullptr ? "" : rights->holder() + " " + rights->id());
+}
+
+// The session takes the place of an owner that has ended, if there was one with its token.
+void Engine::Core::follow_ended_owner(Session const& session) {
+    auto const found = std::ranges::find(ended_owners_, owner_of(session));
+    if (found != ended_owners_.end()) ended_owners_.erase(found);
 }
 
 // A stop ends when each session that owns it has cleared it. A stop without owners, such as one of POST /rois/stop, ends only
@@ -146,12 +159,12 @@ Reply Engine::Core::perform(Session& session, StopEverything const&, Instant now
     if (!was_stopped || session.last_stop != last_stop_) {
         session.owns_stop = !was_stopped || present_stop_has_owners();
         auto const number = last_stop_;
-        auto const of_ended_sessions = stops_of_ended_sessions_;
+        auto ended_owners = std::move(ended_owners_);
         stop_everything(now);
         if (was_stopped) {
             last_stop_ = number;
-            // The session may follow one that has ended.
-            stops_of_ended_sessions_ = of_ended_sessions - std::min<std::size_t>(of_ended_sessions, 1);
+            ended_owners_ = std::move(ended_owners);
+            follow_ended_owner(session);
         }
         session.last_stop = last_stop_;
         recorder_.changed(session);
@@ -169,8 +182,8 @@ Reply Engine::Core::perform(Session& session, ClearStop const& asked, Instant) {
     recorder_.changed_engine();
     if (owns_present_stop(session))
         session.owns_stop = false;
-    else if (stops_of_ended_sessions_ > 0)
-        --stops_of_ended_sessions_;
+    else
+        follow_ended_owner(session);
     if (!present_stop_has_owners()) clear();
     return ClearStop::Reply{};
 }
@@ -197,7 +210,7 @@ std::shared_ptr<EngineProfile const> profile_of_engine_with(std::shared_ptr<Engi
 }  // namespace
 
 Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
-    auto selection = Selection::compile(get.condition, vocabulary());
+    auto selection = Selection::compile(get.condition, vocabulary(session));
     if (auto* problem = std::get_if<std::string>(&selection))
         return refused<GetProfile::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     GetProfile::Reply reply;
@@ -208,7 +221,7 @@ Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
         reply.components.push_back(component->entry());
         if (session.is_engine) reply.components.back().traits = component->traits();
     }
-    if (session.is_engine) reply.space = space();
+    if (session.is_engine) reply.space = space(session.rights.get());
     auto const whole = profile_seen_by(session.rights.get(), session.is_engine ? profile_for_engines(names_members)
                                                              : names_members   ? profile()
                                                                                : profile_without_members());
@@ -218,7 +231,7 @@ Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
 
 Reply Engine::Core::perform(Session& session, GetErrorDetail const& get, Instant now) {
     auto const& id = get.error_id.text;
-    return reply_with<GetErrorDetail::Reply>(errors_.find(id, session.errors, now), "error", id, get.condition);
+    return reply_with<GetErrorDetail::Reply>(errors_.find(id, session.errors, now), "error", id, get.condition, session);
 }
 
 // Decision 24: the engine's errors go to all sessions; a component's errors to the sessions that use it.
@@ -226,7 +239,7 @@ void Engine::Core::publish(FoundError const& report, Instant now, Attempts& deli
     auto const* const component = report.component.get();
     std::set<Session*> concerned;
     if (component != nullptr) {
-        Perspective ever{registry_, places_, nullptr, Perspective::Of::ever};
+        auto ever = perspective(nullptr, Perspective::Of::ever);
         concerned = subscriptions_.possible_subscribers(*component, ever);
         if (component->bound_to != nullptr) concerned.insert(component->bound_to);
     }

@@ -10,6 +10,7 @@
 namespace rois {
 
 struct Command;
+class Rights;
 
 // The engine calls it from within its own calls; implementations must not call the engine. Sessions are identified by their
 // numbers, because their ids are secrets. A command's id may be any text that the application chose.
@@ -18,6 +19,8 @@ public:
     virtual ~Trace() = default;
     virtual void session_opened(std::uint64_t /*session*/) {}
     virtual void session_resumed(std::uint64_t /*session*/) {}
+    // It has returned after a restart of the engine. Null: it has no limits.
+    virtual void session_restored(std::uint64_t /*session*/, Rights const* /*rights*/) {}
     virtual void session_ended(std::uint64_t /*session*/, std::string_view /*why*/) {}
     virtual void bound(std::uint64_t /*session*/, std::string const& /*ref*/) {}
     virtual void released(std::uint64_t /*session*/, std::string const& /*ref*/) {}
@@ -26,9 +29,10 @@ public:
     // The component did not confirm a halt. The engine repeats the halt until it does (decision 35).
     virtual void halt_failed(std::string const& /*ref*/, std::string_view /*why*/) {}
     virtual void halted_at_last(std::string const& /*ref*/) {}
-    // The operation returned a code other than OK.
-    virtual void refused(std::uint64_t /*session*/, Operation const&, Outcome const&) {}
-    // A command begins to run, or has ended. Its session is null if the session has ended.
+    // The operation returned a code other than OK. `ref`: of the component that it names; empty if it names none that the session
+    // sees, or several.
+    virtual void refused(std::uint64_t /*session*/, Operation const&, Outcome const&, std::string_view /*ref*/) {}
+    // A command begins to run, or has ended.
     virtual void command_begun(Command const&) {}
     virtual void command_ended(Command const&) {}
 };

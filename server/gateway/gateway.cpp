@@ -83,7 +83,8 @@ Gateway::Gateway(Engine& engine, Readers& readers, Telemetry& telemetry, ClientL
       tokens_{tokens},
       quota_{limits.sessions_per_connection, limits.sessions_per_address},
       streams_per_session_{limits.streams_per_session},
-      log_{[this](std::uint64_t session) { quota_.ended(session); }} {
+      log_{{.ended = [this](std::uint64_t session) { quota_.ended(session); },
+            .restored = [this](std::uint64_t session, Rights const* rights) { session_restored(session, rights); }}} {
     engine_.report_to(log_);
     engine_.keep_within(memory);
     show_limits(limits);
@@ -107,7 +108,7 @@ void Gateway::use(ClientLimits limits, EngineSettings const& settings) {
 class Exchange final : public Asked {
 public:
     Exchange(Gateway& gateway, std::shared_ptr<NotificationQueue> of, NotificationQueue::Hold until_answered, Request&& request,
-             Instant begun, std::weak_ptr<Reader> waits, std::shared_ptr<Rights const> of_client, Via via)
+             Instant begun, std::weak_ptr<Waker> waits, std::shared_ptr<Rights const> of_client, Via via)
         : Asked{std::move(of), until_answered, std::move(of_client), via == Via::http},
           gateway_{gateway},
           request_{std::move(request)},
@@ -124,9 +125,10 @@ public:
         come();
     }
     void refuse(Refusal refusal) override {
-        if (refusal == Refusal::not_allowed && rights)
+        if (auto const* bind = std::get_if<Bind>(&operation()); refusal == Refusal::not_allowed && rights && bind != nullptr)
             gateway_.audit_({.what = "refused",
                              .token = rights->holder(),
+                             .component = bind->component_ref.code,
                              .operation = operation_name(operation()),
                              .outcome = to_text(FaultCode::not_allowed)});
         fault_ = gateway_.fault_of(refusal);
@@ -165,7 +167,7 @@ private:
     void come() {
         has_come_.store(true, std::memory_order_release);
         if (!is_late_) return;
-        if (auto const reader = waits_.lock()) reader->wake();
+        if (auto const waker = waits_.lock()) waker->wake();
     }
 
     // Notes how a successful operation changes the connection that asked for it.
@@ -185,7 +187,7 @@ private:
     Gateway& gateway_;
     Request request_;
     Instant begun_{};
-    std::weak_ptr<Reader> waits_;
+    std::weak_ptr<Waker> waits_;
     std::optional<Fault> fault_;
     std::optional<Reply> reply_;
     std::uint64_t session_number_ = 0;
@@ -209,7 +211,7 @@ Answer PendingAnswer::take() {
 PendingAnswer Gateway::refused(Fault fault) { return {std::make_shared<Exchange>(*this, std::move(fault)), {}}; }
 
 PendingAnswer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std::string_view text, Via via,
-                              std::weak_ptr<Reader> waits, std::shared_ptr<Client> const& client, Reading const* reading) {
+                              std::weak_ptr<Waker> waits, std::shared_ptr<Client> const& client, Reading const* reading) {
     auto const begun = present();
     std::optional<MemoryBudget::Room> room;
     if (text.size() > negligible) room.emplace(room_for(text));
@@ -255,7 +257,7 @@ Fault Gateway::fault_of(Refusal refusal) {
     return no_such_session();
 }
 
-PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via via, std::weak_ptr<Reader> waits,
+PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via via, std::weak_ptr<Waker> waits,
                                std::shared_ptr<Client> const& client, Reading const* reading, Instant now) {
     auto const rights = client && client->principal ? client->principal->rights : nullptr;
     Hold hold;  // ends without the lock
@@ -272,6 +274,7 @@ PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via 
             return refused(std::move(*fault));
         }
     log_.take_joined();  // of an operation that failed
+    bool const was_stopped = engine_.everything_is_stopped();
     // `disconnect` holds nothing: the readers receive the last notifications before the answer (decision 3).
     if (known && !std::holds_alternative<Disconnect>(request.operation)) hold = Hold{*this, queue};
     auto exchange = std::make_shared<Exchange>(*this, std::move(queue), hold.number(), std::move(request), now, std::move(waits),
@@ -284,6 +287,7 @@ PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via 
         note(audit_, connects ? "connected" : "resumed", *client, {.what = {}, .session = number});
     }
     if (opens && number != 0) quota_.opened(number, client);
+    if (client) note_stop(*client, exchange->operation(), was_stopped);
     engine_.work(lock, now);
     hold.leave();
     exchange->wait();
@@ -415,6 +419,21 @@ std::vector<std::string> Gateway::change(ComponentChange change) {
     return left_out;
 }
 
+// A session without a token does not count: the address of its client is not known.
+void Gateway::session_restored(std::uint64_t session, Rights const* rights) {
+    auto const holder = rights == nullptr || tokens_ == nullptr ? nullptr : tokens_->holder_of(rights->id());
+    if (!holder) return;
+    log_.session_is_of(session, holder->name());
+    quota_.opened(session, std::make_shared<Client>(Address{}, Limits::all, holder));
+}
+
+// A session that has stopped everything asks again to see how far that is.
+void Gateway::note_stop(Client const& by, Operation const& operation, bool was_stopped) const {
+    bool const is_stopped = engine_.everything_is_stopped();
+    if (std::holds_alternative<StopEverything>(operation) && !was_stopped) note(audit_, "stopped everything", by);
+    if (std::holds_alternative<ClearStop>(operation) && was_stopped && !is_stopped) note(audit_, "cleared the stop", by);
+}
+
 StopState Gateway::stop_everything(Client const* asked_by) {
     auto const now = present();
     Lock lock{*this};
@@ -456,21 +475,6 @@ void Gateway::shut_down() {
     shutting_down_ = true;
     engine_.shut_down(now);
     engine_.work(lock, now);
-}
-
-std::shared_ptr<EngineProfile const> Gateway::profile(Rights const* rights) const {
-    std::lock_guard const lock{mutex_};
-    return engine_.profile(rights);
-}
-
-std::vector<ComponentEntry> Gateway::components(Rights const* rights) const {
-    std::lock_guard const lock{mutex_};
-    return engine_.components(rights);
-}
-
-EngineStatistics Gateway::statistics() const {
-    std::lock_guard const lock{mutex_};
-    return engine_.statistics();
 }
 
 }  // namespace rois

@@ -171,7 +171,7 @@ public:
     // Reads the request and performs its operation for the session (an empty id: none yet). Locks the engine only for the
     // operation. If the answer comes later, `waits` is woken then. `client` counts its sessions, and its principal limits what it
     // may do; null: no limits. `reading` is an open reading of the session, if there is one: it saves a search.
-    PendingAnswer answer(xml::RequestReader&, SessionId const&, std::string_view text, Via, std::weak_ptr<Reader> waits,
+    PendingAnswer answer(xml::RequestReader&, SessionId const&, std::string_view text, Via, std::weak_ptr<Waker> waits,
                          std::shared_ptr<Client> const& client = nullptr, Reading const* reading = nullptr);
 
     // Starts to read behind the sequence `after`. Returns a fault if the session is unknown or has other rights, if `after` is
@@ -205,6 +205,7 @@ public:
     // the gateway locked, on any thread.
     Engine::EarlierSession earlier_session(std::string const& provider) const;
     void session_opened_there(std::string const& provider, SessionId const&, std::function<void()> then);
+    void stopped_there(std::string const& provider, std::optional<std::uint64_t> stop);
     void ended_there(std::string const& provider, std::vector<CommandEnded>);
 
     // Called by the journal: the engine's changes were stored, or could not be.
@@ -231,7 +232,9 @@ public:
     // What a client with these rights sees; null: everything.
     std::shared_ptr<EngineProfile const> profile(Rights const* = nullptr) const;
     std::vector<ComponentEntry> components(Rights const* = nullptr) const;
-    EngineStatistics statistics() const;
+    EngineStatistics statistics(Rights const* = nullptr) const;  // of sessions only for those who may see everything
+    // Those of the sub engines with a component that the client sees.
+    std::vector<EngineState> seen_of(std::vector<EngineState> sub_engines, Rights const*) const;
 
 private:
     friend class Exchange;
@@ -253,10 +256,12 @@ private:
 
     void show_limits(ClientLimits const&);
     void await_journal(Lock&);
-    PendingAnswer perform(SessionId const&, Request&&, Via, std::weak_ptr<Reader> waits, std::shared_ptr<Client> const&,
+    PendingAnswer perform(SessionId const&, Request&&, Via, std::weak_ptr<Waker> waits, std::shared_ptr<Client> const&,
                           Reading const*, Instant now);
     PendingAnswer refused(Fault);
     std::optional<Fault> refusal_of(Client const&);
+    void session_restored(std::uint64_t session, Rights const*);
+    void note_stop(Client const& by, Operation const&, bool was_stopped) const;
     Fault fault_of(Refusal);
     MemoryBudget::Room room_for(std::string_view text);
     void save_memory(Steady now);

@@ -22,7 +22,7 @@ std::string why_not_ready(Gateway const& gateway, Telemetry const& telemetry, Pr
     auto const all = gateway.not_ready();
     auto const seen = seen_by(asker, all);
     for (auto const& ref : seen) trouble += ref + " has not confirmed that it stands still\n";
-    if (seen.size() < all.size()) trouble += "other components have not confirmed that they stand still\n";
+    if (trouble.empty() && !all.empty()) trouble = "not ready\n";
     return trouble;
 }
 

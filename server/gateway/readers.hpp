@@ -4,8 +4,10 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "engine/engine.hpp"
@@ -45,6 +47,19 @@ private:
     Wakes& wakes_;
     std::atomic<bool> waiting_ = false;  // in the queue
     std::atomic<bool> taken_over_ = false;
+};
+
+// Tells a connection that an answer has come. The thread that has the answer may drop the last reference to the waker, with the
+// engine locked. So `answer_came` may hold only a weak reference to the connection, which must end on its own thread.
+class Waker final : public Reader {
+public:
+    // `answer_came` is called on the loop's thread.
+    Waker(Wakes& wakes, std::function<void()> answer_came) : Reader{wakes}, answer_came_{std::move(answer_came)} {}
+
+private:
+    void woken() override { answer_came_(); }
+
+    std::function<void()> answer_came_;
 };
 
 // The engine's outbox: wakes the readers of a session. Guarded by the gateway's mutex, as the engine is.

@@ -34,6 +34,11 @@ void Gateway::session_opened_there(std::string const& provider, SessionId const&
     engine_.when_stored(std::move(then));
 }
 
+void Gateway::stopped_there(std::string const& provider, std::optional<std::uint64_t> stop) {
+    Lock const lock{*this};
+    engine_.stopped_there(provider, stop);
+}
+
 void Gateway::ended_there(std::string const& provider, std::vector<CommandEnded> ended) {
     auto const now = present();
     Lock lock{*this};

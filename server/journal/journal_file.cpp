@@ -82,9 +82,9 @@ void make_folder(std::string const& folder) {
         throw BadJournal{"state: cannot make the folder " + rois::quoted(folder) + ": " + std::strerror(errno)};
 }
 
-// The file may come from a copy that everyone may read.
-void keep_to_owner(int file, std::string const& name) {
-    if (::fchmod(file, S_IRUSR | S_IWUSR) == 0) return;
+// The file may come from a copy that everyone may read. It is not opened: closing it would end SQLite's lock.
+void keep_to_owner(std::string const& name) {
+    if (::chmod(name.c_str(), S_IRUSR | S_IWUSR) == 0 || errno == ENOENT) return;
     throw BadJournal{"state: cannot make " + rois::quoted(name) + " readable for its owner only: " + std::strerror(errno)};
 }
 
@@ -96,7 +96,6 @@ bool make_file(std::string const& name) {
     if (file.get() < 0 || ::fstat(file.get(), &found) != 0)
         throw BadJournal{"state: cannot write " + rois::quoted(name) + ": " + std::strerror(errno)};
     if (!S_ISREG(found.st_mode)) throw BadJournal{"state: " + rois::quoted(name) + " is not a file"};
-    keep_to_owner(file.get(), name);
     return found.st_size == 0;
 }
 
@@ -115,6 +114,11 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
     check_log(is_new);
     open();
     check_header(is_new);
+    for (auto const* end : {"", "-wal"}) keep_to_owner(name_ + end);
+    struct stat found {};
+    if (::lstat(name_.c_str(), &found) != 0) refuse("cannot be read");
+    inode_ = found.st_ino;
+    device_ = found.st_dev;
     spare_pages_ = std::min<std::int64_t>(reserve_bytes / page, most_pages_ / 4);
     number(("PRAGMA max_page_count = " + std::to_string(most_pages_)).c_str());
     begin_ = prepared("BEGIN IMMEDIATE");
@@ -122,7 +126,7 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
     rollback_ = prepared("ROLLBACK");
     set_ = prepared("INSERT OR REPLACE INTO record VALUES (?, ?, ?, ?, ?)");
     erase_ = prepared("DELETE FROM record WHERE kind = ? AND session = ? AND key = ?");
-    forget_ = prepared("DELETE FROM record WHERE kind = ? AND session = ? AND key <= ?");
+    forget_ = prepared("DELETE FROM record WHERE kind = ? AND session = ? AND key BETWEEN ? AND ?");
     end_ = prepared("DELETE FROM record WHERE kind IN ('command', 'notification', 'session', 'subscription') AND session = ?");
     pages_ = prepared("PRAGMA page_count");
     free_pages_ = prepared("PRAGMA freelist_count");
@@ -142,7 +146,6 @@ void JournalFile::check_log(bool is_new) const {
     struct stat found {};
     if (file.get() < 0 || ::fstat(file.get(), &found) != 0 || !S_ISREG(found.st_mode))
         throw BadJournal{"state: cannot read " + rois::quoted(log)};
-    keep_to_owner(file.get(), log);
     if (is_new && found.st_size > 0) refuse("is missing or empty, and its log " + rois::quoted(log) + " is not");
     if (is_damaged_log(file.get())) throw BadJournal{"state: " + rois::quoted(log) + " is damaged"};
 }
@@ -249,8 +252,9 @@ bool JournalFile::write(RecordChanges const& changes) {
         put(erase_.get(), 1, key);
         if (!step(erase_)) return false;
     }
-    for (auto const& key : changes.forgotten) {
-        put(forget_.get(), 1, key);
+    for (auto const& [first, last] : changes.forgotten) {
+        put(forget_.get(), 1, first);
+        put(forget_.get(), 4, last);
         if (!step(forget_)) return false;
     }
     for (auto const& record : changes.set) {
@@ -314,6 +318,15 @@ JournalFile::Result JournalFile::tidy() {
     }
     note_failure();
     return judged();
+}
+
+// SQLite makes its log with the first step, and keeps it until the end.
+bool JournalFile::is_in_place() {
+    struct stat named {};
+    if (::lstat(name_.c_str(), &named) != 0 || named.st_ino != inode_ || named.st_dev != device_) return false;
+    bool const has_log = ::lstat((name_ + "-wal").c_str(), &named) == 0;
+    if (log_inode_ == 0 && has_log) log_inode_ = named.st_ino;
+    return log_inode_ == 0 || (has_log && named.st_ino == log_inode_);
 }
 
 void JournalFile::give_up_reserve() {

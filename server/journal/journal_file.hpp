@@ -1,6 +1,8 @@
 // The journal's file: a database of SQLite with one table of records.
 #pragma once
 
+#include <sys/types.h>
+
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -52,6 +54,9 @@ public:
     // Why the last `store` or `tidy` did not succeed.
     std::string const& problem() const { return problem_; }
 
+    // Whether the file and SQLite's log still have their names: otherwise the next start would not find them.
+    bool is_in_place();
+
     // A part of the disk and a part of the database are kept for the ends of commands. Without both, no command should begin.
     // `keep_reserve` makes the part of the disk again, if it can, at most once a second.
     bool has_reserve() const { return has_reserve_ && used_pages_ + spare_pages_ <= most_pages_; }
@@ -82,6 +87,9 @@ private:
 
     std::string name_;
     std::string reserve_;
+    ::ino_t inode_ = 0;      // of the database
+    ::ino_t log_inode_ = 0;  // of SQLite's log; 0: not seen yet
+    ::dev_t device_ = 0;
     std::unique_ptr<sqlite3, Close> database_;
     int log_pages_ = 0;
     std::int64_t most_pages_ = 0;   // of the database

@@ -3,10 +3,13 @@
 #include <chrono>
 #include <utility>
 
+#include "types/instant.hpp"
+
 namespace rois::journal {
 
 namespace {
 
+constexpr std::chrono::milliseconds slow{500};  // a step takes some milliseconds; after a second, commands are refused
 constexpr auto no_room =
     "the journal has no room, because the disk is full or state_bytes is reached: no command begins until it has";
 
@@ -47,6 +50,7 @@ void JournalWriter::run(std::stop_token const& stop) {
         auto const changes = std::exchange(next_, nullptr);
         if (changes == nullptr && stop.stop_requested()) break;
         lock.unlock();
+        if (!file_->is_in_place()) calls_.broken(file_->name() + " was moved or removed");
         if (changes != nullptr) write(*changes);
         note_room();
         lock.lock();
@@ -59,16 +63,19 @@ void JournalWriter::run(std::stop_token const& stop) {
 }
 
 void JournalWriter::write(Changes const& changes) {
+    auto const begin = std::chrono::steady_clock::now();
     auto result = JournalFile::Result::no_room;
-    std::string problem;
     try {
         result = file_->store(records_of(changes));
-        problem = file_->problem();
-    } catch (std::bad_alloc const&) {
-        problem = "there is no memory";
+        if (result == JournalFile::Result::no_room && !std::exchange(is_failing_, true))
+            calls_.say("not stored, and tried again: " + file_->problem());
+    } catch (std::bad_alloc const&) {  // `done` says that they are not stored
     }
-    if (result == JournalFile::Result::broken) return calls_.broken(file_->name() + ": " + problem);
+    if (result == JournalFile::Result::broken) return calls_.broken(file_->name() + ": " + file_->problem());
+    auto const time = std::chrono::steady_clock::now() - begin;
+    if (time >= slow) calls_.say("storing took " + in_seconds(time) + ": the disk is slow");
     bool const stored = result == JournalFile::Result::stored;
+    if (stored) is_failing_ = false;
     ++(stored ? stored_ : not_stored_);
     calls_.done(stored);
     if (file_->tidy() == JournalFile::Result::broken) calls_.broken(file_->name() + ": " + file_->problem());

@@ -56,6 +56,7 @@ private:
     std::unique_ptr<JournalFile> file_;  // used only by the thread, which closes it at its end
     Calls const calls_;
     std::atomic<bool> has_room_ = true;
+    bool is_failing_ = false;  // the last step was not stored
     std::atomic<std::uint64_t> stored_ = 0;
     std::atomic<std::uint64_t> not_stored_ = 0;
     std::mutex mutex_;  // guards the members below

@@ -38,16 +38,12 @@ std::string document_of(Numbered const& numbered) {
 }
 
 std::string value_of(StoredEngine const& engine) {
-    return json{{"last_session", engine.last_session},
-                {"last_subscription", engine.last_subscription},
-                {"last_command", engine.last_command},
-                {"last_handle", engine.last_handle},
-                {"next_event", engine.next_event},
-                {"next_error", engine.next_error},
-                {"is_stopped", engine.is_stopped},
-                {"last_stop", engine.last_stop},
-                {"stops_of_ended_sessions", engine.stops_of_ended_sessions},
-                {"sessions_there", engine.sessions_there}}
+    return json{{"last_session", engine.last_session}, {"last_subscription", engine.last_subscription},
+                {"last_command", engine.last_command}, {"last_handle", engine.last_handle},
+                {"next_event", engine.next_event},     {"next_error", engine.next_error},
+                {"is_stopped", engine.is_stopped},     {"last_stop", engine.last_stop},
+                {"ended_owners", engine.ended_owners}, {"sessions_there", engine.sessions_there},
+                {"stops_there", engine.stops_there}}
         .dump();
 }
 
@@ -84,11 +80,18 @@ std::string value_of(StoredCommand const& command) {
     return value.dump();
 }
 
+// The largest values of the keys max_body, max_depth and so on: each document that the gateway has accepted must be read.
+constexpr xml::DocumentLimits largest{.bytes = std::size_t{1} << 30,
+                                      .depth = 1'024,
+                                      .attributes = 1'024,
+                                      .name_length = 4'096,
+                                      .elements = 1'000'000,
+                                      .namespaces = 1'024};
+
 // Reads the values. A value of another type than expected is an exception of the JSON library.
 class Reader {
 public:
-    explicit Reader(std::shared_ptr<xml::Schemas const> const& schemas)
-        : requests_{schemas, {.bytes = std::size_t{16} << 20, .elements = 1'000'000}} {}
+    explicit Reader(std::shared_ptr<xml::Schemas const> const& schemas) : requests_{schemas, largest} {}
 
     static StoredEngine engine(json const& value) {
         return {.last_session = value.at("last_session"),
@@ -99,8 +102,9 @@ public:
                 .next_error = value.at("next_error"),
                 .is_stopped = value.at("is_stopped"),
                 .last_stop = value.at("last_stop"),
-                .stops_of_ended_sessions = value.at("stops_of_ended_sessions"),
-                .sessions_there = value.at("sessions_there").get<std::map<std::string, std::string>>()};
+                .ended_owners = value.value("ended_owners", std::vector<std::string>{}),
+                .sessions_there = value.at("sessions_there"),
+                .stops_there = value.value("stops_there", std::map<std::string, std::uint64_t>{})};
     }
 
     StoredSession session(Record const& record, json const& value) {
@@ -211,7 +215,7 @@ RecordChanges records_of(Changes const& changes) {
     for (auto const& each : changes.unsubscribed) records.gone.push_back({kind::subscription, each.session, each.id});
     for (auto const& each : changes.forgotten_commands) records.gone.push_back({kind::command, each.session, each.id});
     for (auto const& each : changes.forgotten_notifications)
-        records.forgotten.push_back({kind::notification, each.session, key_of(each.until)});
+        records.forgotten.push_back({{kind::notification, each.session, key_of(each.from)}, key_of(each.until)});
     auto const set = [&](Key key, std::string value) { records.set.push_back({std::move(key), std::move(value)}); };
     set({kind::engine, 0, ""}, value_of(changes.engine));
     for (auto const& each : changes.sessions) set({kind::session, each.session, ""}, value_of(each));

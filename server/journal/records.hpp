@@ -40,7 +40,11 @@ struct Record {
 // Changes of records, in the order in which they apply.
 struct RecordChanges {
     std::vector<Key> gone{};
-    std::vector<Key> forgotten{};  // with all records of the same kind and session that have a lower key
+    struct Range {
+        Key first;
+        std::string last;  // key
+    };
+    std::vector<Range> forgotten{};
     std::vector<Record> set{};
     std::vector<std::uint64_t> ended{};  // all records of these sessions
 };

@@ -1,17 +1,16 @@
 #include "main/audit_file.hpp"
 
 #include <fcntl.h>
-#include <spdlog/pattern_formatter.h>
 #include <spdlog/spdlog.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <chrono>
-#include <cstdio>
 #include <cstring>
-#include <functional>
-#include <memory>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -36,38 +35,35 @@ std::string line_of(AuditEntry const& entry, std::uint64_t left_out) {
     add("operation", entry.operation);
     add("outcome", entry.outcome);
     if (left_out != 0) line["left_out"] = left_out;
-    return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-// Makes the file if it does not exist. spdlog would open whatever has this name, and make a missing folder.
-std::string usable(std::string const& file) {
-    UniqueDescriptor const made{
-        ::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, S_IRUSR | S_IWUSR)};
+// Whether the file is empty, or begins with a line of line_of().
+bool is_audit_log(UniqueDescriptor const& file) {
+    constexpr std::string_view begin = R"({"time":)";
+    std::array<char, begin.size()> found{};
+    auto const size = ::pread(file.get(), found.data(), found.size(), 0);
+    return size == 0 || (size > 0 && std::string_view{found.data(), static_cast<std::size_t>(size)} == begin);
+}
+
+// A process that was killed may have written a part of it.
+void end_last_line(UniqueDescriptor const& file) {
     struct stat found {};
-    if (made.get() < 0 || ::fstat(made.get(), &found) != 0)
-        throw BadSettings{"audit_log: cannot write " + rois::quoted(file) + ": " + std::strerror(errno)};
-    if (!S_ISREG(found.st_mode)) throw BadSettings{"audit_log: " + rois::quoted(file) + " is not a file"};
-    return file;
+    char last = '\n';
+    if (::fstat(file.get(), &found) == 0 && found.st_size > 0 && ::pread(file.get(), &last, 1, found.st_size - 1) == 1 &&
+        last != '\n')
+        write_all(file, "\n");
 }
 
-spdlog::file_event_handlers calling(std::function<void(std::FILE*)> opened) {
-    spdlog::file_event_handlers handlers;
-    handlers.after_open = [opened = std::move(opened)](spdlog::filename_t const&, std::FILE* file) { opened(file); };
-    return handlers;
-}
-
-::off_t size_of(std::FILE* file) {
+std::size_t size_of(UniqueDescriptor const& file) {
     struct stat found {};
-    return ::fstat(::fileno(file), &found) == 0 ? found.st_size : 0;
+    return ::fstat(file.get(), &found) == 0 ? static_cast<std::size_t>(found.st_size) : 0;
 }
 
 }  // namespace
 
-AuditFile::AuditFile(std::string const& file, Limits const& limits)
-    : limits_{limits}, sink_{usable(file), limits.bytes, limits.files, false, calling([this](std::FILE* present) {
-                                 opened(present);
-                             })} {
-    sink_.set_formatter(std::make_unique<spdlog::pattern_formatter>("%v"));
+AuditFile::AuditFile(std::string file, Limits const& limits) : limits_{limits}, name_{std::move(file)} {
+    open();
     thread_ = std::jthread{[this](std::stop_token const& stop) { run(stop); }};
 }
 
@@ -90,11 +86,12 @@ void AuditFile::note(AuditEntry const& entry) noexcept {
 }
 
 bool AuditFile::may_say(AuditEntry const& entry, std::uint64_t& left_out) {
-    if (entry.what != "refused") return true;
+    bool const is_refusal = entry.what == "refused";
+    if (!is_refusal && entry.what != "connected" && entry.what != "resumed" && entry.what != "disconnected") return true;
     auto const now = limits_.now();
-    auto& second = refused_[std::string{entry.token}];
+    auto& second = seconds_[{std::string{entry.token}, is_refusal}];
     if (now - second.since >= std::chrono::seconds{1}) second = {now, 0, second.left_out};
-    if (++second.refusals <= limits_.refusals_a_second) {
+    if (++second.lines <= limits_.most_a_second) {
         left_out = std::exchange(second.left_out, 0);
         return true;
     }
@@ -114,27 +111,68 @@ void AuditFile::run(std::stop_token const& stop) {
 }
 
 // Only its owner may read a file that says who did what.
-void AuditFile::opened(std::FILE* file) {
-    ::fchmod(::fileno(file), S_IRUSR | S_IWUSR);
-    present_ = file;
-    whole_ = size_of(file);
+void AuditFile::open() {
+    UniqueDescriptor file{
+        ::open(name_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, S_IRUSR | S_IWUSR)};
+    struct stat found {};
+    if (file.get() < 0 || ::fstat(file.get(), &found) != 0)
+        throw BadSettings{"audit_log: cannot write " + rois::quoted(name_) + ": " + std::strerror(errno)};
+    if (!S_ISREG(found.st_mode)) throw BadSettings{"audit_log: " + rois::quoted(name_) + " is not a file"};
+    if (!is_audit_log(file))
+        throw BadSettings{"audit_log: " + rois::quoted(name_) + " is another file: expected an audit log, or no file"};
+    if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0)
+        throw BadSettings{"audit_log: " + rois::quoted(name_) + " is in use by another gateway: each needs its own"};
+    ::fchmod(file.get(), S_IRUSR | S_IWUSR);
+    end_last_line(file);
+    file_ = std::move(file);
 }
 
-// Removes the part of a line that was written before the disk was full.
-void AuditFile::cut_off() {
-    std::clearerr(present_);
-    if (::ftruncate(::fileno(present_), whole_) != 0) spdlog::error("audit_log: its last line is incomplete");
-}
-
-void AuditFile::write(std::string const& line) {
+// If that is not possible, the present file grows: no line is lost.
+void AuditFile::begin_another() {
     try {
-        sink_.log({{}, "audit", spdlog::level::info, line});
-        sink_.flush();
-        whole_ = size_of(present_);
+        auto const path = std::filesystem::path{name_};
+        auto const earlier = [&](std::size_t number) {
+            auto const name = path.stem().string() + (number == 0 ? "" : "." + std::to_string(number));
+            return path.parent_path() / (name + path.extension().string());
+        };
+        bool const has_moved = !std::filesystem::exists(path);  // and then another one could not be opened
+        for (auto number = has_moved ? 0 : limits_.files; number > 0; --number)
+            if (std::filesystem::exists(earlier(number - 1))) std::filesystem::rename(earlier(number - 1), earlier(number));
+        open();
+        cannot_begin_ = false;
+    } catch (std::exception const& problem) {
+        if (!std::exchange(cannot_begin_, true)) spdlog::error("audit_log: {}; the present file grows", problem.what());
+    }
+}
+
+// Another program may have moved or removed the file.
+bool AuditFile::is_in_place() const {
+    struct stat ours {};
+    struct stat named {};
+    return ::fstat(file_.get(), &ours) == 0 && ::stat(name_.c_str(), &named) == 0 && ours.st_ino == named.st_ino &&
+           ours.st_dev == named.st_dev;
+}
+
+void AuditFile::begin_again() {
+    try {
+        open();
+        cannot_begin_ = false;
+    } catch (std::exception const& problem) {
+        if (!std::exchange(cannot_begin_, true)) spdlog::error("audit_log: {}; lines go into the earlier file", problem.what());
+    }
+}
+
+// A line that was written in part is removed.
+void AuditFile::write(std::string const& line) {
+    if (!is_in_place()) begin_again();
+    if (auto const size = size_of(file_); size > 0 && size + line.size() > limits_.bytes) begin_another();
+    auto const whole = size_of(file_);
+    try {
+        write_all(file_, line);
     } catch (std::exception const& problem) {
         ++lost_;
         spdlog::error("audit_log: a line was lost: {}", problem.what());
-        cut_off();
+        if (::ftruncate(file_.get(), static_cast<::off_t>(whole)) != 0) spdlog::error("audit_log: its last line is incomplete");
     }
 }
 

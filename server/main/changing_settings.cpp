@@ -2,7 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include "gateway/access/host_names.hpp"
 #include "main/keys.hpp"
 
 namespace rois {
@@ -11,6 +10,7 @@ void Sites::use(net::Settings const& settings) {
     std::lock_guard const lock{mutex_};
     hosts_ = settings.hosts;
     allowed_origins_ = settings.allowed_origins;
+    served_ = settings.credentials ? Scheme::https : Scheme::any;
 }
 
 bool Sites::is_own_host(std::string_view host) const {
@@ -20,7 +20,7 @@ bool Sites::is_own_host(std::string_view host) const {
 
 bool Sites::is_allowed_origin(std::string_view origin, std::string_view host) const {
     std::lock_guard const lock{mutex_};
-    return rois::is_allowed_origin(origin, host, allowed_origins_);
+    return rois::is_allowed_origin(origin, host, allowed_origins_, served_);
 }
 
 GatewaySettings with_changes(GatewaySettings const& present, GatewaySettings const& wanted) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gateway/access/host_names.hpp"
 #include "main/settings.hpp"
 
 namespace rois {
@@ -20,9 +21,10 @@ public:
     bool is_allowed_origin(std::string_view origin, std::string_view host) const;
 
 private:
-    mutable std::mutex mutex_;  // guards the next two
+    mutable std::mutex mutex_;  // guards the next three
     std::vector<std::string> hosts_;
     std::vector<std::string> allowed_origins_;
+    Scheme served_ = Scheme::any;
 };
 
 // The present settings with those of others, as far as they can change while the gateway runs.

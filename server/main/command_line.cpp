@@ -94,8 +94,8 @@ TokenEntry token_of(Flags const& flags) {
     if (entry.role == Role::observer && !given.commands.empty())
         throw BadSettings{"--commands has no effect with --role observer, which commands nothing"};
     for (auto const& [flag, patterns] : {std::pair{"--components", &given.components}, {"--commands", &given.commands}})
-        if (std::ranges::find(*patterns, "") != patterns->end())
-            throw BadSettings{std::string{flag} + " must be a pattern of refs such as 'robot1.*', not ''"};
+        if (auto const bad = std::ranges::find_if_not(*patterns, is_pattern); bad != patterns->end())
+            throw BadSettings{std::string{flag} + " cannot be " + rois::quoted(*bad) + ": " + std::string{expected_pattern}};
     if (!given.components.empty()) entry.components = given.components;
     if (!given.commands.empty()) entry.commands = given.commands;
     if (given.expires.empty()) return entry;

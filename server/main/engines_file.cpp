@@ -194,6 +194,9 @@ SubEngine read(json const& entry, std::filesystem::path const& folder,
     for (auto const* key : {"token_file", "ca_file"})
         if (engine.url.empty() && entry.contains(key))
             throw BadSettings{where(key) + named() + key + " needs 'url': an engine that joins is not asked"};
+    if (!engine.token.empty() && remote::is_in_the_clear(engine.url))
+        throw BadSettings{where("token_file") + named() + "others could read the token on its way to " +
+                          rois::quoted(engine.url) + ": expected a URL with https:// or wss://"};
     if (!engine.command.empty()) {
         if (engine.url.empty() && engine.joins.empty()) engine.joins = engine.name;
         if (!is_found(engine.command.front(), folder))
@@ -244,10 +247,14 @@ bool is_gateway_url(std::string_view text) {
 std::vector<SubEngine> read_engines_file(std::string const& file, TakenNames const& taken) {
     auto const text = text_of_file(file);
     auto const object = parse_json(file, text);
-    for (auto const& [name, value] : object.items())
-        if (name != "choosing" && (name != "engines" || !value.is_array()))
-            throw BadSettings{file + ":" + place_of_key(text, name) +
-                              R"(: expected only "engines": [ ... ], a list of sub engines, and "choosing")"};
+    for (auto const& [name, value] : object.items()) {
+        auto const where = file + ":" + place_of_key(text, name) + ": ";
+        if (name != "engines" && name != "choosing")
+            throw BadSettings{where + rois::quoted(name) + R"( is not a key of this file: expected "engines" or "choosing")"};
+        if (name == "engines" && !value.is_array())
+            throw BadSettings{where + R"("engines" must be a list of sub engines, [ ... ], not )" +
+                              rois::quoted(value.dump(), 100)};
+    }
     if (!object.contains("engines")) throw BadSettings{file + ":1:1: expected \"engines\": [ ... ], a list of sub engines"};
     std::vector<SubEngine> engines;
     std::set<std::string> names, joining, urls;

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "gateway/access/addresses.hpp"
+#include "remote/sub_engine.hpp"
 #include "types/text/address.hpp"
 #include "types/text/texts.hpp"
 
@@ -40,8 +41,18 @@ bool is_only_here(std::string const& host) {
 
 }  // namespace
 
-void check_exposure(GatewaySettings const& settings) {
-    if (!settings.tokens.empty() || settings.allow_anyone) return;
+std::vector<std::string> check_exposure(GatewaySettings const& settings) {
+    auto const where = host_and_port(settings.net.host, settings.net.port);
+    bool const needs_token = !settings.tokens.empty(), is_reachable = !is_only_here(settings.net.host);
+    std::vector<std::string> warnings;
+    if (is_reachable && needs_token && settings.tls.certificate.empty())
+        warnings.push_back("clients send their tokens to " + where + " without TLS: others on the network can read them");
+    if (is_reachable && !needs_token && settings.allow_anyone)
+        warnings.push_back("everyone who reaches " + where + " may command the robot (allow_anyone)");
+    if (!settings.join.empty() && remote::is_in_the_clear(settings.join))
+        warnings.push_back("any program that answers at " + settings.join +
+                           " may command this robot: with wss:// it must have a certificate");
+    if (needs_token || settings.allow_anyone) return warnings;
     auto const check = [](std::string const& key, std::string const& host, std::uint16_t port) {
         if (host.empty() || is_only_here(host)) return;
         throw BadSettings{
@@ -51,6 +62,7 @@ void check_exposure(GatewaySettings const& settings) {
     };
     check("listen", settings.net.host, settings.net.port);
     check("media", settings.media.host, settings.media.port);
+    return warnings;
 }
 
 }  // namespace rois

@@ -1,11 +1,15 @@
 // Whether other machines can reach an address that the gateway listens on.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "main/settings.hpp"
 
 namespace rois {
 
-// Throws BadSettings if other machines can reach the gateway without a token, and `allow_anyone` does not permit that.
-void check_exposure(GatewaySettings const&);
+// Throws BadSettings if other machines can reach the gateway without a token, and `allow_anyone` does not permit that. Returns
+// warnings: that it permits that, or that tokens are sent without TLS.
+std::vector<std::string> check_exposure(GatewaySettings const&);
 
 }  // namespace rois

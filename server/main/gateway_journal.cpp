@@ -1,8 +1,8 @@
 #include "main/gateway_journal.hpp"
 
 #include <spdlog/spdlog.h>
-#include <algorithm>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <string>
@@ -45,14 +45,20 @@ GatewayJournal::GatewayJournal(OpenedJournal opened, Engine& engine, Gateway& ga
     });
 }
 
-void GatewayJournal::restore(Tokens& tokens) {
+// With tokens, no client could use a session that was opened without one. Links of this process have none.
+void GatewayJournal::restore(Tokens* tokens) {
+    auto const rights_of = [&](std::string const& id) {
+        auto const holder = tokens == nullptr ? nullptr : tokens->holder_of(id);
+        return holder ? holder->rights : nullptr;
+    };
+    for (auto& session : state_.sessions)
+        if (tokens != nullptr && session.rights.empty() && !session.is_engine) session.rights = "opened without a token";
     auto const may_return = [&](StoredSession const& session) {
-        return session.rights.empty() || tokens.rights_of(session.rights) != nullptr;
+        return session.rights.empty() || rights_of(session.rights) != nullptr;
     };
     if (auto const sessions = std::ranges::count_if(state_.sessions, may_return); sessions > 0)
         spdlog::info("journal: {} {} of the last start can be resumed", sessions, sessions == 1 ? "session" : "sessions");
-    engine_.restore(std::exchange(state_, {}), [&](std::string const& id) { return tokens.rights_of(id); },
-                    {std::chrono::steady_clock::now(), std::chrono::system_clock::now()});
+    engine_.restore(std::exchange(state_, {}), rights_of, {std::chrono::steady_clock::now(), std::chrono::system_clock::now()});
 }
 
 void GatewayJournal::finish(int exit_code) {

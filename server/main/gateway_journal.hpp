@@ -29,7 +29,7 @@ public:
     GatewayJournal(OpenedJournal, Engine&, Gateway&, Telemetry&);
 
     // Lets the engine continue with what an earlier start has stored. Call it once, before the first request.
-    void restore(Tokens&);
+    void restore(Tokens*);  // null: the gateway has none
 
     // Waits until everything is stored. Without an answer of the disk, logs that and ends the process with this code: a thread
     // that waits for the disk cannot be ended.

@@ -64,8 +64,10 @@ asio::awaitable<std::string> ask(std::string host, std::uint16_t port, tls::File
         co_return trouble;
     }
     asio::ssl::context context{asio::ssl::context::tls_client};
-    context.use_certificate_chain_file(files.certificate);
-    context.use_private_key_file(files.key, asio::ssl::context::pem);
+    if (files.client_must) {
+        context.use_certificate_chain_file(files.certificate);
+        context.use_private_key_file(files.key, asio::ssl::context::pem);
+    }
     asio::ssl::stream<asio::ip::tcp::socket&> stream{socket, context};
     co_await stream.async_handshake(asio::ssl::stream_base::client, into(error));
     if (error) co_return "no TLS with " + place + ": " + error.message();

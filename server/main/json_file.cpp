@@ -118,6 +118,9 @@ std::string place_of_key(std::string_view text, std::string_view key) {
 }
 
 json parse_json(std::string const& file, std::string const& text) {
+    // For the library, it is the end of the text.
+    if (auto const at = text.find('\0'); at != std::string::npos)
+        throw BadSettings{file + ":" + place_of(text, at) + ": this is not JSON: a byte is 0"};
     try {
         auto parsed = json::parse(text, nullptr, true, true);
         if (parsed.is_object()) {

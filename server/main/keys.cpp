@@ -66,6 +66,8 @@ bool is_origin(std::string const& text) {
     auto const after = text.find("://");
     if (after == std::string::npos || after == 0) return false;
     auto const host = text.substr(after + 3);
+    auto const colon = host.ends_with(']') ? std::string::npos : host.rfind(':');
+    if (colon != std::string::npos && to_number<std::uint16_t>(host.substr(colon + 1)).value_or(0) == 0) return false;
     auto const fits = [](char c) { return c > ' ' && c < 0x7F && (c < 'A' || c > 'Z'); };
     if (host.empty() || host.find_first_of("/?#@,\"<>") != std::string::npos || !std::ranges::all_of(text, fits)) return false;
     bool const default_port =
@@ -346,7 +348,8 @@ std::vector<Key> network_keys() {
             "max_connections", "maximum number of connections",
             [](GatewaySettings & s) -> auto& { return s.net.max_connections; }, 1, 1e6),
         whole_number<std::size_t>(
-            "max_connections_per_address", "maximum number of connections of one remote address, except loopback and proxies",
+            "max_connections_per_address",
+            "maximum number of connections of one remote address or token, except loopback and proxies",
             [](GatewaySettings & s) -> auto& { return s.net.max_connections_per_address; }, 1, 1e6),
         whole_number<std::size_t>(
             "max_sessions_per_address", "maximum number of sessions opened by one remote address, except loopback and proxies",
@@ -389,8 +392,14 @@ std::vector<Key> network_keys() {
             "max_name_length", "maximum bytes of the name of an element or attribute",
             [](GatewaySettings & s) -> auto& { return s.net.document.name_length; }, 64, 4'096),
         whole_number<std::size_t>(
+            "max_namespaces", "maximum number of namespace declarations of an element and its ancestors",
+            [](GatewaySettings & s) -> auto& { return s.net.document.namespaces; }, 8, 1'024),
+        whole_number<std::size_t>(
             "max_fragments", "maximum number of frames of a WebSocket message",
             [](GatewaySettings & s) -> auto& { return s.net.max_fragments; }, 1, 1e6),
+        whole_number<unsigned>(
+            "max_control_frames", "maximum number of pings and other control frames that a WebSocket may send in a second",
+            [](GatewaySettings & s) -> auto& { return s.net.max_control_frames; }, 10, 1e6),
         choice<xml::Validation>(
             "validation", "how documents are validated: fast, with tables made from the schemas where they suffice, or in full",
             [](GatewaySettings & s) -> auto& { return s.net.validation; },

@@ -7,10 +7,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <map>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
+#include <thread>
 #include <vector>
 
 #include "basic/base/component_names.hpp"
@@ -18,7 +20,6 @@
 #include "engine/engine.hpp"
 #include "files/files.hpp"
 #include "gateway/access/host_names.hpp"
-#include "gateway/access/secrets.hpp"
 #include "gateway/gateway.hpp"
 #include "gateway/process/memory.hpp"
 #include "journal/journal_file.hpp"
@@ -34,6 +35,7 @@
 #include "main/keys.hpp"
 #include "main/logging.hpp"
 #include "main/profile_folder.hpp"
+#include "main/program_tokens.hpp"
 #include "main/reloading.hpp"
 #include "main/speech_log.hpp"
 #include "main/tokens_file.hpp"
@@ -155,6 +157,8 @@ std::shared_ptr<media::Server> make_media(media::Settings settings, net::Setting
     if (settings.host.empty()) return nullptr;
     settings.credentials = net.credentials;
     settings.handshake_timeout = net.handshake_timeout;
+    settings.request_timeout = net.request_timeout;
+    settings.write_timeout = net.write_timeout;
     settings.is_own_host = [&sites](std::string_view host) { return sites.is_own_host(host); };
     settings.is_allowed_origin = [&sites](std::string_view origin, std::string_view host) {
         return sites.is_allowed_origin(origin, host);
@@ -221,33 +225,18 @@ std::shared_ptr<tls::Credentials> credentials_of(tls::Files const& files) {
     return files.certificate.empty() ? nullptr : std::make_shared<tls::Credentials>(files);
 }
 
-// The tokens with which the programs of this gateway join it, each as its own sub engine. Used on the thread of the programs.
-class ProgramTokens {
-public:
-    explicit ProgramTokens(std::size_t most_wrong) : tokens_{most_wrong} {}
-
-    // Thread-safe.
-    Tokens& all() { return tokens_; }
-
-    // Makes a token. The earlier one of the program is not valid any more.
-    std::string make(std::string const& program) {
-        auto token = fresh_token();
-        auto holder = std::make_shared<Principal>();
-        std::vector<std::string> const own{program + ".*"};
-        holder->role = Role::engine;
-        holder->rights = std::make_shared<Rights const>("program " + program, own, own);
-        holder->hash = sha256(token);
-        if (auto const earlier = std::exchange(given_[program], holder->rights)) earlier->withdraw();
-        tokens_.add(std::move(holder));
-        return token;
-    }
-
-private:
-    Tokens tokens_;
-    std::map<std::string, std::shared_ptr<Rights const>> given_;
-};
-
 constexpr std::chrono::milliseconds longest_reading{300};  // of files after SIGHUP, at the end (docs/safety.md#the-end)
+constexpr std::chrono::milliseconds longest_end{4'800};    // after the sessions have ended
+
+// A file system that does not answer, such as that of the audit log, does not keep the process.
+void end_in_any_case(int exit_code) try {
+    std::thread{[exit_code] {
+        std::this_thread::sleep_for(longest_end);
+        std::_Exit(exit_code);
+    }}.detach();
+} catch (std::system_error const& problem) {
+    spdlog::warn("the end has no deadline: {}", problem.what());
+}
 
 // Makes all parts in the order of their dependencies, and serves until a signal arrives.
 int serve(CommandLine const& command) {
@@ -261,10 +250,11 @@ int serve(CommandLine const& command) {
     auto const choosing_settings = settings.engines.empty() ? choosing::Settings{} : read_choosing(settings.engines, sub_engines);
     auto const credentials = credentials_of(settings.tls);
     auto const join_token = settings.join_token_file.empty() ? std::string{} : token_in(settings.join_token_file);
-    check_exposure(settings);
+    auto warnings = command.warnings;
+    std::ranges::copy(check_exposure(settings), std::back_inserter(warnings));
     if (command.wish == CommandLine::Wish::check_config) {
         if (!settings.tokens.empty()) read_tokens(settings.tokens);
-        for (auto const& warning : command.warnings) std::fprintf(stderr, "rois-gateway: warning: %s\n", warning.c_str());
+        for (auto const& warning : warnings) std::fprintf(stderr, "rois-gateway: warning: %s\n", warning.c_str());
         std::puts("configuration ok");
         return done;
     }
@@ -275,7 +265,7 @@ int serve(CommandLine const& command) {
     auto net_settings = with_all_hosts(settings);
     net_settings.credentials = credentials;
     make_room_for_connections(net_settings, settings.media);
-    for (auto const& warning : command.warnings) spdlog::warn("{}", warning);
+    for (auto const& warning : warnings) spdlog::warn("{}", warning);
     Sites sites{net_settings};
     auto const media = make_media(settings.media, net_settings, sites);
     Readers readers;
@@ -340,6 +330,8 @@ int serve(CommandLine const& command) {
             .earlier_session = [&](std::string const& name) { return gateway.earlier_session(name); },
             .session_opened = [&](std::string const& name, SessionId const& id,
                                   std::function<void()> then) { gateway.session_opened_there(name, id, std::move(then)); },
+            .stopped_there = [&](std::string const& name,
+                                 std::optional<std::uint64_t> stop) { gateway.stopped_there(name, stop); },
             .commands_ended = [&](std::string const& name,
                                   std::vector<CommandEnded> ended) { gateway.ended_there(name, std::move(ended)); }});
         engine.add(remote_engines->pulse(), "pulse");
@@ -348,11 +340,15 @@ int serve(CommandLine const& command) {
     if (!settings.engines.empty()) net_settings.program_tokens = &program_tokens.all();
     if (!settings.engines.empty())
         net_settings.join = [&](UniqueDescriptor socket, std::string head, std::shared_ptr<Rights const> rights) {
-            remote_engines->accept(std::move(socket), std::move(head), [rights = std::move(rights)](std::string const& name) {
-                return may_see(rights.get(), name + ".any");
+            remote_engines->accept(std::move(socket), std::move(head), [&, rights = std::move(rights)](std::string const& name) {
+                bool const may = rights == nullptr || rights->sees_all_of(name + ".");
+                if (!may && audit_file)
+                    audit_file->note(
+                        {.what = "refused", .token = rights->holder(), .operation = "join", .outcome = "not_allowed"});
+                return may;
             });
         };
-    if (journal) journal->restore(tokens);
+    if (journal) journal->restore(gateway.tokens());
     net::Server server{net_settings, gateway, telemetry, documents, schemas};
     std::vector<Reloading::Part> files;
     auto const read_again = [&](bool is_used, std::string name, std::function<std::function<void()>()> prepare) {
@@ -375,11 +371,14 @@ int serve(CommandLine const& command) {
             server.use(next);
             gateway.use(client_limits(next), wanted.engine);
             tokens.limit(wanted.max_wrong_tokens);
+            program_tokens.all().limit(wanted.max_wrong_tokens);
             sites.use(next);
         };
     });
-    read_again(tokens_file.has_value(), "the tokens",
-               [&] { return [&, read = tokens_file->read()] { tokens_file->use(read); }; });
+    read_again(tokens_file.has_value(), "the tokens", [&] {
+        tokens_file->read();
+        return [&] { tokens_file->look(); };
+    });
     read_again(credentials != nullptr, "the certificate",
                [&] { return [&, context = credentials->read_again()] { credentials->use(context); }; });
     read_again(!settings.engines.empty(), "the file of engines", [&] {
@@ -401,6 +400,7 @@ int serve(CommandLine const& command) {
     if (media) spdlog::info("media are served under {}", media->url());
     spdlog::info("listening on {}", server.url());
     auto const exit_code = server.run() ? done : not_halted;
+    end_in_any_case(exit_code);
     if (journal) journal->finish(exit_code);
     if (!reloading.finish(longest_reading)) {
         spdlog::error("SIGHUP: a file that is being read does not answer");
@@ -430,7 +430,11 @@ int check_profiles(std::string const& folder, GatewaySettings const& settings) {
 int about_tokens(CommandLine const& command) {
     auto const& file = command.settings.tokens;
     if (command.wish == CommandLine::Wish::add_token) {
-        std::puts(add_token(file, command.token).c_str());
+        auto const token = add_token(file, command.token);
+        if (std::puts(token.c_str()) < 0 || std::fflush(stdout) != 0) {
+            revoke_token(file, command.token.name);
+            throw BadSettings{"token: it cannot be written to the standard output, and was not added"};
+        }
         std::fputs("rois-gateway: keep this token, it is not shown again\n", stderr);
     } else if (command.wish == CommandLine::Wish::revoke_token) {
         revoke_token(file, command.token.name);

@@ -33,10 +33,15 @@ void Reloading::run(std::stop_token const& stop) {
         is_asked_ = false;
         is_reading_ = true;
         lock.unlock();
-        auto const problems = reload();
-        telemetry_.reloaded(problems.empty());
-        for (auto const& problem : problems) spdlog::warn("SIGHUP: nothing is changed: {}", problem);
-        if (problems.empty()) spdlog::info("SIGHUP: {} read again", listed(parts_, &Part::name));
+        try {
+            auto const problems = reload();
+            telemetry_.reloaded(problems.empty());
+            for (auto const& problem : problems) spdlog::warn("SIGHUP: nothing is changed: {}", problem);
+            if (problems.empty()) spdlog::info("SIGHUP: {} read again", listed(parts_, &Part::name));
+        } catch (std::bad_alloc const&) {
+            telemetry_.reloaded(false);
+            spdlog::warn("SIGHUP: there is no memory to read the files");
+        }
         lock.lock();
         is_reading_ = false;
         news_.notify_all();

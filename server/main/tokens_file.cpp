@@ -19,6 +19,7 @@
 #include "main/json_file.hpp"
 #include "main/settings.hpp"
 #include "types/text/listing.hpp"
+#include "types/text/text_encoding.hpp"
 #include "types/text/texts.hpp"
 #include "types/text/to_number.hpp"
 #include "types/unique_descriptor.hpp"
@@ -30,7 +31,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t most_tokens = 1'000;
-constexpr std::size_t longest_pattern = 256;
 constexpr auto between_looks = std::chrono::milliseconds{250};
 
 [[noreturn]] void fail(std::string const& what) { throw BadSettings{what + ": " + std::strerror(errno)}; }
@@ -51,10 +51,7 @@ std::string text_at(json const& entry, std::string_view key) {
     return found != entry.end() && found->is_string() ? found->get<std::string>() : std::string{};
 }
 
-bool is_pattern(json const& value) {
-    return value.is_string() && !value.get_ref<std::string const&>().empty() &&
-           value.get_ref<std::string const&>().size() <= longest_pattern;
-}
+bool is_pattern_text(json const& value) { return value.is_string() && is_pattern(value.get_ref<std::string const&>()); }
 
 // Why the entry is not one, or an empty text. Sets `entry`.
 std::string problem_of(json const& object, TokenEntry& entry) {
@@ -71,8 +68,8 @@ std::string problem_of(json const& object, TokenEntry& entry) {
     for (auto const& [key, patterns] : {std::pair{"components", &entry.components}, {"commands", &entry.commands}}) {
         auto const found = object.find(key);
         if (found == object.end()) continue;
-        if (!found->is_array() || !std::ranges::all_of(*found, is_pattern))
-            return std::string{key} + R"( must be a list of patterns of refs, such as ["robot1.*"])";
+        if (!found->is_array() || !std::ranges::all_of(*found, is_pattern_text))
+            return std::string{key} + " must be a list of patterns: " + std::string{expected_pattern};
         *patterns = found->get<std::vector<std::string>>();
     }
     if (object.contains("expires")) {
@@ -108,15 +105,6 @@ UniqueDescriptor locked_folder(std::string const& file) {
     return folder;
 }
 
-void write_all(int file, std::string_view text) {
-    while (!text.empty()) {
-        auto const written = ::write(file, text.data(), text.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) throw std::system_error{errno, std::system_category()};
-        text.remove_prefix(static_cast<std::size_t>(written));
-    }
-}
-
 // Replaces the file in one step: a reader finds the old or the new one, also after a power cut.
 void replace(std::string const& file, std::vector<TokenEntry> const& entries, UniqueDescriptor const& folder) {
     json list = json::array();
@@ -129,7 +117,7 @@ void replace(std::string const& file, std::vector<TokenEntry> const& entries, Un
     if (::stat(file.c_str(), &earlier) == 0 && ::fchown(next.get(), earlier.st_uid, earlier.st_gid) != 0 && ::geteuid() == 0)
         spdlog::warn("tokens: {} belongs to root now", file);
     try {
-        write_all(next.get(), text);
+        write_all(next, text);
         bool const done =
             ::fsync(next.get()) == 0 && ::rename(temporary.c_str(), file.c_str()) == 0 && ::fsync(folder.get()) == 0;
         if (!done) throw std::system_error{errno, std::system_category()};
@@ -235,6 +223,13 @@ std::string table_of(std::vector<TokenEntry> const& entries, Utc now) {
     return table;
 }
 
+bool is_pattern(std::string_view text) {
+    constexpr std::size_t longest = 256;
+    auto const bracket = text.rfind('[');
+    bool const is_closed = bracket == std::string_view::npos || text.find(']', bracket + 2) != std::string_view::npos;
+    return !text.empty() && text.size() <= longest && is_closed && is_utf8(text);
+}
+
 bool is_token_name(std::string_view name) {
     auto const fits = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
@@ -276,7 +271,9 @@ std::vector<std::shared_ptr<Principal>> TokensFile::read() const {
 }
 
 void TokensFile::use(std::vector<std::shared_ptr<Principal>> principals) {
-    auto const count = principals.size();
+    auto const now = std::chrono::system_clock::now();
+    auto const is_valid = [&](auto const& each) { return !each->expires || *each->expires > now; };
+    auto const count = std::ranges::count_if(principals, is_valid);
     tokens_.set(std::move(principals));
     spdlog::info("tokens: {} of {} are valid from now on", count, file_);
 }
@@ -287,14 +284,24 @@ void TokensFile::watch(std::stop_token const& stop) {
     std::unique_lock lock{mutex};
     while (!stop.stop_requested()) {
         never.wait_for(lock, stop, between_looks, [] { return false; });
-        auto const version = version_of(file_);
-        if (version == version_) continue;
-        version_ = version;
+        look();
+    }
+}
+
+void TokensFile::look() {
+    std::lock_guard const lock{mutex_};
+    try {
+        auto version = version_of(file_);
+        if (version == version_) return;
         try {
             use(read());
-        } catch (std::exception const& error) {
-            spdlog::warn("{}; the tokens are those of before", error.what());
+            version_ = std::move(version);
+            complaint_.clear();
+        } catch (std::runtime_error const& error) {
+            if (complaint_ != error.what()) spdlog::warn("{}; the tokens are those of before", error.what());
+            complaint_ = error.what();
         }
+    } catch (std::exception const&) {  // there is no memory: the next look tries again
     }
 }
 

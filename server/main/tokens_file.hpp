@@ -34,6 +34,10 @@ std::string table_of(std::vector<TokenEntry> const&, Utc now);
 
 // Returns whether a token may have this name: letters, digits, '_', '-' and '.', 64 at most.
 bool is_token_name(std::string_view);
+// Whether the text can be a pattern of refs, such as "robot1.*" or "robot[23].*".
+bool is_pattern(std::string_view);
+constexpr std::string_view expected_pattern =
+    "expected patterns of refs such as 'robot1.*' or 'robot[23].*', of 1 to 256 characters, with a ']' for each '['";
 
 // Returns the token that a file holds, without white space around it: one to send. Throws BadSettings.
 std::string token_in(std::string const& file);
@@ -48,16 +52,20 @@ public:
     // Reads the file; throws BadSettings if that fails. `tokens` must outlive it.
     TokensFile(std::string file, Tokens& tokens);
 
-    // Reads the file; throws BadSettings. `use`: these are the tokens from now on. Thread-safe.
+    // Throws BadSettings if the file is not valid. Thread-safe, as `look`.
     std::vector<std::shared_ptr<Principal>> read() const;
-    void use(std::vector<std::shared_ptr<Principal>>);
+    // Reads the file again if it has changed since the last time.
+    void look();
 
 private:
+    void use(std::vector<std::shared_ptr<Principal>>);
     void watch(std::stop_token const&);
 
     std::string const file_;
     Tokens& tokens_;
-    std::string version_;  // of the file that was read last; used only by the thread
+    std::mutex mutex_;       // guards the next two, and keeps an older content from replacing a newer one
+    std::string version_;    // of the file that was read last
+    std::string complaint_;  // the last one, about the present file
     std::jthread thread_;
 };
 

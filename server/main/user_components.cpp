@@ -82,6 +82,7 @@ std::vector<std::unique_ptr<Component>> UserComponents::components(ProfileFile c
 ComponentChange UserComponents::read() {
     auto const found = read_profile_folder(schemas_, folder_, own_, adapters_.streams());
     next_refusals_.clear();
+    news_.clear();
     for (auto const& file : found) {
         if (!is_refused(file)) continue;
         next_refusals_.emplace(file.name, file.findings);
@@ -102,12 +103,12 @@ ComponentChange UserComponents::read() {
         Made made{*file.profile, flattened(*file.profile, change.belongings.profiles), {}};
         for (auto& component : components(file, change.belongings.profiles, taken)) {
             made.refs.push_back(component->description().ref.code);
-            spdlog::info("profiles: {}: adds the component {}", file.name, made.refs.back());
+            news_.push_back(file.name + ": adds the component " + made.refs.back());
             change.coming.push_back(std::move(component));
         }
         next.emplace(file.name, std::move(made));
     }
-    for (auto const& ref : change.going) spdlog::info("profiles: removes the component {}", ref);
+    for (auto const& ref : change.going) news_.push_back("removes the component " + ref);
     next_ = std::move(next);
     return change;
 }
@@ -115,6 +116,7 @@ ComponentChange UserComponents::read() {
 void UserComponents::keep() {
     files_ = std::move(next_);
     refusals_ = std::move(next_refusals_);
+    for (auto const& line : news_) spdlog::info("profiles: {}", line);
 }
 
 }  // namespace rois

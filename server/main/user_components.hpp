@@ -25,7 +25,7 @@ public:
     // first call. Later, throws BadSettings if a file is refused that was not refused before, or for another reason; also if the
     // folder cannot be read.
     ComponentChange read();
-    // Call when the changes of the last `read` have been made. Without this call, the next `read` returns them again.
+    // Call when the changes of the last `read` have been made; logs them. Without this call, the next `read` returns them again.
     void keep();
 
 private:
@@ -52,6 +52,7 @@ private:
     using Refusals = std::map<std::string, std::vector<std::string>>;  // findings, by file name
     std::optional<Refusals> refusals_;                                 // of the last change; nullopt: there was none
     Refusals next_refusals_;
+    std::vector<std::string> news_;  // lines about the change, for the log
 };
 
 }  // namespace rois

@@ -20,20 +20,11 @@ bool has_gone(boost::system::error_code const& error) {
     return error == asio::error::connection_aborted || error == boost::system::errc::protocol_error;
 }
 
-// The option SO_REUSEPORT, set. Asio has no public name for it; this is its concept SettableSocketOption.
-struct ReusePort {
-    static int level(asio::ip::tcp const&) { return SOL_SOCKET; }
-    static int name(asio::ip::tcp const&) { return SO_REUSEPORT; }
-    void const* data(asio::ip::tcp const&) const { return &on; }
-    static std::size_t size(asio::ip::tcp const&) { return sizeof on; }
-
-    int on = 1;
-};
-
 constexpr auto between_tries = std::chrono::milliseconds{50};
-constexpr auto until_cut = std::chrono::milliseconds{1};  // an idle connection gives up its place
-constexpr unsigned most_at_once = 64;                     // connections, before the open ones have a turn
-constexpr unsigned most_without_memory = 64;              // connections between two pauses while the system has no memory
+constexpr auto between_looks = std::chrono::milliseconds{10};  // for a stranger
+constexpr unsigned looks_for_strangers = 25;                   // with tokens: only then, one that has shown a token gives way
+constexpr unsigned most_at_once = 64;                          // connections, before the open ones have a turn
+constexpr unsigned most_without_memory = 64;                   // connections between two pauses while the system has no memory
 
 // Returns nothing if the peer has already closed the connection.
 std::optional<Address> remote_address(Socket const& socket) {
@@ -43,21 +34,18 @@ std::optional<Address> remote_address(Socket const& socket) {
 }
 
 // Sends the reason, without waiting for the peer.
-void refuse(Socket& socket, Shared const& shared) {
+std::nullopt_t refuse(Socket& socket, Shared const& shared, Fault const& fault) {
     shared.telemetry.reached(Telemetry::Limit::connections_per_address);
     shared.telemetry.faulted(FaultCode::too_many);
     std::string text;
-    append(text,
-           answer_of({FaultCode::too_many,
-                      "this address has " + std::to_string(shared.settings().max_connections_per_address) +
-                          " connections open already: close one; the key max_connections_per_address sets the limit"}),
-           {Framing::Body::sent, true});
+    append(text, answer_of(fault), {Framing::Body::sent, true});
     boost::system::error_code ignored;
     socket.non_blocking(true, ignored);
     socket.write_some(asio::buffer(text), ignored);
     socket.shutdown(Socket::shutdown_send, ignored);
     std::array<char, 4096> request{};  // unread bytes would reset the connection before the peer reads the answer
     socket.read_some(asio::buffer(request), ignored);
+    return std::nullopt;
 }
 
 }  // namespace
@@ -73,7 +61,11 @@ void Listener::bind(Endpoint const& endpoint, Port port) {
     acceptor_.bind(endpoint);
 }
 
-void Listener::share_port() { acceptor_.set_option(ReusePort{}); }
+void Listener::share_port() {
+    int const on = 1;
+    if (::setsockopt(acceptor_.native_handle(), SOL_SOCKET, SO_REUSEPORT, &on, sizeof on) != 0)
+        throw boost::system::system_error{errno, boost::system::system_category()};
+}
 
 void Listener::listen() {
     acceptor_.listen();
@@ -90,9 +82,7 @@ Task<> Listener::accept() {
         } catch (std::bad_alloc const&) {
             spdlog::warn("cannot accept a connection: the system gives the gateway no more memory");
         }
-        bool const crowded = taken % most_without_memory == 0 && memory.exhausted();
-        if (accepted && !crowded) continue;
-        co_await pause(between_tries);
+        if (!accepted || (taken % most_without_memory == 0 && memory.exhausted())) co_await pause(between_tries);
     }
 }
 
@@ -104,8 +94,7 @@ Task<bool> Listener::accept_waiting() {
     for (unsigned accepted = 1; !error; ++accepted) {
         auto place = co_await this->place(socket);
         if (place) serve(std::move(socket), std::move(*place));
-        bool const exhausted = loop_.shared().gateway.memory().exhausted();
-        if (exhausted || accepted == most_at_once || !acceptor_.is_open()) co_return true;
+        if (accepted == most_at_once || !acceptor_.is_open() || loop_.shared().gateway.memory().exhausted()) co_return true;
         socket = acceptor_.accept(error);
     }
     if (error == asio::error::operation_aborted || error == asio::error::would_block || has_gone(error)) co_return true;
@@ -122,26 +111,29 @@ void Listener::serve(Socket socket, Admission::Place place) {
     }
 }
 
-// If all places are taken, cuts the connection that has been idle for longest. If none is idle, waits until there is a place;
-// meanwhile the kernel keeps further connections waiting. Returns nothing if the listener is closed, or if the address has
-// reached its limit: then the connection is refused.
+// Without a free place, takes that of a stranger or of the connection that has been idle for longest, or waits: then the kernel
+// keeps further connections waiting. Returns nothing if its address has reached its limit, or if the listener is closed.
 Task<std::optional<Admission::Place>> Listener::place(Socket& socket) {
     auto const address = remote_address(socket);
     if (!address) co_return std::nullopt;
-    auto const limits = limits_of(*address, loop_.shared().settings().proxies);
-    while (acceptor_.is_open()) {
-        auto entered = admission_.enter(*address, limits);
+    for (unsigned looks = 1; acceptor_.is_open(); ++looks) {
+        auto entered = admission_.enter(*address, limits_of(*address, loop_.shared().settings().proxies));
         if (auto* place = std::get_if<Admission::Place>(&entered)) co_return std::move(*place);
-        if (std::get<Admission::Refused>(entered) == Admission::Refused::full_of_address) {
-            refuse(socket, loop_.shared());
-            co_return std::nullopt;
+        bool const of_address = std::get<Admission::Refused>(entered) == Admission::Refused::full_of_address;
+        if (loop_.cut_stranger(of_address ? &*address : nullptr)) {
+            co_await asio::post(loop_.executor(), asio::use_awaitable_t<Executor>{});  // earlier ones have a turn
+            continue;
         }
-        if (admission_.is_news()) {
+        bool const may_be_strangers = loop_.shared().gateway.tokens() != nullptr && looks <= looks_for_strangers;
+        if (of_address && !may_be_strangers) co_return refuse(socket, loop_.shared(), admission_.too_many_of("this address"));
+        if (!of_address && admission_.is_news()) {
             loop_.shared().telemetry.reached(Telemetry::Limit::connections);
             spdlog::warn("{} connections are open: each new one waits, or replaces one that is idle",
                          loop_.shared().settings().max_connections);
         }
-        co_await pause(loop_.cut_longest_idle() ? until_cut : between_tries);
+        if (!may_be_strangers && loop_.cut_longest_idle()) continue;
+        loop_.shared().make_room(may_be_strangers, of_address ? address : std::nullopt);
+        co_await pause(may_be_strangers ? between_looks : between_tries);
     }
     co_return std::nullopt;
 }

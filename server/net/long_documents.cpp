@@ -14,7 +14,7 @@ LongDocuments::LongDocuments(std::shared_ptr<xml::Schemas const> schemas, xml::D
     : reader_{std::move(schemas), limits, validation} {}
 
 Task<PendingAnswer> LongDocuments::answer(Gateway& gateway, SessionId const& session, std::string_view text, Via via,
-                                          std::weak_ptr<Reader> waits, std::shared_ptr<Client> const& client, Wakes& wakes) {
+                                          std::weak_ptr<Waker> waits, std::shared_ptr<Client> const& client, Wakes& wakes) {
     Executor const executor = co_await asio::this_coro::executor;
     auto const done = std::make_shared<WakeUp>(executor, wakes);
     PendingAnswer answer;

@@ -21,7 +21,7 @@ public:
 
     // Thread-safe. Calls Gateway::answer on the separate thread, and resumes the caller on the caller's thread. The caller owns
     // all arguments, which must live until then.
-    Task<PendingAnswer> answer(Gateway&, SessionId const&, std::string_view text, Via, std::weak_ptr<Reader> waits,
+    Task<PendingAnswer> answer(Gateway&, SessionId const&, std::string_view text, Via, std::weak_ptr<Waker> waits,
                                std::shared_ptr<Client> const&, Wakes&);
 
 private:

@@ -5,6 +5,7 @@
 #include <boost/asio/detached.hpp>
 #include <boost/asio/post.hpp>
 #include <exception>
+#include <ranges>
 #include <thread>
 #include <utility>
 
@@ -15,7 +16,7 @@ namespace rois::net {
 namespace {
 
 constexpr auto between_sweeps = std::chrono::milliseconds{50};
-constexpr auto shortest_idle = std::chrono::milliseconds{100};  // a connection idle for less is not cut: a request may come
+constexpr auto shortest_idle = std::chrono::milliseconds{100};  // a connection that waits for less is not cut: a request may come
 constexpr auto between_tries = std::chrono::milliseconds{10};
 
 // Returns the number of sweeps that check all connections: 1 if a deadline is short, 5 by default. So a deadline is missed by at
@@ -132,11 +133,19 @@ void Loop::sweep_some(Steady now) {
 }
 
 bool Loop::cut_longest_idle() {
+    auto const latest = std::chrono::steady_clock::now() - shortest_idle + shared_.settings().idle_timeout;
     auto const idlest = std::ranges::min_element(connections_, {}, &Connection::idle_due);
-    if (idlest == connections_.end()) return false;
-    auto const idle_since = (*idlest)->idle_due() - shared_.settings().idle_timeout;
-    if (idle_since > std::chrono::steady_clock::now() - shortest_idle) return false;
-    (*idlest)->cut();
+    if (idlest == connections_.end() || (*idlest)->idle_due() > latest) return false;
+    (*idlest)->give_way();
+    return true;
+}
+
+bool Loop::cut_stranger(Address const* from) {
+    auto strangers = connections_ | std::views::filter([&](auto const* each) { return each->is_stranger(from); });
+    auto const oldest = std::ranges::min_element(strangers, {}, &Connection::accepted);
+    auto const latest = from != nullptr ? Steady::max() : std::chrono::steady_clock::now() - shortest_idle;
+    if (oldest == strangers.end() || (*oldest)->accepted() > latest) return false;
+    (*oldest)->give_way();
     return true;
 }
 

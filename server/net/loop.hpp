@@ -48,6 +48,8 @@ public:
     std::shared_ptr<xml::Schemas const> schemas;
     Troubles& troubles;
     LongDocuments long_documents;
+    // Each thread soon cuts a stranger from this address, or from any, or the connection that has been idle for longest.
+    std::function<void(bool among_strangers, std::optional<Address> const& from)> make_room;
 
 private:
     std::list<Settings> versions_;  // after each SIGHUP one more
@@ -72,8 +74,10 @@ public:
     // Where connections come from. `programs`: those that this gateway starts, on a port of their own (Server::url_for_programs).
     enum class From : std::uint8_t { network, programs, this_process };
     void serve(Socket, Admission::Place, From);
-    // Cuts the connection that has been idle for longest. Returns false if none has been idle for 0.1 s.
+    // Cuts the connection that has been idle for longest. Returns false if none has been for 0.1 s.
     bool cut_longest_idle();
+    // With tokens, cuts the oldest connection from this address that has shown none. Null: from any address, if it is 0.1 s old.
+    bool cut_stranger(Address const* from);
     bool draining() const { return last_moment_ != Steady::max(); }
     Shared& shared() const { return shared_; }
     xml::RequestReader& reader() { return reader_; }

@@ -1,5 +1,4 @@
-// The limits and periods of the network layer. Each has a configuration key (main/keys.cpp), except `tick`, `echo` and
-// `document.namespaces`.
+// The limits and periods of the network layer. Each has a configuration key (main/keys.cpp), except `tick` and `echo`.
 #pragma once
 
 #include <chrono>
@@ -45,6 +44,7 @@ struct Settings {
     xml::DocumentLimits document;       // `bytes` also limits HTTP bodies and WebSocket messages
     xml::Validation validation = xml::Validation::fast;
     std::size_t max_fragments = 1'024;         // frames of a WebSocket message
+    unsigned max_control_frames = 50;          // that a WebSocket may send in a second
     std::size_t max_requests_in_flight = 16;   // of one connection; with more unsent answers, nothing is read
     std::vector<std::string> hosts;            // names of the gateway, in the form of host_name (gateway/access/host_names.hpp)
     std::vector<std::string> allowed_origins;  // of web pages, besides those of the gateway: "https://console.example"

@@ -1,6 +1,7 @@
 // Owns a file descriptor of the system.
 #pragma once
 
+#include <string_view>
 #include <utility>
 
 namespace rois {
@@ -22,5 +23,8 @@ public:
 private:
     int number_ = -1;
 };
+
+// Throws std::system_error after a part of the text, if the system does not take all of it.
+void write_all(UniqueDescriptor const&, std::string_view text);
 
 }  // namespace rois

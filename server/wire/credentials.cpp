@@ -2,6 +2,7 @@
 
 #include <openssl/ssl.h>
 
+#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
@@ -14,8 +15,18 @@ namespace ssl = boost::asio::ssl;
 // For TLS 1.2: with forward secrecy, and authenticated. TLS 1.3 has no others.
 constexpr auto ciphers = "ECDHE+AESGCM:ECDHE+CHACHA20";
 
-void require(boost::system::error_code const& error, std::string const& key, std::string const& file) {
-    if (error) throw std::runtime_error{key + ": cannot use '" + file + "': " + error.message()};
+// To open a pipe would wait until somebody writes into it.
+void require_file(std::string const& key, std::string const& file) {
+    std::error_code ignored;
+    if (std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored))
+        throw std::runtime_error{key + ": cannot use '" + file + "': this is not a regular file"};
+}
+
+void require(boost::system::error_code const& error, std::string const& key, std::string const& file,
+             std::string const& expected) {
+    if (error)
+        throw std::runtime_error{key + ": cannot use '" + file + "': " + error.message() + "; expected " + expected +
+                                 " in PEM format"};
 }
 
 // No session is resumed: each connection is checked with the present files.
@@ -29,16 +40,19 @@ std::shared_ptr<ssl::context> read(Files const& files) {
     ::SSL_CTX_set_num_tickets(native, 0);
     ::SSL_CTX_set_session_cache_mode(native, SSL_SESS_CACHE_OFF);
     ::SSL_CTX_set_mode(native, SSL_MODE_RELEASE_BUFFERS);
+    require_file("tls_certificate", files.certificate);
+    require_file("tls_key", files.key);
+    require_file("tls_client_ca", files.client_ca);
     boost::system::error_code error;
     context->use_certificate_chain_file(files.certificate, error);
-    require(error, "tls_certificate", files.certificate);
+    require(error, "tls_certificate", files.certificate, "a certificate, and those between it and its root,");
     // OpenSSL would ask for the password at the terminal.
     context->set_password_callback([](std::size_t, ssl::context::password_purpose) { return std::string{}; }, error);
     context->use_private_key_file(files.key, ssl::context::pem, error);
-    require(error, "tls_key", files.key);
+    require(error, "tls_key", files.key, "the private key of the certificate, without a password,");
     if (files.client_ca.empty()) return context;
     context->load_verify_file(files.client_ca, error);
-    require(error, "tls_client_ca", files.client_ca);
+    require(error, "tls_client_ca", files.client_ca, "certificates");
     auto const mode = files.client_must ? ssl::verify_peer | ssl::verify_fail_if_no_peer_cert : ssl::verify_peer;
     context->set_verify_mode(mode, error);
     return context;

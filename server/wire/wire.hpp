@@ -49,7 +49,8 @@ public:
     // Ends a waiting receive that has an end (`until`). It returns `done` without new input.
     void interrupt();
 
-    // Writes without waiting. Returns the number of written bytes: with TLS always 0. After an error, the next send fails.
+    // Writes without waiting. Returns the number of written bytes. With TLS that is always 0: only `waits_for_reader` tells,
+    // after a while, that the peer does not read. After an error, the next send fails.
     std::size_t send_now(std::string_view);
     // Writes everything. The connection is cut if that takes longer than the write timeout.
     Task<Outcome> send(std::string_view);
@@ -70,8 +71,10 @@ public:
     };
     Watch watch(std::function<void()> closed, std::function<bool(Steady now)> is_proof);
 
-    // Returns whether `send` waits for the peer to read.
-    bool waits_for_reader() const { return output_due_ != Steady::max(); }
+    // Returns whether `send` waits for the peer to read, and has done so since then.
+    bool waits_for_reader(Steady then = Steady::max()) const {
+        return output_due_ != Steady::max() && output_due_ - write_timeout_ <= then;
+    }
 
     // Closes the sending direction.
     void finish();

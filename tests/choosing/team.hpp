@@ -5,7 +5,9 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "choosing/choosing.hpp"
@@ -17,8 +19,9 @@ using namespace rois;
 
 class Team {
 public:
-    // Each robot has a navigation and a speech.
-    explicit Team(std::vector<std::string> const& robots, std::map<std::string, Area> areas = {}, EngineSettings engine = {})
+    // Each robot has a navigation and a speech. `journal`: of the process that has died; its robots come later.
+    explicit Team(std::vector<std::string> const& robots, std::map<std::string, Area> areas = {}, EngineSettings engine = {},
+                  std::unique_ptr<MemoryJournal> journal = nullptr)
         : choosing{{.logical = {"navigation", "speech"},
                     .sensing = {"localization", "detection"},
                     .engines = robots,
@@ -29,6 +32,13 @@ public:
         world.between = [this](ComponentChange change, World::Change const& perform) {
             choosing.change(std::move(change), perform);
         };
+        if (journal) {
+            world.journal = std::move(journal);
+            world.engine->keep_in(*world.journal);
+            world.engine->restore(world.journal->take_state(), world.rights_of, world.now);
+            world.engine->begin(world.now);
+            return;
+        }
         for (auto const& robot : robots) come(robot);
     }
 

@@ -1,4 +1,4 @@
-// The `rois` program over TLS, before a TLS proxy; and a slow host name lookup.
+// The `rois` program over TLS, before a TLS proxy; its token; and a slow host name lookup.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -65,6 +65,18 @@ TEST(TheHealth, DoesNotWaitForAHostNameLookup) {
         EXPECT_EQ(trouble.exit(), command::Exit::no_answer);
     }
     name.end_lookup();
+}
+
+TEST(Token, IsNotSentInTheClearToAnotherMachineAndIsOneLine) {
+    auto const error = [](std::string const& url, std::string const& token) {
+        auto const ended = run_rois({"search", "--url", url, "--token", token});
+        EXPECT_EQ(ended.exit_code, 2) << url;
+        return ended.error;
+    };
+    for (auto const* url : {"http://192.0.2.1:8080", "ws://robot.example"})
+        EXPECT_THAT(error(url, "secret"), HasSubstr("without TLS, because others could read it: expected https:// or wss://"));
+    for (auto const* token : {"a b", "a\r\nX: y", "a\n"})
+        EXPECT_THAT(error(shared_gateway().url(), token), HasSubstr("a token has only letters, digits and signs"));
 }
 
 }  // namespace

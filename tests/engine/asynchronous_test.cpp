@@ -241,6 +241,23 @@ TEST_F(Asynchronous, ACommandThatIsStoppedBeforeItIsPreparedDoesNotBegin) {
     EXPECT_TRUE(robot.begun.empty());
 }
 
+TEST_F(Asynchronous, EachOfTwoStartsThatWereUnderWayAtOnceReplacesTheOneBefore) {
+    auto& robot = add(moving(named("robot", navigation)));
+    auto desk = world.connect();
+    desk.bind("robot");
+    execute(desk, go("first", "robot"));
+    robot.answers_prepare = false;
+    auto const second = execute(desk, go("second", "robot"));
+    auto const third = execute(desk, go("third", "robot"));
+    robot.let_prepare();
+    robot.let_prepare();
+    work();
+    EXPECT_EQ(code_of(*second), ReturnCode::ok);
+    EXPECT_EQ(code_of(*third), ReturnCode::ok);
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed first ABORT", "2 completed second ABORT"));
+    EXPECT_EQ(robot.begun.size(), 3U);
+}
+
 TEST_F(Asynchronous, ReleaseAndAStopOfEverythingKeepACommandFromBeginning) {
     auto& robot = add(named("robot", navigation));
     robot.answers_prepare = false;

@@ -1,34 +1,9 @@
 // What the engine stores, and how it continues after the process has died (docs/journal.md).
-#include "engine/world.hpp"
+#include "engine/journaled.hpp"
 
 namespace rois {
 
 namespace {
-
-struct Journaled : testing::Test {
-    Journaled() { world.keep_journal(); }
-
-    // The process dies, and begins again. Returns the application, whose client has reconnected.
-    Application die_and_resume(Application const& application, std::vector<Part> const& parts = {navigation, speech, detection}) {
-        world.restart(parts);
-        world.engine->begin(world.now);
-        Application resumed{world, application.session};
-        world.engine->link_opened(application.session, LinkKind::websocket, world.now);
-        return resumed;
-    }
-
-    MemoryJournal& journal() { return *world.journal; }
-    void store() {
-        journal().settle(true);
-        world.engine->and_work([&] { world.engine->stored(world.now); }, world.now);
-    }
-    void fail_to_store() {
-        journal().settle(false);
-        world.engine->and_work([&] { world.engine->not_stored(world.now); }, world.now);
-    }
-
-    World world{navigation, speech, detection};
-};
 
 TEST_F(Journaled, ASessionReturnsWithItsBindingsSubscriptionsAndNotifications) {
     auto desk = world.connect();
@@ -114,6 +89,45 @@ TEST_F(Journaled, ACommandBeginsWhenItIsStored) {
     EXPECT_THAT(world["navigation"].calls, testing::Contains("start"));
 }
 
+TEST_F(Journaled, ACommandThatIsNotStoredYetEndsWithItsSession) {
+    World goes_on{{navigation}, {.on_session_end = OnSessionEnd::continue_}};
+    goes_on.keep_journal();
+    auto desk = goes_on.connect();
+    desk.bind("navigation");
+    goes_on.journal->then = MemoryJournal::Then::later;
+    goes_on.begin_to_say(desk.session, Execute{{{go("go")}}});
+    goes_on.begin_to_say(desk.session, Disconnect{});
+    goes_on.journal->settle(true);
+    goes_on.engine->and_work([&] { goes_on.engine->stored(goes_on.now); }, goes_on.now);
+    goes_on.engine->stop_everything(goes_on.now);
+    EXPECT_THAT(goes_on.engine->statistics().commands_completed, testing::Each(0U)) << "nothing was left to be stopped";
+    EXPECT_THAT(goes_on["navigation"].calls, testing::Not(testing::Contains("start")));
+}
+
+TEST_F(Journaled, ASubscriptionOfAnAbsentComponentCanBeEnded) {
+    auto desk = world.connect();
+    auto const id = desk.subscribe("reached_target").subscribe_id;
+    auto resumed = die_and_resume(desk, {speech});
+    EXPECT_EQ(resumed.unsubscribe(id), ReturnCode::ok);
+    auto again = die_and_resume(resumed);
+    world["navigation"].fires("reached_target");
+    EXPECT_THAT(again.received(), IsEmpty());
+}
+
+TEST_F(Journaled, AStopStaysAlsoIfTheTokenOfAnOwnerIsRevoked) {
+    auto const one = std::make_shared<Rights const>("one", std::vector<std::string>{"*"}, std::vector<std::string>{"*"}, "1");
+    auto const two = std::make_shared<Rights const>("two", std::vector<std::string>{"*"}, std::vector<std::string>{"*"}, "2");
+    auto first = world.connect_as(one), second = world.connect_as(two);
+    first.ask(StopEverything{});
+    second.ask(StopEverything{});
+    world.rights_of = [&](std::string const& id) { return id == "2" ? two : nullptr; };
+    world.restart({navigation, speech, detection});
+    world.engine->begin(world.now);
+    Application resumed{world, second.session, two.get()};
+    resumed.ask(ClearStop{});
+    EXPECT_TRUE(world.engine->everything_is_stopped()) << "the other owner has not cleared it";
+}
+
 TEST_F(Journaled, ACommandThatWasNotStoredLeavesNoTrace) {
     auto desk = world.connect();
     desk.bind("navigation");
@@ -137,6 +151,18 @@ TEST_F(Journaled, ACompletionIsNotSeenBeforeItIsStored) {
     store();
     EXPECT_TRUE(result->said);
     EXPECT_THAT(desk.received(), ElementsAre("1 completed go OK"));
+}
+
+TEST_F(Journaled, ARefusalAboutACommandWaitsUntilThatIsStored) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    journal().then = MemoryJournal::Then::later;
+    world.begin_to_say(desk.session, Execute{{{go("go")}}});
+    auto const again = world.begin_to_say(desk.session, Execute{{{go("go")}}});
+    EXPECT_FALSE(again->said);
+    store();
+    EXPECT_EQ(std::get<Execute::Reply>(std::get<Reply>(again->said.value())).reason,
+              "command_unit_list[1]: the command_id 'go' is in use in this session");
 }
 
 TEST_F(Journaled, QueriesDoNotWait) {
@@ -181,6 +207,7 @@ TEST_F(Journaled, ACommandDoesNotBeginAfterAStopThatCameWhileItWasStored) {
     auto const asked = world.begin_to_say(desk.session, Execute{{{go("go")}}});
     world.begin_to_say(desk.session, Execute{{{named("s", stop("navigation"))}}});
     store();
+    store();
     EXPECT_EQ(std::get<Execute::Reply>(std::get<Reply>(asked->said.value())).return_code, ReturnCode::error);
     EXPECT_THAT(world["navigation"].calls, testing::Not(testing::Contains("start")));
 }
@@ -203,6 +230,28 @@ TEST_F(Journaled, ACommandThatCannotBeStoredIsRefusedAndStopStillWorks) {
     EXPECT_EQ(desk.execute(go("last")).return_code, ReturnCode::ok);
     auto resumed = die_and_resume(desk);
     EXPECT_THAT(resumed.received(), ElementsAre("1 completed go ABORT", "2 completed s OK", "3 completed last ABORT"));
+}
+
+TEST_F(Journaled, WhatBeginsAndEndsWhileTheDiskIsFullLeavesNoTrace) {
+    auto desk = world.connect();
+    desk.bind("speech");
+    journal().then = MemoryJournal::Then::not_stored;
+    for (int i = 0; i < 3; ++i) {
+        auto other = world.connect();
+        auto const at_once = desk.subscribe("reached_target"), later = desk.subscribe("reached_target");
+        EXPECT_EQ(desk.unsubscribe(at_once.subscribe_id), ReturnCode::ok);
+        world.advance(300ms);
+        other.ask(Disconnect{});
+        EXPECT_EQ(desk.unsubscribe(later.subscribe_id), ReturnCode::ok);
+        world.advance(300ms);
+    }
+    journal().then = MemoryJournal::Then::stored;
+    world.advance(300ms);
+    EXPECT_EQ(journal().gone, 0u);
+    auto const known = desk.subscribe("reached_target");
+    journal().then = MemoryJournal::Then::not_stored;
+    desk.unsubscribe(known.subscribe_id);
+    EXPECT_EQ(journal().gone, 1u) << "that one is in the journal";
 }
 
 TEST_F(Journaled, AJournalThatTakesTooLongCountsAsFull) {

@@ -1,4 +1,5 @@
 // What sessions with rights see and command (docs/trust.md).
+#include "engine/conditions/conditions.hpp"
 #include "engine/world.hpp"
 
 namespace rois {
@@ -36,6 +37,82 @@ TEST_F(OneOfTwoRobots, ShowOnlyTheOneThatTheClientMaySee) {
     EXPECT_EQ(of_one.query("route", equal("component_ref", "two.navigation")).return_code, ReturnCode::unsupported);
     EXPECT_EQ(of_one.query("component_status", equal("component_ref", "speech")).return_code, ReturnCode::unsupported);
     EXPECT_EQ(of_one.query("route").component_ref.code, "one.navigation");
+}
+
+TEST_F(OneOfTwoRobots, LetConditionsNameOnlyWhatTheClientSees) {
+    auto everyone = world.connect();
+    EXPECT_EQ(everyone.ask(Search{equal("volume", "1")}).return_code, ReturnCode::ok) << "a parameter of speech";
+    for (auto const* name : {"volume", "nonsense"}) {
+        auto const refused = of_one.ask(Search{equal(name, "1")});
+        EXPECT_EQ(refused.return_code, ReturnCode::bad_parameter);
+        EXPECT_THAT(refused.reason, testing::AllOf(HasSubstr("is not known here"), HasSubstr("Property/target_position"),
+                                                   testing::Not(HasSubstr("Property/volume"))));
+    }
+}
+
+TEST_F(OneOfTwoRobots, LetConditionsOnDetailsNameOnlyWhatTheClientSees) {
+    world.engine->describe({.frames = {"hall"}, .all = {}});
+    Belongings of_two{.profiles = {}, .frames = {}, .places = {{"two.lab", box(0, 0, 1'000, 1'000, "hall")}}};
+    world.engine->change({{}, {}, std::move(of_two), "two"}, world.now);
+    auto everyone = world.connect();
+    for (auto* client : {&everyone, &of_one}) client->subscribe("reached_target");
+    world["one.navigation"].fires("reached_target");
+    auto const reason = [](Application& client) {
+        client.received();
+        auto const event = client.last_received<ReceiveEvent>().event_id;
+        return client.ask(GetEventDetail{event, within("located", literal("nonsense"))}).reason;
+    };
+    EXPECT_THAT(reason(everyone), HasSubstr("two.lab"));
+    EXPECT_THAT(reason(of_one), testing::Not(HasSubstr("two.lab")));
+}
+
+TEST(RightsOfOneComponent, LetGroupsConsistOnlyOfWhatTheClientSees) {
+    World world{named("one.navigation", navigation, "one"), named("one.speech", speech, "one")};
+    auto desk = world.connect_as(rights({"one.speech"})), everyone = world.connect();
+    auto const both = group({.types = {"Navigation", "SpeechSynthesis"}, .aliases = {}, .filter = {}, .members = {}});
+    EXPECT_THAT(desk.search(both), IsEmpty());
+    EXPECT_THAT(everyone.search(both), ElementsAre("one.navigation", "one.speech"));
+    everyone.bind("one.navigation");
+    EXPECT_THAT(desk.search(both), IsEmpty());
+    EXPECT_THAT(desk.ask(BindAny{both}).reason, testing::Not(HasSubstr("one.navigation")));
+}
+
+TEST_F(OneOfTwoRobots, DoNotLetTheClientEndAStopOfAnother) {
+    auto chief = world.connect();
+    chief.ask(StopEverything{});
+    chief.leave();
+    auto const stop = of_one.ask(StopEverything{}).stop;
+    of_one.ask(ClearStop{});
+    of_one.ask(ClearStop{stop.value_or(ClearStop::own)});
+    EXPECT_TRUE(world.engine->everything_is_stopped());
+    auto engine = world.connect_as(nullptr, {.motion_lease = {}, .motion_lease_http = {}, .motion_proof = {}, .is_engine = true});
+    engine.ask(StopEverything{});
+    engine.ask(ClearStop{});
+    EXPECT_TRUE(world.engine->everything_is_stopped()) << "it was not an engine's";
+    auto next = world.connect();
+    next.ask(StopEverything{});
+    next.ask(ClearStop{});
+    EXPECT_FALSE(world.engine->everything_is_stopped());
+}
+
+TEST_F(OneOfTwoRobots, SendOnlyChangesOfTheProfileThatTheClientSees) {
+    auto everyone = world.connect();
+    world.change({}, {named("two.speech", speech, "two")});
+    EXPECT_THAT(of_one.received(), IsEmpty());
+    EXPECT_THAT(everyone.received(), testing::Contains(HasSubstr("profile_changed")));
+    world.advance(std::chrono::seconds{2});
+    world.change({}, {named("one.speech", speech, "one")});
+    EXPECT_THAT(of_one.received(), testing::Contains(HasSubstr("profile_changed")));
+}
+
+TEST_F(OneOfTwoRobots, KeepEventsThatDoNotMatchTheirConditions) {
+    World keeping{{named("one.navigation", navigation, "one")}, {.max_kept_events = 10}};
+    auto desk = keeping.connect_as(rights({"one.*"})), other = keeping.connect();
+    desk.subscribe("reached_target", equal("component_ref", "another"));
+    keeping["one.navigation"].fires("reached_target");
+    EXPECT_THAT(desk.received(), IsEmpty());
+    other.subscribe("reached_target");
+    EXPECT_THAT(other.received(), testing::SizeIs(1)) << "it was delivered to no session";
 }
 
 TEST_F(OneOfTwoRobots, SendOnlyTheEventsOfTheOne) {
@@ -90,6 +167,19 @@ TEST(Rights, ToSeeAreNotThoseToCommand) {
     EXPECT_EQ(desk.bind_any(), "speech");
     EXPECT_THAT(desk.search(), ElementsAre("navigation", "speech"));
     EXPECT_EQ(desk.status_of("navigation"), "READY");
+}
+
+TEST(Rights, CoverEverythingOnlyWithAStar) {
+    EXPECT_TRUE(rights({"*"})->sees_everything());
+    for (auto const* pattern : {"[!n]*", "?", "?*", "[*]", "navigation"})
+        EXPECT_FALSE(rights({pattern})->sees_everything()) << pattern;
+}
+
+TEST(Rights, CoverAnEngineIfAPatternFitsAllItsComponents) {
+    for (auto const* pattern : {"*", "robot2.*", "robot*", "r?bot2.*"})
+        EXPECT_TRUE(rights({pattern})->sees_all_of("robot2.")) << pattern;
+    for (auto const* pattern : {"*.a*", "robot2.navigation", "robot2", "robot1.*", "robot2.[a-z]*"})
+        EXPECT_FALSE(rights({pattern})->sees_all_of("robot2.")) << pattern;
 }
 
 TEST(Rights, BelongToTheirSessions) {

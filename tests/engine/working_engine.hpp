@@ -97,8 +97,7 @@ public:
         std::unique_lock lock{mutex_};
         attempts([&] { work(lock, now, runner); });
         while (journal_ != nullptr && journal_->has_waiting() && journal_->then != MemoryJournal::Then::later) {
-            bool const stored = journal_->then == MemoryJournal::Then::stored;
-            journal_->settle(stored);
+            bool const stored = journal_->settle(journal_->then == MemoryJournal::Then::stored);
             attempts([&] { stored ? Engine::stored(now) : Engine::not_stored(now); });
             attempts([&] { work(lock, now, runner); });
         }

@@ -74,10 +74,10 @@ TEST_F(JournalsFile, KeepsWhatWasStored) {
 
 TEST_F(JournalsFile, ForgetsWhatIsGone) {
     store({.set = {record(1, "a", "1"), record(1, "b", "2"), record(1, "c", "3"), record(1, "d", "4"), record(2, "a", "5")}});
-    store({.gone = {{kind::command, 1, "d"}}, .forgotten = {{kind::command, 1, "b"}}});
-    EXPECT_THAT(keys_in(folder.name()), testing::ElementsAre("1 c=3", "2 a=5"));
+    store({.gone = {{kind::command, 1, "d"}}, .forgotten = {{{kind::command, 1, "b"}, "c"}}});
+    EXPECT_THAT(keys_in(folder.name()), testing::ElementsAre("1 a=1", "2 a=5"));
     store({.ended = {2}});
-    EXPECT_THAT(keys_in(folder.name()), testing::ElementsAre("1 c=3"));
+    EXPECT_THAT(keys_in(folder.name()), testing::ElementsAre("1 a=1"));
 }
 
 TEST_F(JournalsFile, CanOnlyBeReadByItsOwner) {
@@ -89,6 +89,23 @@ TEST_F(JournalsFile, CanOnlyBeReadByItsOwner) {
     store({.set = {record(1, "b", "x")}});
     ASSERT_EQ(::stat(folder.file().c_str(), &found), 0);
     EXPECT_EQ(found.st_mode & 0777, 0600) << "also if it comes from elsewhere";
+}
+
+TEST_F(JournalsFile, KnowsWhetherItWasMovedOrReplaced) {
+    JournalFile file{folder.name(), plenty};
+    EXPECT_TRUE(file.is_in_place());
+    std::filesystem::rename(folder.file(), folder.file() + ".moved");
+    EXPECT_FALSE(file.is_in_place());
+    std::ofstream{folder.file()} << "another one";
+    EXPECT_FALSE(file.is_in_place());
+}
+
+TEST_F(JournalsFile, KnowsWhetherItsLogWasRemoved) {
+    JournalFile file{folder.name(), plenty};
+    EXPECT_EQ(file.store({.set = {record(1, "a", "x")}}), JournalFile::Result::stored);
+    EXPECT_TRUE(file.is_in_place());
+    std::filesystem::remove(folder.file() + "-wal");
+    EXPECT_FALSE(file.is_in_place());
 }
 
 TEST_F(JournalsFile, IsMadeWithItsFolder) {
@@ -160,8 +177,12 @@ TEST_F(JournalsFile, OfAnotherProgramIsRefused) {
 
 TEST_F(JournalsFile, OfAnotherDatabaseIsRefusedAndNotChanged) {
     run_sql(folder.file(), "CREATE TABLE record (kind TEXT); INSERT INTO record VALUES ('x')");
+    ASSERT_EQ(::chmod(folder.file().c_str(), 0644), 0);
     EXPECT_THAT(why_refused(folder.name()), HasSubstr("is not a journal of rois-gateway"));
     run_sql(folder.file(), "SELECT kind FROM record");
+    struct stat found {};
+    ASSERT_EQ(::stat(folder.file().c_str(), &found), 0);
+    EXPECT_EQ(found.st_mode & 0777, 0644);
 }
 
 TEST_F(JournalsFile, OfALaterVersionIsRefused) {

@@ -71,7 +71,7 @@ struct GatewayWithJournal : testing::Test {
     void start(std::vector<std::string> more = {}) {
         auto arguments = folder.arguments();
         arguments.insert(arguments.end(), more.begin(), more.end());
-        gateway.emplace(arguments, Variables{{"LD_PRELOAD", ROIS_BINARY_DIR "/tests/libfailing_disk.so"}, {"ROIS_DISK", disk()}});
+        gateway.emplace(arguments, kit::preloading(ROIS_BINARY_DIR "/tests/libfailing_disk.so", {{"ROIS_DISK", disk()}}));
     }
     void kill() {
         gateway->signal(SIGKILL);
@@ -234,6 +234,7 @@ TEST_F(GatewayWithJournal, StopsWhileTheDiskIsSlow) {
     EXPECT_EQ(desk.call("execute", list({.component = "speech_synthesis", .type = "stop", .id = "s"})).return_code(), "OK");
     EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds{3}) << "the disk needs 3 s for each step";
     let_disk_be("fine");
+    EXPECT_THAT(gateway->log_with("the disk is slow"), HasSubstr("journal: storing took"));
 }
 
 TEST_F(GatewayWithJournal, HaltsAndEndsWhenTheDiskDoesNotWrite) {
@@ -265,7 +266,7 @@ TEST_F(GatewayWithJournal, DoesNotStartWithAJournalThatIsNotItsOwn) {
 
 // The sub engine has not died. A command that ended there meanwhile has its own result; one that still ran is stopped.
 TEST_F(GatewayWithJournal, AsksASubEngineHowItsCommandsHaveEnded) {
-    GatewayProcess const robot{{"--sim-speed", "4"}};
+    GatewayProcess robot{{"--sim-speed", "4", "--log-level", "debug"}};
     std::ofstream{folder.name() + "/engines.json"} << R"({"engines": [{"name": "robot1", "url": "ws://127.0.0.1:)" << robot.port()
                                                    << R"("}]})";
     std::vector<std::string> const main{"--robots", "none", "--engines", folder.name() + "/engines.json"};
@@ -284,10 +285,8 @@ TEST_F(GatewayWithJournal, AsksASubEngineHowItsCommandsHaveEnded) {
     ASSERT_EQ(desk.call("execute", list(drive)).return_code(), "OK");
     ASSERT_EQ(desk.call("execute", list(speech)).return_code(), "OK");
     auto const session = desk.session;
-    HttpClient watcher{robot.address()};
-    watcher.call("connect");
-    auto const of_speech = "<query_type>component_status</query_type>" + where(equal("component_ref", "speech_synthesis"));
-    ASSERT_TRUE(eventually([&] { return watcher.call("query", of_speech).body.find("BUSY") != std::string::npos; }));
+    auto const began = "start of speech_synthesis, begins";
+    ASSERT_THAT(robot.log_with(began), HasSubstr(began));
     kill();
     EXPECT_TRUE(eventually([&] {
         return HttpClient{robot.address()}.get("/metrics").body.find("rois_commands_completed_total{status=\"OK\"} 1") !=

@@ -31,6 +31,12 @@ Pipe::Pipe() {
     to_write = ends[1];
 }
 
+Variables preloading(std::string const& library, Variables variables) {
+    variables["LD_PRELOAD"] = library;
+    variables["ASAN_OPTIONS"] = "verify_asan_link_order=0";
+    return variables;
+}
+
 pid_t start(std::string const& program, std::vector<std::string> const& arguments, Variables const& variables,
             Streams const& streams) {
     std::vector<char*> argv{const_cast<char*>(program.c_str())};

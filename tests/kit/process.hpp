@@ -11,6 +11,9 @@ namespace rois::kit {
 
 using Variables = std::map<std::string, std::string>;
 
+// Preloads a library into a program. The address sanitizer, which expects to be the first one, accepts that.
+Variables preloading(std::string const& library, Variables = {});
+
 // How a program ended, and its output.
 struct Ended {
     int exit_code = -1;  // minus the signal if a signal killed the program

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 #include "main/settings.hpp"
 #include "main/temporary_file.hpp"
@@ -49,6 +50,67 @@ TEST_F(OfAudit, LeavesRefusalsOutAndCountsThem) {
     EXPECT_THAT(text, testing::HasSubstr(R"("token":"desk","left_out":5})"));
 }
 
+TEST_F(OfAudit, BelongsToOneGateway) {
+    AuditFile const audit{file.name(), {}};
+    try {
+        AuditFile const another{file.name(), {}};
+        FAIL() << "both would rename it";
+    } catch (BadSettings const& problem) {
+        EXPECT_THAT(problem.what(), testing::HasSubstr("is in use by another gateway"));
+    }
+}
+
+TEST_F(OfAudit, GoesOnBehindALineThatWasCutShort) {
+    std::ofstream{file.name()} << R"({"time":"2026-11-29T10:15:30.123Z","wha)";
+    {
+        AuditFile audit{file.name(), {}};
+        audit.note({.what = "bound", .token = "desk"});
+    }
+    EXPECT_THAT(content(file.name()), testing::HasSubstr("wha\n{\"time\":"));
+}
+
+TEST_F(OfAudit, IsNotAddedToAFileOfAnotherKind) {
+    std::ofstream{file.name()} << R"({"tokens": []})";
+    try {
+        AuditFile const audit{file.name(), {}};
+        FAIL() << "it would damage the file";
+    } catch (BadSettings const& problem) {
+        EXPECT_THAT(problem.what(), testing::HasSubstr("is another file"));
+    }
+    EXPECT_EQ(content(file.name()), R"({"tokens": []})");
+}
+
+TEST_F(OfAudit, LeavesSessionsOutIfThereAreTooMany) {
+    {
+        AuditFile audit{file.name(), {.now = now}};
+        for (int i = 0; i < 1'000; ++i) {
+            audit.note({.what = "connected", .token = "watcher"});
+            audit.note({.what = "disconnected", .token = "watcher"});
+        }
+        audit.note({.what = "stopped everything", .token = "watcher"});
+        audit.note({.what = "refused", .token = "watcher"});
+        audit.note({.what = "connected", .token = "desk"});
+    }
+    EXPECT_EQ(lines(content(file.name())), 10u + 3);
+}
+
+TEST_F(OfAudit, GoesOnInItsPlaceIfAnotherProgramMovesOrRemovesIt) {
+    auto const moved = file.name() + ".moved";
+    {
+        AuditFile audit{file.name(), {}};
+        audit.note({.what = "bound"});
+        while (content(file.name()).empty()) std::this_thread::yield();
+        std::filesystem::rename(file.name(), moved);
+        audit.note({.what = "released"});
+        while (content(file.name()).empty()) std::this_thread::yield();
+        std::filesystem::remove(file.name());
+        audit.note({.what = "took over"});
+    }
+    EXPECT_THAT(content(moved), testing::HasSubstr("bound"));
+    EXPECT_THAT(content(file.name()), testing::HasSubstr("took over"));
+    std::filesystem::remove(moved);
+}
+
 TEST_F(OfAudit, BeginsAnotherFileAndKeepsAFew) {
     {
         AuditFile audit{file.name(), {.bytes = 1'000, .files = 2}};
@@ -60,6 +122,17 @@ TEST_F(OfAudit, BeginsAnotherFileAndKeepsAFew) {
     }
     EXPECT_FALSE(std::filesystem::exists(file.name() + ".3"));
     for (auto const* end : {".1", ".2"}) std::filesystem::remove(file.name() + end);
+}
+
+// A folder in the way of the next file; root may write everywhere.
+TEST_F(OfAudit, LosesNothingIfAnotherFileCannotBeBegun) {
+    std::filesystem::create_directories(file.name() + ".1/in/the/way");
+    {
+        AuditFile audit{file.name(), {.bytes = 1'000, .files = 1}};
+        for (int i = 0; i < 100; ++i) audit.note({.what = "bound", .component = "navigation"});
+    }
+    EXPECT_EQ(lines(content(file.name())), 100u);
+    std::filesystem::remove_all(file.name() + ".1");
 }
 
 TEST_F(OfAudit, CountsLinesThatCannotBeWritten) {

@@ -61,14 +61,15 @@ TEST(CommandLine, IsCheckedFlagByFlag) {
 }
 
 TEST(CommandLine, RefusesOriginsThatNoBrowserSends) {
-    for (auto const* origins : {"console.example", "http://a.example/", "http://a.example, http://b.example",
-                                "http://a.example/x", "HTTP://a.example", "http://A.example", "http://a.example:80",
-                                "https://a.example:443", "http://", "://a.example", "http://a.example http://b.example/"}) {
+    for (auto const* origins :
+         {"console.example", "http://a.example/", "http://a.example, http://b.example", "http://a.example/x", "HTTP://a.example",
+          "http://A.example", "http://a.example:80", "https://a.example:443", "http://a.example:99999",
+          "http://a.example:", "http://", "://a.example", "http://a.example http://b.example/"}) {
         expect_complaint(complaint({"--allowed-origins", origins}),
                          "--allowed-origins must be origins such as https://console.example, in small letters and without a "
                          "path, separated by spaces");
     }
-    auto const* const good = "http://a.example  https://b.example:8443 http://[::1]:80443 chrome-extension://abc";
+    auto const* const good = "http://a.example  https://b.example:8443 http://[::1]:8443 chrome-extension://abc";
     EXPECT_EQ(complaint({"--allowed-origins", good}), "");
 }
 

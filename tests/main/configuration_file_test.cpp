@@ -58,6 +58,8 @@ TEST(ConfigurationFile, ThatIsPrintedSetsTheSameValues) {
 }
 
 TEST(ConfigurationFile, WithAMistakeIsRefusedInOneLine) {
+    using namespace std::string_literals;
+    expect_complaint(complaint_about("{\"listen\": \"[::1]:9000\"}\n\0junk"s), "FILE:2:1: this is not JSON: a byte is 0");
     expect_complaint(complaint_about("{\n  \"sim_sped\": 2\n}"), "FILE:2:3: 'sim_sped' is not a configuration key");
     expect_complaint(complaint_about("{\n\n  // \"threads\": 1,\n  \"threads\": \"two\"\n}"),
                      "FILE:4:3: threads must be a whole number from 1 to 256, not '\"two\"'");

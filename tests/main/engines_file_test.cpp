@@ -73,8 +73,8 @@ TEST(EnginesFile, MayNameAProgramThatJoins) {
 TEST(EnginesFile, NamesThePlaceOfEachMistake) {
     EXPECT_EQ(complaint(""), "1:1: this is not JSON: unexpected end of input; expected '[', '{', or a literal");
     EXPECT_EQ(complaint("{}"), R"(1:1: expected "engines": [ ... ], a list of sub engines)");
-    EXPECT_EQ(complaint(R"({"engines": 1})"), R"(1:2: expected only "engines": [ ... ], a list of sub engines, and "choosing")");
-    EXPECT_EQ(complaint("{\n\"robots\": []}"), R"(2:1: expected only "engines": [ ... ], a list of sub engines, and "choosing")");
+    EXPECT_EQ(complaint(R"({"engines": 1})"), R"(1:2: "engines" must be a list of sub engines, [ ... ], not '1')");
+    EXPECT_EQ(complaint("{\n\"robots\": []}"), R"(2:1: 'robots' is not a key of this file: expected "engines" or "choosing")");
     EXPECT_EQ(complaint(R"({"engines": ["hall"]})"), "1:2: each sub engine must be an object, { ... }");
     EXPECT_EQ(complaint(R"({"engines": [{"url": "ws://a"}]})"), "1:14: a sub engine has no 'name'");
     EXPECT_EQ(

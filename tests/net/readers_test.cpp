@@ -31,6 +31,7 @@ protected:
     Troubles troubles{telemetry, [] {}};
     int turns = 0;  // requested of the loop
     Wakes loop{[this] { ++turns; }, troubles};
+    Wakes* fast_ = nullptr;
     Readers readers;
     NotificationQueue first{{"first"}, 10, 10};
     NotificationQueue second{{"second"}, 10, 10};
@@ -67,6 +68,35 @@ TEST_F(WokenReaders, AreServedInTheSameTurnIfTheyAreWokenMeanwhile) {
     EXPECT_EQ(turns, 1);
     two->wake();
     EXPECT_EQ(turns, 1);
+}
+
+// The loop may be so fast that its connection has ended before `wake` returns. The connection must have ended on the loop's
+// thread.
+TEST_F(WokenReaders, EndOnTheirOwnThreadEvenIfTheAnswerComesOnAnother) {
+    struct Connection {
+        bool& serves;
+        bool& ended_in_loop;
+        ~Connection() { ended_in_loop = serves; }
+    };
+    bool serves = false, ended_in_loop = false;
+    std::shared_ptr<Connection> connection{new Connection{serves, ended_in_loop}};
+    std::shared_ptr<Waker> waker;
+    Wakes fast{[&] {
+                   serves = true;
+                   for (int i = 0; i < 2; ++i) fast_->serve();
+                   connection.reset();
+                   waker.reset();
+                   serves = false;
+               },
+               troubles};
+    fast_ = &fast;
+    int answers = 0;
+    waker = std::make_shared<Waker>(fast, [&answers, of = std::weak_ptr{connection}] { answers += of.lock() != nullptr; });
+    std::weak_ptr<Waker> const of_answer = waker;
+    of_answer.lock()->wake();
+    EXPECT_EQ(answers, 1);
+    EXPECT_TRUE(ended_in_loop);
+    EXPECT_TRUE(of_answer.expired());
 }
 
 }  // namespace rois

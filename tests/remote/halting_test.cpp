@@ -102,6 +102,37 @@ TEST_F(HaltingThere, IsNotConfirmedByAnEarlierStop) {
     EXPECT_EQ(desk.result_of("second"), "RUNNING");
 }
 
+TEST(ATakeOverThere, EndsTheBindingHere) {
+    TwoEngines engines{{navigation}};
+    auto desk = engines.main.connect();
+    engines.bind(desk, "hall.navigation");
+    auto chief = engines.hall.connect();
+    chief.ask(Bind{Application::identifier("navigation"), Switching::none, true});
+    engines.advance(1s);
+    EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::out_of_resources);
+    chief.release("navigation");
+    engines.advance(1s);
+    EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::ok);
+}
+
+TEST(NotificationsThatAreLostWithTheLink, EndTheCommandsThatTheyMayHaveBeenAbout) {
+    TwoEngines engines{{navigation}};
+    auto desk = engines.main.connect();
+    engines.bind(desk, "hall.navigation");
+    engines.execute(desk, named("go", go("go", "hall.navigation")));
+    engines.cut();
+    engines.advance(200ms);
+    engines.repair();
+    engines.advance(1s);
+    EXPECT_EQ(desk.result_of("go"), "RUNNING");
+    engines.inject(Lost{3});
+    engines.advance(2s);
+    EXPECT_THAT(desk.result_of("go"), HasSubstr("ABORT"));
+    engines.advance(4s);
+    EXPECT_EQ(engines.bind(desk, "hall.navigation"), ReturnCode::ok) << "in another session";
+    EXPECT_EQ(engines.execute(desk, go("again", "hall.navigation")).return_code, ReturnCode::ok);
+}
+
 TEST(HaltingSomethingIdle, ReachesTheComponent) {
     TwoEngines engines{{navigation}};
     auto desk = engines.main.connect();

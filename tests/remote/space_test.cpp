@@ -95,6 +95,29 @@ TEST_F(ASubEngineWithASpace, GivesConditionsItsPlacesWithItsName) {
     EXPECT_THAT(reason(within("location", {Literal{"lab"}})), HasSubstr("expected one of 'hall.lab'"));
 }
 
+TEST_F(ASubEngineWithASpace, HidesItsSpaceFromClientsThatSeeNoneOfItsComponents) {
+    begin();
+    auto const with_pattern = [&](std::string const& pattern) {
+        std::vector<std::string> const patterns{pattern};
+        return engines->main.connect_as(std::make_shared<Rights const>("desk", patterns, patterns),
+                                        {.motion_lease = {}, .motion_lease_http = {}, .motion_proof = {}, .is_engine = true});
+    };
+    auto of_hall = with_pattern("hall.*"), other = with_pattern("room.*");
+    auto const answer = [](Application& client, Expression const& where) {
+        return client.ask(Search{within("location", where)});
+    };
+    for (auto const& where : {Expression{Literal{"hall.lab"}}, Expression{spot(0, 0, floor_here)}}) {
+        EXPECT_EQ(answer(of_hall, where).return_code, ReturnCode::ok);
+        EXPECT_EQ(answer(other, where).return_code, ReturnCode::bad_parameter);
+    }
+    for (auto const& where : {Expression{Literal{"nowhere"}}, Expression{spot(0, 0, "nowhere")}}) {
+        EXPECT_THAT(answer(of_hall, where).reason, HasSubstr("hall."));
+        EXPECT_THAT(answer(other, where).reason, testing::Not(HasSubstr("hall.")));
+    }
+    EXPECT_FALSE(of_hall.ask(GetProfile{}).space.places.empty());
+    EXPECT_EQ(other.ask(GetProfile{}).space, Space{});
+}
+
 TEST_F(ASubEngineWithASpace, GivesConditionsItsPlacesAlsoWithoutAPlacement) {
     begin(TwoEngines::hall_settings());
     is_at(200, 700);

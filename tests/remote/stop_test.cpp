@@ -124,6 +124,49 @@ TEST_F(AStopOfEverything, IsClearedThereAfterTheMainEngineHasDied) {
     EXPECT_FALSE(hall_is_stopped());
 }
 
+TEST_F(AStopOfEverything, IsClearedThereWhenItsAnswerWasLostAndTheSessionThereHasEnded) {
+    engines.hold_back(true);
+    stop(engines.main);
+    engines.settle();
+    engines.cut();
+    clear(engines.main);
+    engines.hold_back(false);
+    engines.advance(31s);
+    engines.repair();
+    engines.advance(31s);
+    EXPECT_FALSE(hall_is_stopped());
+}
+
+TEST_F(AStopOfEverything, IsClearedThereAfterTheMainEngineHasDiedAndTheSessionThereHasEnded) {
+    engines.main.keep_journal();
+    for (bool const is_answered : {true, false}) {
+        engines.hold_back(!is_answered);
+        stop(engines.main);
+        engines.advance(200ms);
+        EXPECT_TRUE(hall_is_stopped());
+        engines.cut();
+        clear(engines.main);
+        engines.hold_back(false);
+        engines.restart_main([&] { engines.hall.advance(31s); });
+        engines.advance(10s);
+        EXPECT_FALSE(hall_is_stopped()) << is_answered;
+    }
+}
+
+TEST_F(AStopOfEverything, IsClearedOnceTheHallCanBeUsedAgain) {
+    std::string const instance = engines.instance_of_main;
+    stop(engines.main);
+    engines.advance(200ms);
+    engines.cut();
+    engines.instance_of_main = "instance1";  // a loop: each new session there is given up at once
+    engines.repair();
+    engines.advance(10s);
+    clear(engines.main);
+    engines.instance_of_main = instance;
+    engines.advance(60s);
+    EXPECT_FALSE(hall_is_stopped());
+}
+
 TEST_F(AStopOfEverything, LastsThereWhenTheMainEngineHasDied) {
     engines.main.keep_journal();
     stop(engines.main);

@@ -163,6 +163,10 @@ public:
             },
             engines_.main.now);
     }
+    void stopped_there(std::string const& name, std::optional<std::uint64_t> stop) override {
+        auto& engine = *engines_.main.engine;
+        engine.and_work([&] { engine.stopped_there(name, stop); }, engines_.main.now);
+    }
     void commands_ended(std::string const& name, std::vector<CommandEnded> ended) override {
         auto& engine = *engines_.main.engine;
         engine.and_work([&] { engine.ended_there(name, std::move(ended), engines_.main.now); }, engines_.main.now);

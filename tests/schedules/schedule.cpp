@@ -171,6 +171,7 @@ void Schedule::crash() {
     ++deaths_;
     take_answers(false);
     bool const was_promised = stops_ == Stops::promised;
+    stop_was_lost_ = stop_was_lost_ || stops_ == Stops::asked;
     for (auto& client : clients_) client.asked.clear();
     if (engines_) {
         engines_->restart_main();
@@ -301,9 +302,8 @@ void Schedule::finish() {
         while (!client.is_linked || !client.is_alive) leave_or_return(client);
     }
     journal().then = Then::stored;
-    // A stop that it has passed on stays there until someone clears it: if the session there was not stored, and this engine
-    // died; if it died once more before it had cleared it.
-    if (engines_ && (disk_has_failed_ || deaths_ > 1)) engines_->hall.engine->clear();
+    // A stop that it has passed on may stay there until someone clears it, if this engine has died before it could store it.
+    if (engines_ && (stop_was_lost_ || (disk_has_failed_ && deaths_ > 0))) engines_->hall.engine->clear();
     auto const is_back = [&] { return !engines_ || engines_->shown.is == EngineState::Is::present; };
     for (int i = 0; i < 100 && !is_back(); ++i) pass(700ms);  // the longest pause between two attempts is 30 s
     for (auto const& ref : refs_) {

@@ -6,7 +6,19 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-free_ports() { python3 -c 'import socket; all = [socket.socket() for _ in range(2)]; [one.bind(("127.0.0.1", 0)) for one in all]; print(*(one.getsockname()[1] for one in all))'; }
+# Prints two free ports below those that the system gives to connections: another test that runs now cannot be given one of them.
+free_ports() {
+    python3 - <<'PYTHON'
+import random, socket
+taken = []
+while len(taken) < 2:
+    try:
+        taken.append(socket.create_server(("127.0.0.1", random.randrange(20000, 32768))))
+    except OSError:
+        pass
+print(*(each.getsockname()[1] for each in taken))
+PYTHON
+}
 
 # Makes a folder with the files of the project. Its build folder is that of this test.
 make_clone() {

@@ -6,9 +6,11 @@
 #include <boost/asio/connect.hpp>
 #include <boost/asio/ssl.hpp>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "links/target.hpp"
 #include "rois/settings.hpp"
@@ -37,10 +39,13 @@ inline std::unique_ptr<asio::ssl::context> trust(Settings const& settings) {
     auto context = std::make_unique<asio::ssl::context>(asio::ssl::context::tls_client);
     SSL_CTX_set_min_proto_version(context->native_handle(), TLS1_2_VERSION);
     context->set_default_verify_paths();
-    error_code error;
-    if (!settings.ca_file.empty()) context->load_verify_file(settings.ca_file, error);
+    std::error_code ignored;
+    bool const is_pipe =
+        std::filesystem::exists(settings.ca_file, ignored) && !std::filesystem::is_regular_file(settings.ca_file, ignored);
+    error_code error = is_pipe ? asio::error::invalid_argument : error_code{};
+    if (!is_pipe && !settings.ca_file.empty()) context->load_verify_file(settings.ca_file, error);
     if (error)
-        throw std::runtime_error{"the file of trusted certificates " + quoted(settings.ca_file) +
+        throw std::runtime_error{"the file of trusted certificates " + rois::quoted(settings.ca_file) +
                                  " cannot be read: " + error.message() + "; it must be a readable file in PEM format"};
     context->set_verify_mode(asio::ssl::verify_peer);
     return context;

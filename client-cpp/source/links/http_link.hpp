@@ -199,11 +199,9 @@ private:
             co_await http::async_read_some(line->stream, line->incoming, parser, into(error));
             if (error == http::error::need_buffer) error = {};
             std::string_view const came{bytes.data(), bytes.size() - parser.get().body().size};
-            if (!streams) {
-                fault += came;
-            } else if (!take(source, came)) {
-                fail("a notification is longer than " + std::to_string(settings_.longest_document) + " bytes", Failure::passing);
-            }
+            bool const fits = streams ? take(source, came) : fault.append(came).size() <= settings_.longest_document;
+            if (!fits)
+                fail("a document is longer than " + std::to_string(settings_.longest_document) + " bytes", Failure::passing);
         }
         if (!streams && !error && listener_ != nullptr) {
             listener_->document(fault);

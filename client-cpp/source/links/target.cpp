@@ -1,5 +1,6 @@
 #include "links/target.hpp"
 
+#include <algorithm>
 #include <boost/asio/ip/address.hpp>
 #include <cstdlib>
 #include <stdexcept>
@@ -35,6 +36,8 @@ bool is_this_machine(std::string const& host) {
 
 }  // namespace
 
+bool is_in_the_clear(Target const& target) { return target.security == Security::plain && !is_this_machine(target.host); }
+
 Target read_url(std::string_view url, std::string_view token) {
     auto const mark = url.find("://");
     auto const scheme = lower_case(url.substr(0, mark));
@@ -60,7 +63,9 @@ Target read_url(std::string_view url, std::string_view token) {
     target.host = authority.substr(literal ? 1 : 0, literal ? bracket - 1 : colon);
     if (colon != authority.npos) target.port = authority.substr(colon + 1);
     if (target.host.empty() || !is_port(target.port)) complain(url);
-    if (!tls && !token.empty() && !is_this_machine(target.host))
+    if (!std::ranges::all_of(token, [](char c) { return c > ' ' && c <= '~'; }))
+        throw std::invalid_argument{"a token has only letters, digits and signs: no space, and no end of a line"};
+    if (!token.empty() && is_in_the_clear(target))
         throw std::invalid_argument{"a token is not sent to " + quoted(target.host) +
                                     " without TLS, because others could read it: expected https:// or wss://"};
     return target;

@@ -18,6 +18,9 @@ struct Target {
     Security security = Security::plain;
 };
 
+// Whether others could read messages to this target: it is another machine, and has no TLS.
+bool is_in_the_clear(Target const&);
+
 // Throws std::invalid_argument if the text is not a URL of http, https, ws or wss, or if the token would be sent to another
 // machine without TLS. `token`: empty if there is none.
 Target read_url(std::string_view url, std::string_view token = {});

@@ -30,9 +30,11 @@ struct Command {
     Begin begin;                                     // what the component has prepared; empty for stop, suspend and resume
     ParameterList prepared_for;                      // the parameters that were prepared
     std::uint64_t hold = 0;                          // the answer of `execute`, which is sent before the command's notifications
+    std::uint64_t session_number = 0;                // of the session that asked for it, also once that has ended
     Session* session = nullptr;                      // receives the notifications; null once the session has ended
     std::shared_ptr<RegisteredComponent> component;  // valid also after it has left the engine; null: not seen since a restart
-    std::uint64_t halts = 0;                         // RegisteredComponent::halts, when the command was checked
+    bool has_been_stored = false;                    // by the journal, perhaps as it was earlier
+    std::uint64_t stops = 0;                         // RegisteredComponent::stops, when the command was checked
     bool binding_lost = false;                       // released before the command's turn came (decision 13)
 
     State state = State::waiting;

@@ -62,8 +62,9 @@ Executor::SharedCommand Executor::make(Session& session, CommandMessage const& m
     command->id = message.command_id;
     command->type = message.command_type;
     command->ref = component->ref().code;
-    command->halts = prepared.halts;
+    command->stops = prepared.stops;
     command->session = &session;
+    command->session_number = session.number;
     command->hold = component->answer = session.notifications->current();
     command->component = component;
     command->arguments = normalized(profiles, message.arguments);
@@ -120,14 +121,11 @@ void Executor::ended_there(SharedCommand const& command, CommandEnded&& ended, I
 }
 
 void Executor::drop(Session& session, Execution const& execution) {
-    for (auto const& command : execution.commands()) {
-        if (command->state == Command::State::ended) continue;
-        command->state = Command::State::ended;
-        command->finished = true;
-        recorder_.forgot(session, command->id);
-        withdraw(session, *command);
-        command->execution.reset();
-    }
+    Attempts attempts;
+    for (auto const& command : execution.commands())
+        if (command->state != Command::State::ended) attempts([&] { recorder_.forgot(session, command); });
+    take_back(&session, execution);
+    attempts.rethrow();
 }
 
 void Executor::give_turns(std::shared_ptr<Execution> const& execution, std::vector<Execution::Turn> const& turns, Instant now) {
@@ -204,7 +202,7 @@ void Executor::go_on_with_start(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
     if (command->state != Command::State::running) return;
     if (component.activity != RegisteredComponent::Activity::idle)
-        halt(component, CompletedStatus::abort, "another start replaced it", now);
+        end_action(component, CompletedStatus::abort, "another start replaced it", now);
     if (component.halting) return wait_for_halt(command, now);
     component.activity = RegisteredComponent::Activity::running;
     component.start = command;
@@ -422,7 +420,7 @@ void Executor::forget_while(Session& session, std::function<bool(Command const&)
     if (session.ended.empty() || !is_old(*session.ended.front())) return;
     forget(session);
     while (!session.ended.empty() && is_old(*session.ended.front())) {
-        recorder_.forgot(session, session.ended.front()->id);
+        recorder_.forgot(session, session.ended.front());
         session.commands.erase(session.ended.front()->id);
         session.ended.pop_front();
     }

@@ -46,6 +46,8 @@ public:
     std::shared_ptr<Execution> make(Session&, CommandUnitSequence const&, std::vector<Preparation>);
     void begin(std::shared_ptr<Execution> const&, Instant now);
     void drop(Session&, Execution const&);
+    // The same for commands that have just been made, or whose session has ended (null).
+    void take_back(Session*, Execution const&) noexcept;
 
     // Returns an id that is new to this session and not in `taken`.
     CommandId fresh_id(Session const&, std::set<CommandId> const& taken);
@@ -62,7 +64,8 @@ public:
 
     // Halts the component, even if the engine believes that it is idle, and repeats this until the halt is confirmed (decision
     // 35). Ends the commands that run there: `start` with this status, commands of the component's own profile with ABORT. Halts
-    // the component also when memory is short; `repair` then ends the remaining commands.
+    // the component also when memory is short; `repair` then ends the remaining commands. Commands that are being prepared or
+    // stored do not begin any more.
     void halt(RegisteredComponent&, CompletedStatus status_of_start, std::string_view reason, Instant now);
 
     // Halts the component, and ends the session's commands that wait for it (decision 6).
@@ -121,7 +124,7 @@ private:
     using Suspended = RegisteredComponent::Suspended;
 
     SharedCommand make(Session&, CommandMessage const&, Preparation&&);
-    void withdraw(Session&, Command const&) noexcept;
+    void withdraw(Session*, Command const&) noexcept;
     void give_turns(std::shared_ptr<Execution> const&, std::vector<Execution::Turn> const&, Instant now);
     void run_ready(Instant now);
     void run(SharedCommand const&, Instant now);
@@ -138,6 +141,7 @@ private:
     Ticket ask_to_confirm(SharedCommand const&, Suspended afterwards, Instant now);
     void begin_failed(SharedCommand const&, std::string_view reason, Instant now);
     void stop_instead_of_hold(RegisteredComponent&, std::string_view reason, Instant now);
+    void end_action(RegisteredComponent&, CompletedStatus status_of_start, std::string_view reason, Instant now);
     void halt_if_it_moves(RegisteredComponent&, Instant now);
     void ask_to_halt(RegisteredComponent&, Instant now);
     void await_confirmation(RegisteredComponent&, Instant now);

@@ -28,8 +28,13 @@ std::vector<std::shared_ptr<Command>> take_late(UnconfirmedHalt& halting) {
 
 }  // namespace
 
-// Calls the component first, so that it is halted even if a later step fails.
 void Executor::halt(RegisteredComponent& component, CompletedStatus status_of_start, std::string_view reason, Instant now) {
+    ++component.stops;
+    end_action(component, status_of_start, reason, now);
+}
+
+// Calls the component first, so that it is halted even if a later step fails.
+void Executor::end_action(RegisteredComponent& component, CompletedStatus status_of_start, std::string_view reason, Instant now) {
     Attempts attempts;
     attempts([&] { ask_to_halt(component, now); });
     component.activity = RegisteredComponent::Activity::idle;

@@ -30,13 +30,26 @@ void Executor::forget_made(Session& session, std::uint64_t after) noexcept {
         if (made == live_.end()) continue;
         auto const command = made->second;
         recorder_.never_mind(command);
-        withdraw(session, *command);
+        withdraw(&session, *command);
     }
 }
 
-void Executor::withdraw(Session& session, Command const& command) noexcept {
-    auto const known = session.commands.find(command.id);
-    if (known != session.commands.end() && known->second.get() == &command) session.commands.erase(known);
+void Executor::take_back(Session* session, Execution const& execution) noexcept {
+    for (auto const& command : execution.commands()) {
+        if (command->state == Command::State::ended) continue;
+        command->state = Command::State::ended;
+        command->finished = true;
+        recorder_.never_mind(command);
+        withdraw(session, *command);
+        command->execution.reset();
+    }
+}
+
+void Executor::withdraw(Session* session, Command const& command) noexcept {
+    if (session != nullptr) {
+        auto const known = session->commands.find(command.id);
+        if (known != session->commands.end() && known->second.get() == &command) session->commands.erase(known);
+    }
     live_.erase(static_cast<std::uint64_t>(command.handle));
 }
 

@@ -26,7 +26,7 @@ struct Preparation {
     std::string command_type;
     ParameterList parameters;  // for Component::prepare, in the engine's frame
     std::string path;          // of its unit: "command_unit_list[2]"; empty without a sequence
-    std::uint64_t halts = 0;   // RegisteredComponent::halts, when it was checked
+    std::uint64_t stops = 0;   // RegisteredComponent::stops, when it was checked
     Begin begin{};             // the answer of the component
 
     // Returns whether the component is asked: it cannot refuse to stop, to suspend or to resume.

@@ -106,7 +106,7 @@ Texts ComponentCandidate::identifier_texts(Part part) const {
     return text.empty() ? Texts{} : Texts{text};
 }
 
-// The text form of a position is the names of the places that contain it.
+// The text form of a position is the names of the places that contain it, of those that the asker may name.
 Texts ComponentCandidate::location_texts(Part part) const {
     if (!location()) return {};
     if (part == Part::ref) return {location()->ref};
@@ -114,8 +114,8 @@ Texts ComponentCandidate::location_texts(Part part) const {
     Texts names;
     auto const here = point(*location());
     auto const is_within = [](Geometry const& a, Geometry const& b) { return holds(SpatialRelation::within, a, b); };
-    auto const& [frames, places] = perspective_.places();
-    for (auto const& place : places)
+    auto const& frames = perspective_.places().frames;
+    for (auto const& place : perspective_.named_places().all)
         if (in_one_frame(frames, here, place.area, is_within).value_or(false)) names.push_back(place.name);
     return names;
 }

@@ -9,7 +9,7 @@
 namespace rois {
 
 bool Engine::Core::may_ever_match(Filter const& filter, ComponentsInOrder possible, Session const& asker) const {
-    Perspective ever{registry_, places_, &asker, Perspective::Of::ever};
+    auto ever = perspective(&asker, Perspective::Of::ever);
     while (auto const* component = possible.next())
         if (filter.match(ever.candidate(*component)) != Match::no) return true;
     return false;
@@ -31,7 +31,7 @@ void sort(std::vector<RegisteredComponent*>& components, Selection const& select
 }  // namespace
 
 std::vector<RegisteredComponent*> Engine::Core::select(Selection const& selection, Session const& asker) const {
-    Perspective present{registry_, places_, &asker, Perspective::Of::present};
+    auto present = perspective(&asker, Perspective::Of::present);
     auto const does_not_match = [&](auto const* component) {
         return selection.match(present.candidate(*component)) != Match::yes;
     };
@@ -53,7 +53,7 @@ std::vector<RegisteredComponent*> Engine::Core::select(Selection const& selectio
 }
 
 Engine::Core::ToBind Engine::Core::select_to_bind(Selection const& selection, Session const& asker) const {
-    Perspective present{registry_, places_, &asker, Perspective::Of::present};
+    auto present = perspective(&asker, Perspective::Of::present);
     Preference const preference{asker};
     auto possible = registry_.possible(selection.filter().demand(), commanded_by(asker, selection.filter())).rest();
     preference.order(possible);
@@ -81,7 +81,7 @@ std::vector<std::string> Engine::Core::members_in_order(RegisteredComponent cons
                                                         Session const& asker) const {
     std::vector<std::string> refs;
     if (!logical.is_logical() || !selection.sorts()) return refs;
-    Perspective present{registry_, places_, &asker, Perspective::Of::present};
+    auto present = perspective(&asker, Perspective::Of::present);
     std::vector<RegisteredComponent*> members;
     for (auto const& ref : logical.members())
         if (auto* member = registry_.find(ref)) members.push_back(member);
@@ -91,8 +91,10 @@ std::vector<std::string> Engine::Core::members_in_order(RegisteredComponent cons
 }
 
 std::optional<std::string> Engine::Core::choose(Results& results, QueryExpression const& condition, Declarations const& known,
-                                                std::string_view id) const {
-    auto filter = Filter::compile(condition, {.places = &places_, .parameters = nullptr, .results = &known});
+                                                std::string_view id, Session const& asker) const {
+    Vocabulary const vocabulary{
+        .places = &places_, .seen_places = &places_seen_by(asker.rights.get()), .parameters = nullptr, .results = &known};
+    auto filter = Filter::compile(condition, vocabulary);
     if (auto* problem = std::get_if<std::string>(&filter)) return std::move(*problem);
     keep_matching(results, std::get<Filter>(filter), id);
     return {};

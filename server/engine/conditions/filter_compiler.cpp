@@ -123,7 +123,7 @@ std::optional<Reference> FilterCompiler::resolve(std::string_view path) {
 }
 
 std::optional<SpatialOperand> FilterCompiler::spatial_operand(Expression const& expression) {
-    auto const& places = *vocabulary_.places;
+    auto const& places = vocabulary_.places_to_name();
     if (auto const* not_understood = std::get_if<NotUnderstood>(&expression.value)) return refuse(not_understood->reason);
     if (auto const* geometry = std::get_if<Geometry>(&expression.value)) {
         auto const& frames = places.frames;
@@ -138,7 +138,7 @@ std::optional<SpatialOperand> FilterCompiler::spatial_operand(Expression const& 
         if (!frames.own().empty() && !frames.know(here.crs))
             return refuse("the condition has the frame " + quoted(here.crs, 200) + ", which is not known here; expected one of " +
                           first_listed(frames.names()));
-        if (auto moved = frames.moved(here, frames.own())) return std::move(*moved);
+        if (auto moved = vocabulary_.places->frames.moved(here, frames.own())) return std::move(*moved);
         return here;
     }
     if (auto const* reference = std::get_if<ValueReference>(&expression.value)) {

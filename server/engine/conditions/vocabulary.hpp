@@ -83,10 +83,13 @@ struct Vocabulary {
     enum class First : std::uint8_t { results, parameters };
 
     Places const* places = nullptr;
+    Places const* seen_places = nullptr;  // those that the client may name; null: all
     Declarations const* parameters = nullptr;
     Declarations const* results = nullptr;
     First first = First::results;
     std::string_view main_engine{};  // name of the engine that has all components and sub engines
+
+    Places const& places_to_name() const { return seen_places == nullptr ? *places : *seen_places; }
 
     // Returns the reference, or why the path is invalid. An alias is the first of several steps.
     std::variant<Reference, std::string> resolve(std::string_view path, std::span<std::string const> aliases = {}) const;

@@ -3,11 +3,12 @@
 #include <algorithm>
 
 #include "engine/registry.hpp"
+#include "engine/session.hpp"
 
 namespace rois {
 
-Perspective::Perspective(Registry const& registry, Places const& places, Session const* asker, Of of)
-    : registry_{registry}, places_{places}, asker_{asker}, of_{of} {}
+Perspective::Perspective(Registry const& registry, Places const& places, Places const& named, Session const* asker, Of of)
+    : registry_{registry}, places_{places}, named_{named}, asker_{asker}, of_{of} {}
 
 Candidate const& Perspective::candidate(RegisteredComponent const& component) {
     return components_.try_emplace(&component, component, *this).first->second;
@@ -54,8 +55,10 @@ bool Perspective::is_lacked(RegisteredComponent const& component) {
 }
 
 std::vector<Candidate const*> const& Perspective::robot(std::string_view engine) {
+    auto const* rights = asker_ == nullptr ? nullptr : asker_->rights.get();
     if (robots_.empty())
-        for (auto const& [ref, component] : registry_.all()) robots_[component->entry().engine].push_back(&candidate(*component));
+        for (auto const& [ref, component] : registry_.all())
+            if (may_see(rights, ref)) robots_[component->entry().engine].push_back(&candidate(*component));
     static std::vector<Candidate const*> const none;
     auto const found = robots_.find(engine);
     return found == robots_.end() ? none : found->second;

@@ -23,13 +23,15 @@ class Perspective {
 public:
     enum class Of : std::uint8_t { present, ever };
 
-    Perspective(Registry const&, Places const&, Session const* asker, Of);
+    // `named`: the places that the asker may name.
+    Perspective(Registry const&, Places const&, Places const& named, Session const* asker, Of);
     Perspective(Perspective const&) = delete;
     Perspective& operator=(Perspective const&) = delete;
 
     Candidate const& candidate(RegisteredComponent const&);
 
     Places const& places() const { return places_; }
+    Places const& named_places() const { return named_; }
     Session const* asker() const { return asker_; }
     Of of() const { return of_; }
 
@@ -50,6 +52,7 @@ private:
 
     Registry const& registry_;
     Places const& places_;
+    Places const& named_;
     Session const* asker_;
     Of of_;
     std::map<RegisteredComponent const*, ComponentCandidate> components_;

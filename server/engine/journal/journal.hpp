@@ -22,6 +22,7 @@ struct StoredBinding {
     Switching switching = Switching::none;
     std::shared_ptr<QueryExpression const> preference{};  // the condition of `bind_any`, for a logical component
     ParameterList parameters{};                           // as set by the session; empty: the defaults
+    bool is_asked = false;                                // not stored: the component was asked to confirm it
 };
 
 // `session` is the number of the session in all records.
@@ -79,8 +80,9 @@ struct StoredEngine {
     std::uint64_t next_error = 1;
     bool is_stopped = false;  // everything (decision 34)
     std::uint64_t last_stop = 0;
-    std::uint64_t stops_of_ended_sessions = 0;
+    std::vector<std::string> ended_owners{};              // of that stop, which they have not cleared
     std::map<std::string, std::string> sessions_there{};  // of this engine in its sub engines, by provider
+    std::map<std::string, std::uint64_t> stops_there{};   // that it has to clear there, by provider
 };
 
 // Changes that are stored in one step: all of them or none.
@@ -91,7 +93,8 @@ struct Changes {
     };
     struct Forgotten {
         std::uint64_t session = 0;
-        std::uint64_t until = 0;  // sequence of the last notification that is not needed any more
+        std::uint64_t from = 0;  // sequences of notifications that are not needed any more
+        std::uint64_t until = 0;
     };
     StoredEngine engine;
     std::vector<StoredSession> sessions{};  // new or changed, as the subscriptions and commands

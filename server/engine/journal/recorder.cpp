@@ -37,7 +37,7 @@ StoredSession to_store(Session const& session) {
 
 StoredCommand to_store(Command const& command) {
     StoredCommand stored{
-        .session = command.session->number, .id = command.id, .type = command.type, .ref = command.ref, .end = {}};
+        .session = command.session_number, .id = command.id, .type = command.type, .ref = command.ref, .end = {}};
     bool const is_asked_for = command.type != "set_parameter";  // its parameters may not have been stored
     if (command.component && is_asked_for) stored.provider = command.component->provider();
     if (!stored.provider.empty()) stored.handle = static_cast<std::uint64_t>(command.handle);
@@ -50,7 +50,8 @@ StoredCommand to_store(Command const& command) {
     return stored;
 }
 
-void append(auto& to, auto& from) {
+// Requires enough capacity.
+void append(auto& to, auto& from) noexcept {
     to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
@@ -71,22 +72,30 @@ void Recorder::Collected::forget(Session& session) {
     std::erase_if(others.forgotten_commands, is_of_it);
 }
 
-// The changes of `earlier` that are still true come before these.
-void Recorder::Collected::add(Collected&& earlier) {
+// The changes of `earlier` that are still true come before these. A subscription that has ended before it was stored leaves no
+// trace.
+void Recorder::Collected::add(Collected& earlier) {
+    std::set<std::string> begun, gone;  // their ids are unique in the engine
+    for (auto const& each : earlier.others.subscriptions) begun.insert(each.id.text);
+    for (auto const& each : others.unsubscribed) gone.insert(each.id);
+    auto const make_room = [](auto& to, auto const& from) { to.reserve(to.size() + from.size()); };
+    make_room(earlier.others.subscriptions, others.subscriptions);
+    make_room(others.ended, earlier.others.ended);
+    make_room(others.unsubscribed, earlier.others.unsubscribed);
+    make_room(others.forgotten_commands, earlier.others.forgotten_commands);
+    // Nothing below throws.
+    std::erase_if(earlier.others.subscriptions, [&](auto const& each) { return gone.contains(each.id.text); });
+    std::erase_if(others.unsubscribed, [&](auto const& each) { return begun.contains(each.id); });
     engine = engine || earlier.engine;
     sessions.merge(earlier.sessions);
     with_news.merge(earlier.with_news);
     commands.merge(earlier.commands);
-    auto const is_gone = [&](StoredSubscription const& one) {
-        return std::ranges::any_of(others.unsubscribed, [&](Changes::Gone const& gone) {
-            return gone.session == one.session && gone.id == one.id.text;
-        });
-    };
-    std::erase_if(earlier.others.subscriptions, is_gone);
-    append(others.subscriptions, earlier.others.subscriptions);
+    append(earlier.others.subscriptions, others.subscriptions);
+    std::swap(others.subscriptions, earlier.others.subscriptions);
     append(others.ended, earlier.others.ended);
     append(others.unsubscribed, earlier.others.unsubscribed);
     append(others.forgotten_commands, earlier.others.forgotten_commands);
+    earlier = {};
 }
 
 void Recorder::opened(Session& session) {
@@ -105,7 +114,7 @@ void Recorder::ended(Session& session) {
     if (!stores(session)) return;
     changed_.forget(session);
     given_.forget(session);
-    changed_.others.ended.push_back(session.number);
+    if (session.has_been_stored || is_being_stored_) changed_.others.ended.push_back(session.number);
     session.is_stored = false;
 }
 
@@ -115,21 +124,20 @@ void Recorder::subscribed(Session const& session, SubscribeId const& id, Subscri
 
 void Recorder::unsubscribed(Session const& session, SubscribeId const& id) {
     if (!stores(session)) return;
-    std::erase_if(changed_.others.subscriptions,
-                  [&](StoredSubscription const& one) { return one.session == session.number && one.id == id; });
-    changed_.others.unsubscribed.push_back({session.number, id.text});
+    auto const is_it = [&](StoredSubscription const& one) { return one.session == session.number && one.id == id; };
+    if (std::erase_if(changed_.others.subscriptions, is_it) == 0)
+        changed_.others.unsubscribed.push_back({session.number, id.text});
 }
 
 void Recorder::changed(std::shared_ptr<Command> const& command) {
     if (command->session != nullptr && stores(*command->session)) changed_.commands.insert(command);
 }
 
-void Recorder::forgot(Session const& session, CommandId const& id) {
+void Recorder::forgot(Session const& session, std::shared_ptr<Command> const& command) {
     if (!stores(session)) return;
-    auto const is_it = [&](auto const& command) { return command->session == &session && command->id == id; };
-    std::erase_if(changed_.commands, is_it);
-    std::erase_if(given_.commands, is_it);
-    changed_.others.forgotten_commands.push_back({session.number, id.text});
+    if (command->has_been_stored || is_being_stored_)
+        changed_.others.forgotten_commands.push_back({session.number, command->id.text});
+    never_mind(command);
 }
 
 std::string Recorder::why_no_commands() const {
@@ -144,14 +152,19 @@ void Recorder::when_stored(Then then) { (changed_.any() ? waiting_ : then_).push
 void Recorder::notify(NotificationQueue& queue) {
     if (!queue.shows_when_stored()) return readers_.notify(queue);
     auto const session = sessions_.find(queue.session());
-    if (session != sessions_.end()) changed_.with_news.insert(session->second.get());
+    if (session == sessions_.end()) return;
+    try {
+        changed_.with_news.insert(session->second.get());
+    } catch (std::bad_alloc const&) {
+        news_missed_ = true;
+    }
 }
 
 void Recorder::add_notifications(Session& session, Changes& changes, std::vector<Shown>& to_show) {
     auto unstored = session.notifications->unstored();
     if (unstored.notifications.empty()) return;
     to_show.push_back({session.notifications, unstored.notifications.back().sequence});
-    if (unstored.forgotten_until > 0) changes.forgotten_notifications.push_back({session.number, unstored.forgotten_until});
+    for (auto const& gone : unstored.gone) changes.forgotten_notifications.push_back({session.number, gone.from, gone.until});
     for (auto& each : unstored.notifications) {
         if (auto const* completed = std::get_if<Completed>(&each.notification->body)) {
             auto const command = session.commands.find(completed->command_id);
@@ -167,21 +180,26 @@ void Recorder::add_notifications(Session& session, Changes& changes, std::vector
 std::shared_ptr<Changes> Recorder::changes(StoredEngine const& engine, std::vector<Shown>& to_show) {
     auto changes = std::make_shared<Changes>(changed_.others);
     changes->engine = engine;
+    if (news_missed_)
+        for (auto const& [id, session] : sessions_)
+            if (stores(*session)) changed_.with_news.insert(session.get());
     for (auto* session : changed_.with_news) add_notifications(*session, *changes, to_show);
     for (auto const* session : changed_.sessions) changes->sessions.push_back(to_store(*session));
     for (auto const& command : changed_.commands) changes->commands.push_back(to_store(*command));
     return changes;
 }
 
-void Recorder::give(StoredEngine const& engine) noexcept {
+void Recorder::give(std::function<StoredEngine()> const& engine) noexcept {
     try {
+        changed_.add(given_);  // which could not be stored
         std::vector<Shown> to_show;
-        auto all = changes(engine, to_show);
+        auto all = changes(engine(), to_show);
         then_.reserve(then_.size() + waiting_.size());
         // Nothing below throws.
         for (auto const& each : to_show) each.queue->being_stored(each.until);
         to_show_ = std::move(to_show);
         given_ = std::exchange(changed_, {});
+        news_missed_ = false;
         for (auto& then : waiting_) then_.push_back(std::move(then));
         waiting_.clear();
         is_being_stored_ = true;
@@ -198,9 +216,11 @@ void Recorder::call(std::vector<Then> const& list, bool stored, Instant now, Att
 
 void Recorder::stored(Instant now, Attempts& attempts) {
     is_being_stored_ = is_failing_ = false;
+    for (auto* session : given_.sessions) session->has_been_stored = true;
+    for (auto const& command : given_.commands) command->has_been_stored = true;
     given_ = {};
     for (auto const& each : std::exchange(to_show_, {}))
-        if (each.queue->show(each.until)) readers_.notify(*each.queue);
+        if (each.queue->show(each.until)) attempts([&] { readers_.notify(*each.queue); });
     call(std::exchange(then_, {}), true, now, attempts);
 }
 
@@ -209,7 +229,6 @@ void Recorder::not_stored(Instant now, Attempts& attempts) {
     is_failing_ = true;
     next_try_ = now.steady + between_tries;
     for (auto const& each : std::exchange(to_show_, {})) each.queue->not_stored();
-    attempts([&] { changed_.add(std::exchange(given_, {})); });
     call(std::exchange(then_, {}), false, now, attempts);
 }
 

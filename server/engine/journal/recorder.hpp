@@ -40,9 +40,12 @@ public:
     void subscribed(Session const&, SubscribeId const&, Subscribe const&);
     void unsubscribed(Session const&, SubscribeId const&);
     void changed(std::shared_ptr<Command> const&);
-    void forgot(Session const&, CommandId const&);
-    // The command has just been made, and does not exist any more.
-    void never_mind(std::shared_ptr<Command> const& command) noexcept { changed_.commands.erase(command); }
+    void forgot(Session const&, std::shared_ptr<Command> const&);
+    // The command does not exist any more, and the journal does not have it.
+    void never_mind(std::shared_ptr<Command> const& command) noexcept {
+        changed_.commands.erase(command);
+        given_.commands.erase(command);
+    }
     void changed_engine() { changed_.engine = is_on(); }
 
     // Whether the session's commands and answers wait for the journal.
@@ -54,16 +57,18 @@ public:
     using Then = std::function<void(bool stored, Instant now)>;
     void when_stored(Then then);
     // Whether something has changed that will soon be stored.
-    bool must_wait() const { return !is_failing_ && (is_being_stored_ || changed_.any()); }
+    bool must_wait() const { return !is_failing_ && (is_being_stored_ || changed_.any() || news_missed_); }
 
-    // The queue has new notifications. Its readers are notified when these are stored.
+    // The queue has new notifications. Its readers are notified when these are stored. Cannot fail.
     void notify(NotificationQueue&) override;
     void flush() noexcept override { readers_.flush(); }
 
     // Whether something has changed, and the journal is not busy.
-    bool has_something_to_give() const { return changed_.any() && !is_being_stored_ && !next_try_; }
+    bool has_something_to_give() const {
+        return (changed_.any() || given_.any() || news_missed_) && !is_being_stored_ && !next_try_;
+    }
     // Gives it to the journal; requires has_something_to_give(). If memory is missing, the next call tries again.
-    void give(StoredEngine const&) noexcept;
+    void give(std::function<StoredEngine()> const& engine) noexcept;
     // The journal has stored the changes, or could not. Those that could not be stored are given again later.
     void stored(Instant now, Attempts&);
     void not_stored(Instant now, Attempts&);
@@ -80,7 +85,7 @@ private:
 
         bool any() const;
         void forget(Session&);
-        void add(Collected&&);
+        void add(Collected& earlier);
     };
     struct Shown {
         std::shared_ptr<NotificationQueue> queue;
@@ -96,9 +101,10 @@ private:
     Journal* journal_ = nullptr;
 
     Collected changed_;
+    bool news_missed_ = false;   // there was no memory to note a session with new notifications
     std::vector<Then> waiting_;  // for these changes
 
-    // What the journal is storing.
+    // The changes that the journal is storing, or could not store.
     bool is_being_stored_ = false;
     Collected given_;
     std::vector<Shown> to_show_;

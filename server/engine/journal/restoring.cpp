@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/core.hpp"
+#include "types/asking.hpp"
 #include "types/text/texts.hpp"
 
 namespace rois {
@@ -22,9 +23,11 @@ Reply not_stored_reply(Operation const& operation) {
 // Returns the component that was stopped since the commands were checked; null: none.
 RegisteredComponent const* stopped_since(Execution const& execution) {
     for (auto const& command : execution.commands())
-        if (begins_action(command->type) && command->component->halts != command->halts) return command->component.get();
+        if (begins_action(command->type) && command->component->stops != command->stops) return command->component.get();
     return nullptr;
 }
+
+constexpr std::chrono::seconds between_tries{1};  // to bind a component again that could not answer
 
 }  // namespace
 
@@ -37,8 +40,9 @@ StoredEngine Engine::Core::stored_engine() const {
             .next_error = errors_.next(),
             .is_stopped = everything_is_stopped_,
             .last_stop = last_stop_,
-            .stops_of_ended_sessions = stops_of_ended_sessions_,
-            .sessions_there = sessions_there_};
+            .ended_owners = ended_owners_,
+            .sessions_there = sessions_there_,
+            .stops_there = stops_there_};
 }
 
 void Engine::Core::when_stored(std::function<void()> then) {
@@ -47,7 +51,7 @@ void Engine::Core::when_stored(std::function<void()> then) {
 }
 
 void Engine::Core::flush() noexcept {
-    if (recorder_.has_something_to_give()) recorder_.give(stored_engine());
+    if (recorder_.has_something_to_give()) recorder_.give([this] { return stored_engine(); });
     notifier_.flush();
 }
 
@@ -82,7 +86,8 @@ Engine::Core::Later Engine::Core::run_when_stored(Session& session, SharedAsked 
         answer_when_stored(asked, std::move(reply));
         return {};
     }
-    recorder_.when_stored([this, asked, execution = std::move(execution), reply = std::move(reply)](bool stored, Instant when) {
+    auto then = [this, asked, execution, reply = std::move(reply)](bool stored, Instant when) {
+        if (session_of(*asked) == nullptr) executor_.take_back(nullptr, *execution);  // with on_session_end = continue
         answer_later(asked, [&](Session& asker) -> Later {
             auto const* const stopped = stopped_since(*execution);
             if (stored && stopped == nullptr) {
@@ -94,7 +99,13 @@ Engine::Core::Later Engine::Core::run_when_stored(Session& session, SharedAsked 
             return refused<Execute::Reply>(ReturnCode::error, "the component " + quoted(stopped->ref().code) +
                                                                   " was stopped before the command could begin");
         });
-    });
+    };
+    try {
+        recorder_.when_stored(std::move(then));
+    } catch (...) {
+        executor_.take_back(&session, *execution);
+        throw;
+    }
     return {};
 }
 
@@ -106,10 +117,13 @@ void Engine::Core::restore(StoredState state, RightsOf const& rights_of, Instant
     events_.begin_with(engine.next_event);
     errors_.begin_with(engine.next_error);
     last_stop_ = engine.last_stop;
-    stops_of_ended_sessions_ = engine.stops_of_ended_sessions;
+    ended_owners_ = engine.ended_owners;
     everything_is_stopped_ = engine.is_stopped;
     if (everything_is_stopped_) on_stop_(true);
     sessions_there_ = engine.sessions_there;
+    stops_there_ = engine.stops_there;
+    if (everything_is_stopped_)  // perhaps there, too
+        for (auto const& [provider, id] : sessions_there_) stops_there_.try_emplace(provider, ClearStop::own);
     for (auto& session : std::exchange(state.sessions, {})) restore(std::move(session), state, rights_of, now);
     if (undecided_.empty()) return;
     deadlines_.add(now.steady + longest_silence, [this](Instant then) {
@@ -122,11 +136,20 @@ Engine::EarlierSession Engine::Core::earlier_session(std::string const& provider
     EarlierSession earlier{.id = {found == sessions_there_.end() ? std::string{} : found->second}};
     for (auto const& each : undecided_)
         if (each.provider == provider) earlier.commands.push_back(each.command->handle);
+    if (auto const stop = stops_there_.find(provider); stop != stops_there_.end()) earlier.stop = stop->second;
     return earlier;
 }
 
 void Engine::Core::session_opened_there(std::string const& provider, SessionId const& id) {
     sessions_there_[provider] = id.text;
+    recorder_.changed_engine();
+}
+
+void Engine::Core::stopped_there(std::string const& provider, std::optional<std::uint64_t> stop) {
+    if (stop)
+        stops_there_[provider] = *stop;
+    else
+        stops_there_.erase(provider);
     recorder_.changed_engine();
 }
 
@@ -147,8 +170,15 @@ void Engine::Core::ended_there(std::string const& provider, std::vector<CommandE
 
 void Engine::Core::restore(StoredSession&& stored, StoredState& state, RightsOf const& rights_of, Instant now) {
     auto rights = stored.rights.empty() ? nullptr : rights_of(stored.rights);
-    if (!stored.rights.empty() && rights == nullptr) return recorder_.withdrawn(stored.session);
+    if (!stored.rights.empty() && rights == nullptr) {
+        // Nobody follows an owner whose rights are gone: its stop needs POST /rois/clear.
+        if (everything_is_stopped_ && stored.owns_stop && stored.last_stop == last_stop_)
+            ended_owners_.push_back("withdrawn " + stored.rights);
+        trace_->session_ended(stored.session, "its token is not valid any more");
+        return recorder_.withdrawn(stored.session);
+    }
     auto made = std::make_unique<Session>(MotionLease::Terms{stored.lease, stored.lease_http, stored.links_count}, now.steady);
+    made->has_been_stored = true;
     made->id = stored.id;
     made->number = stored.session;
     made->rights = std::move(rights);
@@ -166,6 +196,7 @@ void Engine::Core::restore(StoredSession&& stored, StoredState& state, RightsOf 
     for (auto& each : of(state.notifications)) notifications.push_back(std::move(each.numbered));
     made->notifications->restore(std::move(notifications));
     auto& session = enter(std::move(made));
+    trace_->session_restored(session.number, session.rights.get());
     session.events.first = session.errors.first = 0;  // their details are gone: they have expired
     auto const commands = of(state.commands);
     std::ranges::stable_sort(commands, {}, [](StoredCommand const& each) { return each.end ? each.end->at : Utc::max(); });
@@ -183,11 +214,13 @@ void Engine::Core::restore(Session& session, StoredCommand&& stored, Instant now
             .value_or(StoredCommand::End{.status = CompletedStatus::abort, .reason = std::string{interrupted}, .at = now.utc});
     auto const ago = std::clamp(now.utc - end.at, Utc::duration{0}, Utc::duration{settings_.command_results});
     auto command = std::make_shared<Command>();
+    command->has_been_stored = true;
     command->id = std::move(stored.id);
     command->type = std::move(stored.type);
     command->ref = std::move(stored.ref);
     if (auto* component = registry_.find(command->ref)) command->component = component->shared_from_this();
     command->session = &session;
+    command->session_number = session.number;
     if (may_be_known) {
         command->handle = CommandHandle{stored.handle};
         command->state = Command::State::running;
@@ -204,34 +237,61 @@ void Engine::Core::restore(Session& session, StoredCommand&& stored, Instant now
     executor_.restore(session, command, now);
 }
 
-// A component of another engine must confirm the binding. If it is not here yet, the binding waits for it.
+// A component of another engine must confirm the binding. If it is not here yet, or cannot answer, the binding waits for it: it
+// ends only if the component is bound now, or the other engine refuses it.
 void Engine::Core::restore(Session& session, StoredBinding const& binding, Instant now) {
     auto* const component = registry_.find(binding.ref);
     if (component == nullptr) return session.absent.push_back(binding);
-    auto const bind_now = [this, binding](RegisteredComponent& to, Session& of, Instant when) {
-        bind(of,
-             {.component = to.shared_from_this(),
-              .as = {.session = of.number, .switching = binding.switching},
-              .condition = binding.preference},
-             when);
-        to.restore_parameters(binding.parameters, when);
-    };
-    if (!component->confirms_binding()) return bind_now(*component, session, now);
-    auto then = [this, bind_now, id = session.id, shared = component->shared_from_this()](std::optional<ComponentAnswer>& answer,
-                                                                                          Instant when) {
+    if (component->bound_to != nullptr) return recorder_.changed(session);
+    if (!component->confirms_binding()) return bind_again(session, *component, binding, now);
+    auto then = [this, binding, id = session.id, shared = component->shared_from_this()](std::optional<ComponentAnswer>& answer,
+                                                                                         Instant when) {
         --shared->binds_asked;
-        auto* const asker = find(id);
-        bool const confirmed = answer && std::holds_alternative<Done>(*answer) && !shared->has_departed();
-        if (asker != nullptr && confirmed) bind_now(*shared, *asker, when);
-        if (asker != nullptr) recorder_.changed(*asker);
+        if (auto* const asker = find(id)) take_answer(*asker, *shared, binding, answer, when);
         notify_of_release(*shared, when);
     };
+    session.absent.push_back(binding);
     auto const ticket = questions_.ask(*component, now.steady + settings_.question_deadline,
                                        "the component did not answer whether it can be bound", std::move(then));
+    session.absent.back().is_asked = true;
     ++component->binds_asked;
     auto parameters = component->in_own_frame(binding.parameters).value_or(binding.parameters);
     component->hosted().bind(
         ticket, {.session = session.number, .switching = binding.switching, .parameters = std::move(parameters)}, now);
+}
+
+// A logical component refuses while none of its members can act: that may change soon.
+void Engine::Core::take_answer(Session& session, RegisteredComponent& component, StoredBinding const& binding,
+                               std::optional<ComponentAnswer> const& answer, Instant now) {
+    auto const waiting = std::ranges::find(session.absent, binding.ref, &StoredBinding::ref);
+    if (waiting == session.absent.end()) return;  // released, or bound again
+    waiting->is_asked = false;
+    bool const confirmed = answer && std::holds_alternative<Done>(*answer) && !component.has_departed();
+    bool const refused = answer && std::holds_alternative<Refused>(*answer) && !component.is_logical();
+    if (!confirmed && !refused) return ask_absent_again(now);
+    session.absent.erase(waiting);
+    if (confirmed) bind_again(session, component, binding, now);
+    recorder_.changed(session);
+}
+
+void Engine::Core::bind_again(Session& session, RegisteredComponent& component, StoredBinding const& binding, Instant now) {
+    auto const reply = bind(session,
+                            {.component = component.shared_from_this(),
+                             .as = {.session = session.number, .switching = binding.switching},
+                             .condition = binding.preference},
+                            now);
+    if (outcome_of(reply).return_code == ReturnCode::ok) return component.restore_parameters(binding.parameters, now);
+    if (component.bound_to != nullptr) return;
+    session.absent.push_back(binding);  // it has not confirmed its halt yet
+    ask_absent_again(now);
+}
+
+void Engine::Core::ask_absent_again(Instant now) {
+    if (std::exchange(asks_absent_again_, true)) return;
+    deadlines_.add(now.steady + between_tries, [this](Instant then) {
+        asks_absent_again_ = false;
+        restore_absent(then);
+    });
 }
 
 // Returns false if its condition names something that no component has yet.
@@ -239,7 +299,7 @@ bool Engine::Core::restore(StoredSubscription const& subscription) {
     auto const session = std::ranges::find(sessions_, subscription.session, [](auto const& each) { return each.second->number; });
     if (session == sessions_.end()) return true;
     auto const& asked = subscription.asked;
-    auto filter = Filter::compile(asked.condition, vocabulary(&registry_.results(MessageKind::event, asked.event_type)));
+    auto filter = Filter::compile(asked.condition, vocabulary(*session->second, MessageKind::event, asked.event_type));
     if (!std::holds_alternative<Filter>(filter)) return false;
     subscriptions_.restore(*session->second, subscription.id, asked, std::move(std::get<Filter>(filter)));
     return true;
@@ -248,8 +308,17 @@ bool Engine::Core::restore(StoredSubscription const& subscription) {
 // Restores what belongs to components that have come.
 void Engine::Core::restore_absent(Instant now) {
     std::erase_if(absent_subscriptions_, [&](StoredSubscription const& each) { return restore(each); });
-    for (auto const& [id, session] : sessions_)
-        for (auto const& binding : std::exchange(session->absent, {})) restore(*session, binding, now);
+    for (auto const& [id, session] : sessions_) {
+        auto& absent = session->absent;
+        for (auto left = absent.size(); left > 0; --left) {  // those that still have to wait are added at the end
+            auto const binding = absent.front();
+            absent.erase(absent.begin());
+            if (binding.is_asked)
+                absent.push_back(binding);
+            else
+                restore(*session, binding, now);
+        }
+    }
 }
 
 }  // namespace rois

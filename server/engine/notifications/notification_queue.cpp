@@ -87,6 +87,7 @@ bool NotificationQueue::make_room() {
     if (event == entries_.end()) return make_room_among_held();
     auto const* const gap_before = event == first_waiting ? nullptr : as_lost(*std::prev(event));
     auto gap = gap_until(event->sequence, gap_before == nullptr ? 1 : gap_before->count + 1);
+    gaps_from_ = std::min(gaps_from_, event->sequence);
     --waiting_;
     ++lost_;
     if (gap_before == nullptr) {
@@ -101,19 +102,26 @@ bool NotificationQueue::make_room() {
 void NotificationQueue::keep_last(std::size_t events) {
     std::lock_guard const lock{mutex_};
     auto const is_event = [](Numbered const& entry) { return std::holds_alternative<ReceiveEvent>(entry.notification->body); };
-    std::vector<Numbered> kept;
-    kept.reserve(entries_.size() - sent_ + held_.size());
     std::size_t dropped = 0;
+    auto first_dropped = all;
     auto const first_waiting = entries_.begin() + static_cast<std::ptrdiff_t>(sent_);
+    auto const is_read = [this](Numbered const& entry) { return entry.sequence <= read_; };
+    auto const first_unread =  // before the waiting ones after a restart only
+        std::find_if_not(entries_.begin() + static_cast<std::ptrdiff_t>(forgotten_), first_waiting, is_read);
+    std::vector<Numbered> kept;
+    kept.reserve(entries_.size() + held_.size());
+    kept.insert(kept.end(), first_unread, first_waiting);
+    auto const sent = kept.size();
     auto too_many = std::count_if(first_waiting, entries_.end(), is_event) - static_cast<std::ptrdiff_t>(events);
     for (auto entry = first_waiting; entry != entries_.end(); ++entry) {
-        auto const* gap = kept.empty() ? nullptr : as_lost(kept.back());
+        auto const* gap = kept.size() == sent ? nullptr : as_lost(kept.back());
         if (too_many <= 0 || !is_event(*entry)) {
             kept.push_back(*entry);
             continue;
         }
         --too_many;
         ++dropped;
+        first_dropped = std::min(first_dropped, entry->sequence);
         if (gap != nullptr) {
             kept.back() = gap_until(entry->sequence, gap->count + 1);
         } else {
@@ -123,8 +131,10 @@ void NotificationQueue::keep_last(std::size_t events) {
     // Nothing below throws, so the queue changes as a whole or not at all.
     waiting_ -= dropped;
     lost_ += dropped;
+    gaps_from_ = std::min(gaps_from_, first_dropped);
     entries_ = std::move(kept);
-    sent_ = forgotten_ = 0;
+    sent_ = sent;
+    forgotten_ = 0;
 }
 
 std::vector<Numbered> NotificationQueue::read(std::uint64_t after, std::size_t most) {
@@ -147,6 +157,7 @@ NotificationQueue::Next NotificationQueue::read(std::uint64_t after, std::size_t
     for (; entry < end && into.size() - begin < most; ++entry) into.push_back(*entry);
     if (into.size() == begin) return after_locked(after);
     mark_sent(into.back().sequence);
+    read_ = std::max(read_, into.back().sequence);
     forget();
     return after_locked(into.back().sequence);
 }
@@ -257,16 +268,28 @@ bool NotificationQueue::shows_when_stored() const {
     return shown_ != all;
 }
 
+// The newest one stays stored: after a restart, the next sequence follows it.
 NotificationQueue::Unstored NotificationQueue::unstored() const {
     std::lock_guard const lock{mutex_};
     auto const first = std::ranges::upper_bound(entries_, given_, {}, &Numbered::sequence);
     if (first == entries_.end()) return {};
-    return {{first, entries_.end()}, before(entries_[forgotten_])};
+    Unstored unstored{.notifications = {first, entries_.end()}, .gone = {}};
+    auto const oldest = entries_.begin() + static_cast<std::ptrdiff_t>(forgotten_);
+    auto const add = [&](std::uint64_t from, std::uint64_t until) {
+        if (from <= until) unstored.gone.push_back({from, until});
+    };
+    add(1, std::min(before(*oldest), given_));
+    auto entry = std::lower_bound(oldest, entries_.end(), gaps_from_,
+                                  [](Numbered const& each, std::uint64_t from) { return each.sequence < from; });
+    for (; entry != entries_.end() && before(*entry) < given_; ++entry)
+        if (as_lost(*entry) != nullptr) add(before(*entry) + 1, std::min({entry->sequence, given_, last_sequence_ - 1}));
+    return unstored;
 }
 
 void NotificationQueue::being_stored(std::uint64_t until) noexcept {
     std::lock_guard const lock{mutex_};
     given_ = until;
+    gaps_from_ = all;
 }
 
 bool NotificationQueue::show(std::uint64_t until) noexcept {
@@ -279,18 +302,22 @@ bool NotificationQueue::show(std::uint64_t until) noexcept {
 void NotificationQueue::not_stored() noexcept {
     std::lock_guard const lock{mutex_};
     given_ = std::min(given_, shown_);
+    gaps_from_ = 0;
 }
 
-// A `Lost` that was stored may count notifications that were stored before it.
+// A `Lost` that was stored may count notifications that were stored before it. If sequences are missing between two entries,
+// their notifications were lost.
 void NotificationQueue::restore(std::vector<Numbered> entries) {
     std::lock_guard const lock{mutex_};
     for (auto& entry : entries) {
-        while (!entries_.empty() && entries_.back().sequence > before(entry)) entries_.pop_back();
+        auto const last = before(entry);
+        while (!entries_.empty() && entries_.back().sequence > last) entries_.pop_back();
+        if (!entries_.empty() && entries_.back().sequence < last)
+            entries_.push_back(gap_until(last, last - entries_.back().sequence));
         entries_.push_back(std::move(entry));
     }
     sent_ = entries_.size();
     if (!entries_.empty()) shown_ = given_ = last_sequence_ = entries_.back().sequence;
-    forget();
 }
 
 bool NotificationQueue::closed() const {
@@ -303,8 +330,10 @@ void NotificationQueue::mark_sent(std::uint64_t until) {
         if (as_lost(entries_[sent_]) == nullptr) --waiting_;
 }
 
+// Keeps those from before a restart until they were read again: perhaps they had not been read before.
 void NotificationQueue::forget() {
-    for (; sent_ - forgotten_ > max_sent_; ++forgotten_) entries_[forgotten_].notification.reset();
+    for (; sent_ - forgotten_ > max_sent_ && entries_[forgotten_].sequence <= read_; ++forgotten_)
+        entries_[forgotten_].notification.reset();
     if (forgotten_ * 2 <= entries_.size()) return;
     entries_.erase(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(forgotten_));
     sent_ -= std::exchange(forgotten_, 0);

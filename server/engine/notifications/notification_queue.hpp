@@ -60,8 +60,8 @@ public:
     // numbered and visible when its hold is released. `overflow`, `dropped`: too many wait, so the session must end.
     enum class Pushed : std::uint8_t { first, behind, held, overflow, dropped };
 
-    // Whether a notification whose cause is released, or that has none, waits for the current hold. `unless_delayed`: what happens
-    // beside an operation, and was perhaps caused by it. It must not wait long, because what happens later does not wait.
+    // Whether a notification whose cause is released, or that has none, waits for the current hold. `unless_delayed`: what
+    // happens beside an operation, and was perhaps caused by it. It must not wait long, because what happens later does not wait.
     enum class ForCurrent : std::uint8_t { waits, unless_delayed, does_not_wait };
 
     // Numbers and stores the notification, or holds it if `cause`, or else the current hold, is not released yet, or if it would
@@ -120,10 +120,15 @@ public:
     // --- With a journal (docs/journal.md): readers see a notification when it is stored. ---
     void show_when_stored();
     bool shows_when_stored() const;
-    // The notifications that were not given to the journal yet. Those until `forgotten_until` cannot be read any more.
+    // The notifications that were not given to the journal yet, and the sequences of stored ones that cannot be read any more,
+    // because they were forgotten, or replaced by a `Lost`.
     struct Unstored {
+        struct Gone {
+            std::uint64_t from;
+            std::uint64_t until;
+        };
         std::vector<Numbered> notifications;
-        std::uint64_t forgotten_until = 0;
+        std::vector<Gone> gone;
     };
     Unstored unstored() const;
     // The notifications until this one were given to the journal. Cannot fail.
@@ -164,8 +169,10 @@ private:
     std::uint64_t last_sequence_ = 0;  // of the newest entry
     std::uint64_t lost_ = 0;
     static constexpr std::uint64_t all = std::numeric_limits<std::uint64_t>::max();
-    std::uint64_t shown_ = all;  // readers see the notifications until this one
-    std::uint64_t given_ = 0;    // to the journal
+    std::uint64_t shown_ = all;      // readers see the notifications until this one
+    std::uint64_t given_ = 0;        // to the journal
+    std::uint64_t gaps_from_ = all;  // the journal does not know the `Lost` from this sequence on
+    std::uint64_t read_ = 0;         // the last one that was ever read
     struct Held {
         Hold by;  // 0, or released: it only waits for those before it
         bool unless_delayed;

@@ -28,7 +28,8 @@ void Subscriptions::OfType::add(Subscription& subscription) {
     subscription.demand = subscription.filter.demand();
     auto const& demand = subscription.demand;
     try {
-        subscription.meaning = &by_meaning.emplace(subscription.filter.meaning(), &subscription).first->first;
+        auto const [place, is_only] = by_meaning.emplace(subscription.filter.meaning(), &subscription);
+        if (is_only) subscription.meaning = &place->first;
         if (!demand) without_demand.insert(&subscription);
         if (!demand) return;
         for (auto const ref : demand->refs) by_ref[std::string{ref}].insert(&subscription);
@@ -55,17 +56,21 @@ Subscription* Subscriptions::find(std::string_view event_type, Filter const& fil
 }
 
 Subscription& Subscriptions::add(Session& session, std::string const& event_type, Filter filter, bool inline_results) {
-    return add(session, event_type, std::move(filter), inline_results, {"s-" + std::to_string(last_ + 1)});
+    auto* known = find(event_type, filter);
+    auto const has_its_id = [&](Subscription const* each) { return each != known && each->id == known->id; };
+    if (known != nullptr && std::ranges::any_of(session.subscriptions, has_its_id)) known = nullptr;
+    return add(session, event_type, std::move(filter), inline_results, known, {"s-" + std::to_string(last_ + 1)});
 }
 
 Subscription& Subscriptions::restore(Session& session, SubscribeId const& id, Subscribe const& asked, Filter filter) {
-    return add(session, asked.event_type, std::move(filter), asked.inline_results, id);
+    auto* known = find(asked.event_type, filter);
+    if (known != nullptr && known->id != id) known = nullptr;
+    return add(session, asked.event_type, std::move(filter), asked.inline_results, known, id);
 }
 
 // Once the subscription is in the session's own list, no step can throw.
 Subscription& Subscriptions::add(Session& session, std::string const& event_type, Filter filter, bool inline_results,
-                                 SubscribeId const& id) {
-    auto* subscription = find(event_type, filter);
+                                 Subscription* subscription, SubscribeId const& id) {
     if (subscription == nullptr) {
         auto made = std::make_unique<Subscription>();
         made->number = ++last_;
@@ -98,24 +103,25 @@ Subscription& Subscriptions::add(Session& session, std::string const& event_type
 
 Subscription& Subscriptions::keep(std::unique_ptr<Subscription> made) {
     auto& of_type = by_type_[made->event_type];
-    auto const place = by_id_.emplace(made->id, nullptr).first;
+    auto const place = all_.emplace(made->number, nullptr).first;
     try {
         of_type.add(*made);
     } catch (...) {
-        by_id_.erase(place);
+        all_.erase(place);
         throw;
     }
     place->second = std::move(made);
     return *place->second;
 }
 
-void Subscriptions::remove(Session& session, SubscribeId const& id) {
-    auto const found = by_id_.find(id);
-    if (found == by_id_.end()) return;
-    auto& subscription = *found->second;
-    if (session.subscriptions.erase(&subscription) == 0) return;
+bool Subscriptions::remove(Session& session, SubscribeId const& id) {
+    auto const found = std::ranges::find_if(session.subscriptions, [&](auto const* each) { return each->id == id; });
+    if (found == session.subscriptions.end()) return false;
+    auto& subscription = **found;
+    session.subscriptions.erase(found);
     part(session, subscription);
     remove_if_unused(subscription);
+    return true;
 }
 
 void Subscriptions::remove_all(Session& session) {
@@ -167,7 +173,7 @@ void Subscriptions::remove_if_unused(Subscription& subscription) noexcept {
     if (!subscription.subscribers.empty()) return;
     predicates_ -= subscription.filter.predicates();
     by_type_.find(subscription.event_type)->second.remove(subscription);
-    by_id_.erase(by_id_.find(subscription.id));
+    all_.erase(all_.find(subscription.number));
 }
 
 }  // namespace rois

@@ -29,7 +29,7 @@ struct Subscription {
     std::string event_type;
     Filter filter;
     // The keys in OfType. Kept so that removing the subscription needs no memory.
-    std::string const* meaning = nullptr;
+    std::string const* meaning = nullptr;  // null: another subscription with this meaning is listed
     std::optional<Demand> demand;
     struct Subscriber {
         Session* session;
@@ -51,14 +51,15 @@ public:
     // Subscribes a session. The same event type and condition give the same subscription; the last `inline_results` wins.
     Subscription& add(Session&, std::string const& event_type, Filter, bool inline_results);
 
-    // The same, with the id from before a restart, unless the pair has an id already.
+    // The same, with the id from before a restart. It may be that of another pair, or this pair may have another id: conditions
+    // that meant the same may have parted since, or come together.
     Subscription& restore(Session&, SubscribeId const&, Subscribe const&, Filter);
     // New ids continue after the last one.
     std::uint64_t last_id() const { return last_; }
     void continue_ids(std::uint64_t last) { last_ = last; }
 
-    // Has no effect if the session has no subscription with this id.
-    void remove(Session&, SubscribeId const&);
+    // Returns false if the session has no subscription with this id.
+    bool remove(Session&, SubscribeId const&);
     void remove_all(Session&);
 
     // Returns the subscriptions to this event type that the component may concern, in the order of subscribing.
@@ -67,7 +68,7 @@ public:
     // Returns the sessions with a subscription that an event of this component may ever match.
     std::set<Session*> possible_subscribers(RegisteredComponent const&, Perspective& ever) const;
 
-    std::size_t size() const { return by_id_.size(); }
+    std::size_t size() const { return all_.size(); }
     std::size_t predicates() const { return predicates_; }  // in the conditions of all subscriptions
 
 private:
@@ -82,18 +83,20 @@ private:
         ByText by_ref;
         ByText by_type;
         InOrder without_demand;
-        std::unordered_map<std::string, Subscription*> by_meaning;  // by the canonical text of the filter
+        std::unordered_map<std::string, Subscription*> by_meaning;  // by the canonical text of the filter; the first of each
 
         void add(Subscription&);  // changes nothing if it throws
         void remove(Subscription&) noexcept;
     };
 
-    Subscription& add(Session&, std::string const& event_type, Filter, bool inline_results, SubscribeId const& id);
+    // Adds the session to `known`, or to a new subscription if it is null.
+    Subscription& add(Session&, std::string const& event_type, Filter, bool inline_results, Subscription* known,
+                      SubscribeId const& id);
     Subscription& keep(std::unique_ptr<Subscription>);
     static void part(Session&, Subscription&);
     void remove_if_unused(Subscription&) noexcept;
 
-    std::unordered_map<SubscribeId, std::unique_ptr<Subscription>, IdHash> by_id_;
+    std::unordered_map<std::uint64_t, std::unique_ptr<Subscription>> all_;  // by number
     std::map<std::string, OfType, std::less<>> by_type_;
     std::uint64_t last_ = 0;
     std::size_t predicates_ = 0;

@@ -83,11 +83,12 @@ std::string_view harmless_host(std::string_view authority) {
     return harmless && !authority.empty() ? authority : "localhost";
 }
 
-bool is_allowed_origin(std::string_view origin, std::string_view authority, std::vector<std::string> const& allowed) {
+bool is_allowed_origin(std::string_view origin, std::string_view authority, std::vector<std::string> const& allowed,
+                       Scheme served) {
     if (std::ranges::any_of(allowed, [&](auto const& one) { return equal_ignoring_case(one, origin); })) return true;
     auto const scheme_end = std::min(origin.find("://"), origin.size());
     auto const scheme = lower_case(origin.substr(0, scheme_end));
-    if (scheme != "http" && scheme != "https") return false;
+    if (scheme != "https" && (scheme != "http" || served == Scheme::https)) return false;
     auto const port = scheme == "https" ? ":443" : ":80";
     auto const of_page = without_default_port(origin.substr(std::min(scheme_end + 3, origin.size())), port);
     return !of_page.empty() && equal_ignoring_case(of_page, without_default_port(authority, port));
@@ -101,8 +102,8 @@ std::optional<Fault> refusal_of_host(std::string_view authority, std::vector<std
 }
 
 std::optional<Fault> refusal_of_origin(std::string_view origin, std::string_view authority,
-                                       std::vector<std::string> const& allowed) {
-    if (is_allowed_origin(origin, authority, allowed)) return {};
+                                       std::vector<std::string> const& allowed, Scheme served) {
+    if (is_allowed_origin(origin, authority, allowed, served)) return {};
     return Fault{FaultCode::not_allowed,
                  "pages of the origin " + quoted(origin) +
                      " are not allowed here: expected a page of this gateway; the key allowed_origins adds other origins"};

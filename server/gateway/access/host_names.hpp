@@ -3,6 +3,7 @@
 // rebinding), or across sites with scripts, forms, frames and WebSockets. Thread-safe.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,12 +27,17 @@ bool is_own_host(std::string_view authority, std::vector<std::string> const& nam
 // Returns the authority, for use in texts. Returns "localhost" if it is empty or has unusual characters.
 std::string_view harmless_host(std::string_view authority);
 
-// Returns whether pages of this origin may send requests to `authority`: pages of that host, and the origins in `allowed`.
-bool is_allowed_origin(std::string_view origin, std::string_view authority, std::vector<std::string> const& allowed);
+// How this gateway serves its own pages. A port without TLS may have a proxy before it that has TLS.
+enum class Scheme : std::uint8_t { any, https };
+
+// Returns whether pages of this origin may send requests to `authority`: pages of that host, and the origins in `allowed`. Pages
+// that came without TLS may be anybody's, so a gateway with TLS serves them only if they are in `allowed`.
+bool is_allowed_origin(std::string_view origin, std::string_view authority, std::vector<std::string> const& allowed,
+                       Scheme served);
 
 // The fault for a request that `is_own_host` or `is_allowed_origin` rejects.
 std::optional<Fault> refusal_of_host(std::string_view authority, std::vector<std::string> const& names);
 std::optional<Fault> refusal_of_origin(std::string_view origin, std::string_view authority,
-                                       std::vector<std::string> const& allowed);
+                                       std::vector<std::string> const& allowed, Scheme served);
 
 }  // namespace rois

@@ -52,6 +52,10 @@ Fault not_allowed_for(Role role, Role least) {
             "the token has the role " + std::string{to_text(role)} + ": expected at least " + std::string{to_text(least)}};
 }
 
+Fault only_for_all() {
+    return {FaultCode::not_allowed, "the stop is for all components: expected a token that may see all of them"};
+}
+
 std::shared_ptr<Principal const> Principal::nobody() {
     static auto const made = [] {
         auto principal = std::make_shared<Principal>();

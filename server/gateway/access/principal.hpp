@@ -35,6 +35,8 @@ std::string const& names_of_roles();
 Role least_role_for(Operation const&);
 // The fault for what another role may do.
 Fault not_allowed_for(Role, Role least);
+// The fault for a token that may see some components only.
+Fault only_for_all();
 
 // The holder of a token. Shared by all its connections and sessions.
 struct Principal {

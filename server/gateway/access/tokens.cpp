@@ -10,6 +10,7 @@ namespace rois {
 namespace {
 
 constexpr auto minute = std::chrono::minutes{1};
+constexpr auto between_tidying = std::chrono::seconds{1};
 constexpr std::size_t most_addresses = 10'000;  // whose wrong tokens are counted
 
 bool is_same(Principal const& a, Principal const& b) {
@@ -58,16 +59,19 @@ std::variant<Tokens::Holder, Tokens::Refused> Tokens::holder(std::string_view to
     return is_too_many(from, now.steady) ? Refused::too_many : Refused::wrong;
 }
 
-std::shared_ptr<Rights const> Tokens::rights_of(std::string const& id) {
+Tokens::Holder Tokens::holder_of(std::string const& rights_id) {
     std::lock_guard const lock{mutex_};
-    auto const is_it = [&](Holder const& each) { return !each->is_over() && each->rights->id() == id; };
+    auto const is_it = [&](Holder const& each) { return !each->is_over() && each->rights->id() == rights_id; };
     auto const found = std::ranges::find_if(all_, is_it);
-    return found == all_.end() ? nullptr : (*found)->rights;
+    return found == all_.end() ? nullptr : *found;
 }
 
 bool Tokens::is_too_many(Address const& from, Steady now) {
     auto const is_old = [&](auto const& each) { return now - each.second.since >= minute; };
-    if (wrong_.size() >= most_addresses) std::erase_if(wrong_, is_old);
+    if (wrong_.size() >= most_addresses && now - tidied_ >= between_tidying) {
+        tidied_ = now;
+        std::erase_if(wrong_, is_old);
+    }
     if (wrong_.size() >= most_addresses && !wrong_.contains(from)) return true;
     auto& wrong = wrong_.try_emplace(from, 0U, now).first->second;
     if (now - wrong.since >= minute) wrong = {0, now};

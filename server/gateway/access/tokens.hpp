@@ -40,8 +40,8 @@ public:
     // operator from `stop`.
     std::variant<Holder, Refused> holder(std::string_view token, Address const& from, Instant now);
 
-    // Returns the rights with this id (Rights::id); null: no token has them any more.
-    std::shared_ptr<Rights const> rights_of(std::string const& id);
+    // Returns the holder of the rights with this id (Rights::id); null: no token has them any more.
+    Holder holder_of(std::string const& rights_id);
 
     // Withdraws the rights of expired tokens. Returns whether any rights were withdrawn since the last call.
     bool end_expired(std::chrono::system_clock::time_point now);
@@ -58,6 +58,7 @@ private:
     std::size_t most_wrong_;
     std::vector<Holder> all_;
     std::map<Address, Wrong> wrong_;
+    Steady tidied_;  // when the old ones were last removed, because there were too many
     bool some_ended_ = false;
 };
 

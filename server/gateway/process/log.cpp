@@ -5,8 +5,6 @@
 #include <utility>
 
 #include "engine/commands/command.hpp"
-#include "engine/registry.hpp"
-#include "engine/session.hpp"
 #include "gateway/process/telemetry.hpp"
 #include "types/text/texts.hpp"
 
@@ -29,8 +27,8 @@ spdlog::level::level_enum level_of(FaultCode code) {
 
 // "session 3: the command 'c-1', start of navigation"
 std::string name_of(Command const& command) {
-    auto const session = command.session == nullptr ? "an ended session" : "session " + std::to_string(command.session->number);
-    return session + ": the command " + quoted(command.id.text) + ", " + command.type + " of " + command.ref;
+    return "session " + std::to_string(command.session_number) + ": the command " + quoted(command.id.text) + ", " +
+           command.type + " of " + command.ref;
 }
 
 // Prepares a reason for a line of the log. Cutting a long reason may remove the end of a quotation: the mark that then ends it
@@ -61,11 +59,11 @@ void EngineLog::audit(std::string_view what, std::uint64_t session, std::string_
 }
 
 void EngineLog::audit(std::string_view what, Command const& command, std::string_view outcome) const {
-    audit(what, command.session == nullptr ? 0 : command.session->number, command.ref, command.type, outcome);
+    audit(what, command.session_number, command.ref, command.type, outcome);
 }
 
 void EngineLog::session_ended(std::uint64_t session, std::string_view why) {
-    ended_(session);
+    sessions_.ended(session);
     audit("disconnected", session, {}, {}, why);
     tokens_.erase(session);
     spdlog::info("session {} ended: {}", session, why);
@@ -92,8 +90,8 @@ void EngineLog::halt_failed(std::string const& ref, std::string_view why) {
 
 void EngineLog::halted_at_last(std::string const& ref) { spdlog::warn("{} has confirmed that it stands still", ref); }
 
-void EngineLog::refused(std::uint64_t session, Operation const& operation, Outcome const& outcome) {
-    audit("refused", session, {}, operation_name(operation), to_text(outcome.return_code));
+void EngineLog::refused(std::uint64_t session, Operation const& operation, Outcome const& outcome, std::string_view ref) {
+    audit("refused", session, ref, operation_name(operation), to_text(outcome.return_code));
     if (!is_debugging()) return;
     spdlog::debug("session {}: {} refused with {}: {}", session, operation_name(operation), to_text(outcome.return_code),
                   clean(outcome.reason));

@@ -18,8 +18,12 @@ namespace rois {
 // locked.
 class EngineLog : public Trace {
 public:
-    // `ended` is called with the number of each session that ends, with the engine locked.
-    explicit EngineLog(std::function<void(std::uint64_t session)> ended) : ended_{std::move(ended)} {}
+    // Called with the engine locked, with the number of each session that ends, or that has returned after a restart.
+    struct Sessions {
+        std::function<void(std::uint64_t)> ended;
+        std::function<void(std::uint64_t, Rights const*)> restored;
+    };
+    explicit EngineLog(Sessions sessions) : sessions_{std::move(sessions)} {}
 
     // Call it before the first request.
     void audit_to(Audit audit) { audit_ = std::move(audit); }
@@ -35,13 +39,14 @@ public:
 private:
     void session_opened(std::uint64_t session) override { joined_ = session; }
     void session_resumed(std::uint64_t session) override { joined_ = session; }
+    void session_restored(std::uint64_t session, Rights const* rights) override { sessions_.restored(session, rights); }
     void session_ended(std::uint64_t session, std::string_view why) override;
     void bound(std::uint64_t session, std::string const& ref) override;
     void released(std::uint64_t session, std::string const& ref) override;
     void taken_over(std::uint64_t session, std::uint64_t from, std::string const& ref) override;
     void halt_failed(std::string const& ref, std::string_view why) override;
     void halted_at_last(std::string const& ref) override;
-    void refused(std::uint64_t session, Operation const&, Outcome const&) override;
+    void refused(std::uint64_t session, Operation const&, Outcome const&, std::string_view ref) override;
     void command_begun(Command const&) override;
     void command_ended(Command const&) override;
     void audit(std::string_view what, std::uint64_t session, std::string_view component, std::string_view operation = {},
@@ -50,7 +55,7 @@ private:
 
     Audit audit_ = [](AuditEntry const&) {};
     std::unordered_map<std::uint64_t, std::string> tokens_;  // by the session's number
-    std::function<void(std::uint64_t session)> ended_;
+    Sessions sessions_;
     std::uint64_t joined_ = 0;
 };
 

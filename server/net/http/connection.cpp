@@ -22,32 +22,11 @@ constexpr std::size_t most_to_gather = 64 * 1024;  // bytes of answers to pipeli
 constexpr std::size_t most_to_keep = 16 * 1024;    // bytes of memory that an empty buffer of answers may keep
 constexpr auto longest_linger = std::chrono::seconds{2};
 constexpr auto longest_wait_without_memory = std::chrono::milliseconds{100};  // for a request while the system has no memory
+constexpr auto longest_wait_of_strangers = std::chrono::seconds{1};           // while memory_budget is nearly used up
 
 Fault only_joining() { return {FaultCode::not_allowed, "programs can only join here: expected GET /rois/engines"}; }
 
-Fault only_for_all() {
-    return {FaultCode::not_allowed, "the stop is for all components: expected a token that may see all of them"};
-}
-
-std::optional<HttpAnswer> refusal_of_role(Role role, Role least) {
-    if (role >= least) return {};
-    return answer_of(not_allowed_for(role, least));
-}
-
 }  // namespace
-
-// Lets a connection take the answers that have come. It may outlive the connection.
-class Connection::Waker final : public Reader {
-public:
-    Waker(Wakes& wakes, std::weak_ptr<Connection> of) : Reader{wakes}, of_{std::move(of)} {}
-
-private:
-    void woken() override {
-        if (auto const connection = of_.lock()) connection->answers_came();
-    }
-
-    std::weak_ptr<Connection> of_;
-};
 
 Connection::Connection(Loop& loop, Socket socket, Admission::Place place, Loop::From from)
     : loop_{loop},
@@ -95,23 +74,24 @@ Task<> Connection::hand_over() {
 
 void Connection::sweep(Steady at) {
     wire_.sweep(at);
-    if (has_joined_ && client_->principal && client_->principal->is_over()) wire_.cut();
+    auto const is_over = [&] { return loop_.draining() && loop_.shared().gateway.not_halted().empty(); };
+    if (has_joined_ && ((client_->principal && client_->principal->is_over()) || is_over())) wire_.cut();
     auto const websocket = websocket_.lock();
     if (websocket) websocket->sweep(at);
     auto const& memory = loop_.shared().gateway.memory();
     if (!memory.tight()) return;
     bool const arriving = websocket || request_due_ != Steady::max();
     auto const unfinished = arriving ? wire_.received().size() + (websocket ? websocket->gathered() : 0) : 0;
-    bool const unread = memory.full() && wire_.waits_for_reader();
-    bool const only_waits = memory.exhausted() && waits_since(at - longest_wait_without_memory);
+    bool const unread = memory.full() && wire_.waits_for_reader(at - longest_wait_without_memory);
+    bool const only_waits = (memory.exhausted() && waiting_since() <= at - longest_wait_without_memory) ||
+                            (is_stranger() && waiting_since() <= at - longest_wait_of_strangers);
     if (unread || only_waits || unfinished > memory.longest_document()) cut_for_memory();
 }
 
-// Returns whether the connection has been waiting for a request, or for the rest of one, since that time.
-bool Connection::waits_since(Steady then) const {
+Steady Connection::waiting_since() const {
     auto const& settings = loop_.shared().settings();
-    bool const idle = idle_due_ != Steady::max() && idle_due_ - settings.idle_timeout <= then;
-    return idle || (request_due_ != Steady::max() && request_due_ - settings.request_timeout <= then);
+    auto const idle = idle_due_ == Steady::max() ? Steady::max() : idle_due_ - settings.idle_timeout;
+    return std::min(idle, request_due_ == Steady::max() ? Steady::max() : request_due_ - settings.request_timeout);
 }
 
 void Connection::shut_down() {
@@ -154,7 +134,10 @@ Task<Connection::Then> Connection::serve() {
         if (whole && !is_request) then = co_await serve_other();
         if (whole && is_request) {
             auto const body = wire_.text().substr(0, head_.content_length);
-            if (!waker_) waker_ = std::make_shared<Waker>(loop_.wakes(), weak_from_this());
+            if (!waker_)
+                waker_ = std::make_shared<Waker>(loop_.wakes(), [of = weak_from_this()] {
+                    if (auto const connection = of.lock()) connection->answers_came();
+                });
             PendingAnswer answer;
             if (LongDocuments::is_long(body.size())) {
                 co_await flush();  // answers to earlier requests do not wait for this one
@@ -219,18 +202,20 @@ Connection::Then Connection::judge_head() {
     auto const& settings = loop_.shared().settings();
     route_ = route_of(head_.path);
     auto refused = refusal_of_other_sites(head_, settings);
+    bool const is_identified = !refused;
     if (!refused) refused = identify();
     if (!refused) refused = refusal(head_, route_, settings);
-    bool const is_program = from_ == Loop::From::programs;
-    if (!refused && is_program && route_.endpoint != Endpoint::engines) refused = answer_of(only_joining());
+    if (!refused && from_ == Loop::From::programs && route_.endpoint != Endpoint::engines) refused = answer_of(only_joining());
     if (!refused && route_.endpoint == Endpoint::clear && !client_->sees_everything()) refused = answer_of(only_for_all());
-    if (!refused && client_->principal)
-        refused = refusal_of_role(client_->principal->role, least_role_for(route_.endpoint, head_));
+    auto const least = least_role_for(route_.endpoint, head_);
+    if (!refused && client_->principal && client_->principal->role < least)
+        refused = answer_of(not_allowed_for(client_->principal->role, least));
     has_head_ = !refused;
     if (!refused) return Then::next;
     auto const code = refused->fault ? refused->fault->code : FaultCode::invalid;
     bool const concerns_rights = code == FaultCode::unauthorized || code == FaultCode::not_allowed || code == FaultCode::too_many;
-    if (concerns_rights) loop_.shared().gateway.note_refusal(*client_, name_of(route_.endpoint), code);
+    auto const& asker = is_identified ? *client_ : Client{.address = client_->address};
+    if (concerns_rights) loop_.shared().gateway.note_refusal(asker, name_of(route_.endpoint), code);
     if (head_.content_length > wire_.received().size()) return reply(*refused, Framed::last);
     wire_.use(head_.content_length);
     return reply(*refused);
@@ -241,24 +226,14 @@ std::optional<HttpAnswer> Connection::identify() {
     bool const is_program = from_ == Loop::From::programs;
     auto* const tokens = is_program ? loop_.shared().settings().program_tokens : loop_.shared().gateway.tokens();
     if (tokens == nullptr || from_ == Loop::From::this_process) return {};
-    auto const token = head_.token();
-    bool const same = !token_.empty() && token == token_ && !client_->principal->is_over();
-    if (same) return {};
-    client_->principal = Principal::nobody();
-    token_.clear();
-    bool is_one_too_many = false;
-    if (token) {
-        auto found =
-            tokens->holder(*token, place_.address(), {std::chrono::steady_clock::now(), std::chrono::system_clock::now()});
-        if (auto* const holder = std::get_if<Tokens::Holder>(&found)) {
-            client_->principal = std::move(*holder);
-            token_ = *token;
-            return {};
-        }
-        is_one_too_many = std::get<Tokens::Refused>(found) == Tokens::Refused::too_many;
+    auto const refused = token_check_.check(*tokens, head_.token(), *client_);
+    if (!refused && !place_.show(client_->name()) && route_.endpoint != Endpoint::stop) {
+        token_check_.forget(*client_);
+        loop_.shared().telemetry.reached(Telemetry::Limit::connections_per_address);
+        return answer_of(place_.of().too_many_of("this token"));
     }
-    if (is_for_everyone(route_.endpoint) && !is_program) return {};
-    if (!is_one_too_many) return answer_of(unauthorized());
+    if (!refused || (is_for_everyone(route_.endpoint) && !is_program)) return {};
+    if (refused != Tokens::Refused::too_many) return answer_of(unauthorized());
     auto answer = answer_of({FaultCode::too_many, "too many wrong tokens from this address: try again in a minute"});
     answer.fields.set(http::field::retry_after, "60");
     return answer;
@@ -450,7 +425,7 @@ Task<> Connection::flush() {
     while (outcome == Wire::Outcome::done && !flush_at_once()) {
         auto& memory = loop_.shared().gateway.memory();
         memory.took(out_.size());
-        if (memory.full()) cut_for_memory();
+        if (memory.full() && !wire_.is_secure()) cut_for_memory();
         outcome = co_await wire_.send(out_);
         out_.clear();
         forget_out();

@@ -1,6 +1,7 @@
 // One HTTP connection: receives requests and answers them in order. It may become a WebSocket or an event stream.
 #pragma once
 
+#include <algorithm>
 #include <list>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "gateway/access/token_check.hpp"
 #include "gateway/gateway.hpp"
 #include "net/http/http_answer.hpp"
 #include "net/http/http_head.hpp"
@@ -30,8 +32,22 @@ public:
     void sweep(Steady now);
     void shut_down();
     void cut() { wire_.cut(); }
+    // Cuts the connection. Its place is free at once.
+    void give_way() {
+        wire_.cut();
+        place_.leave();
+    }
     // When this connection ends if no request begins; `max` if it is not idle.
-    Steady idle_due() const { return idle_ ? idle_due_ : Steady::max(); }
+    Steady idle_due() const { return idle_ && !place_.is_left() ? idle_due_ : Steady::max(); }
+    // Since when this connection has waited for a request, or for the rest of one; `max` if it does not.
+    Steady waiting_since() const;
+    Steady accepted() const { return accepted_; }
+    // Whether the gateway has tokens, and this connection has a place, comes from this address (null: any), and has shown none.
+    bool is_stranger(Address const* from = nullptr) const {
+        bool const is_from = from == nullptr || place_.address() == *from;
+        bool const is_known = from_ != Loop::From::network || place_.has_token();
+        return loop_.shared().gateway.tokens() != nullptr && !is_known && is_from && !place_.is_left();
+    }
 
 private:
     friend class Loop;
@@ -67,7 +83,6 @@ private:
     // Returns false if the socket takes only a part at once. Then `flush` sends the rest.
     bool flush_at_once();
     void forget_out();
-    bool waits_since(Steady) const;
     void cut_for_memory();
     Task<> flush();
 
@@ -76,7 +91,7 @@ private:
     Loop::From const from_;
     Admission::Place place_;
     std::shared_ptr<Client> client_;
-    std::string token_;  // of the client's principal, if there is one
+    TokenCheck token_check_;
     Wire wire_;
     std::optional<Telemetry::Counted> counted_;
     // The current request:
@@ -85,6 +100,7 @@ private:
     RequestHead head_;
     Route route_;
     SessionId session_;  // that the request names; empty if it names none
+    Steady const accepted_ = std::chrono::steady_clock::now();
     Steady request_due_ = Steady::max();
     Steady idle_due_ = Steady::max();  // when the next request must have begun; empty lines do not begin one
     bool idle_ = false;                // no byte of the next request has arrived
@@ -93,7 +109,6 @@ private:
         std::variant<PendingAnswer, HttpAnswer> answer;
         Framing framing;
     };
-    class Waker;
     std::shared_ptr<Waker> waker_;             // is woken when an answer has come
     std::shared_ptr<WakeUp> answers_wake_up_;  // raised when an answer has come; null if nothing waits for that
     std::list<Waiting> waiting_;               // in the order of their requests; the first one has not come yet

@@ -90,9 +90,9 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head, Princi
         case Endpoint::readyz:
             return readiness(asker);
         case Endpoint::engines:
-            return {.body = xml::encode(engines(rights))};
+            return {.body = xml::encode(gateway_.seen_of(site_.engines(), rights))};
         case Endpoint::metrics:
-            return {.body = telemetry_.text(statistics(rights), engines(rights)),
+            return {.body = telemetry_.text(gateway_.statistics(rights), gateway_.seen_of(site_.engines(), rights)),
                     .content_type = "text/plain; version=0.0.4; charset=utf-8"};
         default:
             return not_found("there is nothing here");
@@ -107,30 +107,9 @@ HttpAnswer Documents::readiness(Principal const* asker) const {
     return verdict(trouble, "ready\n");
 }
 
-// The sub engines with a component that the asker sees.
-std::vector<EngineState> Documents::engines(Rights const* rights) const {
-    auto states = site_.engines();
-    if (rights == nullptr || rights->sees_everything()) return states;
-    auto const components = gateway_.components(rights);
-    std::erase_if(states, [&](EngineState const& state) {
-        return std::ranges::none_of(components, [&](auto const& each) { return each.ref.starts_with(state.name + "."); });
-    });
-    return states;
-}
-
 HttpAnswer Documents::floor_map(RequestHead const& head, Rights const* rights) const {
     if (site_.floor_map.empty()) return not_found("this engine has no floor map");
-    bool const sees_everything = rights == nullptr || rights->sees_everything();
-    return versioned_xml(sees_everything ? site_.floor_map : site_.floor_map_without_robots, head);
-}
-
-// Those who may not see everything learn nothing about sessions.
-EngineStatistics Documents::statistics(Rights const* rights) const {
-    auto all = gateway_.statistics();
-    if (rights == nullptr || rights->sees_everything()) return all;
-    all.each_session.clear();
-    all.components = gateway_.components(rights).size();
-    return all;
+    return versioned_xml(may_see_everything(rights) ? site_.floor_map : site_.floor_map_without_robots, head);
 }
 
 HttpAnswer Documents::page(RequestHead const& head, Rights const* rights) const {

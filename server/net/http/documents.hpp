@@ -39,8 +39,6 @@ public:
 private:
     HttpAnswer page(RequestHead const&, Rights const*) const;
     HttpAnswer component_profile(std::string const& ref, RequestHead const&, Rights const*) const;
-    std::vector<EngineState> engines(Rights const*) const;
-    EngineStatistics statistics(Rights const*) const;
     HttpAnswer floor_map(RequestHead const&, Rights const*) const;
     HttpAnswer readiness(Principal const*) const;
     HttpAnswer schema(std::string const& file, RequestHead const&) const;

@@ -95,7 +95,7 @@ Task<std::optional<HttpAnswer>> stream(Wire& wire, Loop& loop, SessionId const& 
         for (auto const& numbered : taken.notifications) append_event(out, numbered);
         out.erase(0, wire.send_now(out));
         if (!out.empty()) shared.gateway.memory().took(out.size());
-        if (!out.empty() && shared.gateway.memory().full()) break;
+        if (!out.empty() && shared.gateway.memory().full() && !wire.is_secure()) break;
         auto const sent = co_await wire.send(out);
         if (sent != Wire::Outcome::done) break;
         std::string{}.swap(out);

@@ -90,8 +90,9 @@ std::optional<HttpAnswer> refusal_of_other_sites(RequestHead const& head, Settin
     }
     if (head.message.count("Origin") == 0) return {};
     auto const origin = head.field("Origin").value_or("");  // empty, which is never allowed, if there are two
-    if (auto const refused = refusal_of_origin(origin, head.authority(), settings.allowed_origins)) return answer_of(*refused);
-    return {};
+    auto const served = settings.credentials ? Scheme::https : Scheme::any;
+    auto const refused = refusal_of_origin(origin, head.authority(), settings.allowed_origins, served);
+    return refused ? std::optional{answer_of(*refused)} : std::nullopt;
 }
 
 bool is_for_everyone(Endpoint endpoint) {

@@ -20,7 +20,6 @@ constexpr std::size_t most_at_once = 64;                         // notification
 constexpr std::size_t most_pending_of_engine = 1024;             // requests that wait for components; with more, nothing is read
 constexpr std::size_t most_kept = 16 * 1024;                     // bytes of memory that an empty buffer of answers may keep
 constexpr std::size_t longest_negligible = 4 * 1024;             // bytes of requests that the memory budget does not count
-constexpr unsigned most_controls = 50;                           // control frames a second
 constexpr auto proof_interval = std::chrono::milliseconds{500};  // of pings while the robot moves
 constexpr auto longest_closing = std::chrono::seconds{2};        // from our close frame to the end of the connection
 
@@ -54,6 +53,9 @@ Task<> WebSocket::run() {
         WebSocket& of;
         ~End() { of.break_off(); }
     } const end{*this};
+    waker_ = std::make_shared<Waker>(wakes(), [of = weak_from_this()] {
+        if (auto const self = of.lock()) static_cast<WebSocket&>(*self).flush();
+    });
     auto outcome = Wire::Outcome::done;
     while (outcome == Wire::Outcome::done && !broken_) {
         while (!take_frames()) co_await pause();
@@ -103,8 +105,7 @@ void WebSocket::take(Received const& received) {
             else if (LongDocuments::is_long(received.text.size()))
                 long_message_ = received.text;
             else
-                take(shared_.gateway.answer(reader_, session_, received.text, Via::websocket, weak_from_this(), client_,
-                                            reading_.get()));
+                take(shared_.gateway.answer(reader_, session_, received.text, Via::websocket, waker_, client_, reading_.get()));
             break;
         case Received::Kind::ping:
             note_control();
@@ -190,8 +191,7 @@ Task<> WebSocket::pause() {
 
 Task<> WebSocket::answer_long_message() {
     auto const message = std::exchange(long_message_, {});
-    take(co_await shared_.long_documents.answer(shared_.gateway, session_, message, Via::websocket, weak_from_this(), client_,
-                                                wakes()));
+    take(co_await shared_.long_documents.answer(shared_.gateway, session_, message, Via::websocket, waker_, client_, wakes()));
 }
 
 // Sends the session's last notifications, waits until its other readers have received them too, and then answers the disconnect.
@@ -248,7 +248,8 @@ void WebSocket::note_control() {
         controls_since_ = present;
         controls_ = 0;
     }
-    if (++controls_ > most_controls) close({CloseCode::policy_violation, "more than 50 control frames a second"});
+    if (++controls_ > shared_.settings().max_control_frames)
+        close({CloseCode::policy_violation, "more control frames in a second than max_control_frames allows"});
 }
 
 void WebSocket::close(Ending ending) {
@@ -319,7 +320,7 @@ void WebSocket::write() {
 void WebSocket::keep_unsent(std::string_view rest) {
     auto& memory = shared_.gateway.memory();
     memory.took(rest.size());
-    if (memory.full()) {
+    if (memory.full() && !wire_->is_secure()) {
         spdlog::warn("the WebSocket of {} was cut: {}", wire_->peer(),
                      memory.refuse("no memory for the data that the client does not read"));
         shared_.telemetry.cut();

@@ -15,7 +15,7 @@
 namespace rois::net {
 
 class Loop;
-struct Shared;
+class Shared;
 
 // Collects answers and notifications, so that few writes send them. `flush` writes at once as long as the peer reads fast enough;
 // otherwise `drain` writes the rest.
@@ -74,6 +74,7 @@ private:
     std::shared_ptr<Wire> wire_;
     Shared& shared_;
     std::unique_ptr<Reading> reading_;  // of the session, until its last notification was written
+    std::shared_ptr<Waker> waker_;      // is woken when an answer has come
     std::list<PendingAnswer> pending_;  // in the order of their requests
     bool session_changes_ = false;      // a pending answer may change the session; until then no frames are handled
     std::string answers_;               // frames for the next write

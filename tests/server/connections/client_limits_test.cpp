@@ -19,6 +19,7 @@
 #include "gateway/access/admission.hpp"
 #include "gateway/access/session_quota.hpp"
 #include "kit/profile_folder.hpp"
+#include "server/token_file.hpp"
 #include "server/websocket_client.hpp"
 
 namespace rois::test {
@@ -57,6 +58,15 @@ protected:
         gateway = std::make_unique<GatewayProcess>(std::move(arguments));
     }
 
+    // With a file of tokens. Returns the address for the holder of one, an operator.
+    kit::Address start_with_tokens(std::vector<std::string> arguments) {
+        auto const token = file.add("desk", "operator");
+        gateway = std::make_unique<GatewayProcess>(file.of_gateway(arguments));
+        auto with = gateway->address();
+        with.token = token;
+        return with;
+    }
+
     std::unique_ptr<kit::HttpClient> http(bool loopback = false) const {
         return std::make_unique<kit::HttpClient>(address(loopback));
     }
@@ -67,6 +77,7 @@ protected:
         return there;
     }
 
+    TokenFile file;
     std::unique_ptr<GatewayProcess> gateway;
 };
 
@@ -92,6 +103,84 @@ TEST_F(ClientLimits, BoundTheSessionsOfOneAddress) {
     EXPECT_EQ(second->call("disconnect").return_code(), "OK");
     EXPECT_EQ(open_session(*third).status, 200) << "one has ended";
     EXPECT_THAT(local->get("/metrics").body, HasSubstr("rois_limit_reached_total{limit=\"sessions_per_address\"} 1\n"));
+}
+
+// Someone behind the same address must not keep an operator from stopping the robot.
+TEST_F(ClientLimits, LetAConnectionReplaceOneWithoutAToken) {
+    auto with = start_with_tokens({"--max-connections-per-address", "3", "--listen", "0.0.0.0:0", "--threads", "1"});
+    with.host = address().host;
+    kit::HttpClient early{with};
+    EXPECT_EQ(early.get("/rois/profile").status, 200);
+    std::vector<std::unique_ptr<Line>> strangers;
+    for (int i = 0; i < 20; ++i) {
+        strangers.push_back(std::make_unique<Line>(address()));
+        strangers.back()->send("GET /rois/profile HTTP/1.1\r\n");
+    }
+    kit::HttpClient late{with};
+    EXPECT_EQ(late.get("/rois/stop", {}, "POST").status, 200);
+    EXPECT_EQ(early.get("/rois/profile").status, 200) << "it was not replaced";
+}
+
+TEST_F(ClientLimits, BoundTheConnectionsOfEachToken) {
+    auto const observer = file.add("screen", "observer");
+    auto with = start_with_tokens({"--max-connections-per-address", "3", "--listen", "0.0.0.0:0"});
+    auto const token = std::exchange(with.token, observer);
+    with.host = address().host;
+    std::list<kit::HttpClient> screens;
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(screens.emplace_back(with).get("/rois/profile").status, 200) << i;
+    for (int i = 0; i < 10; ++i) {
+        auto const refused = screens.emplace_back(with).get("/rois/profile");
+        EXPECT_EQ(refused.status, 429);
+        EXPECT_THAT(refused.reason(), HasSubstr("this token has 3 connections open already"));
+    }
+    with.token = token;
+    kit::HttpClient desk{with};
+    EXPECT_EQ(desk.get("/rois/stop", {}, "POST").status, 200) << "another token is another holder";
+    std::list<kit::HttpClient> desks;
+    for (int i = 0; i < 3; ++i) desks.emplace_back(with).get("/rois/profile");
+    EXPECT_EQ(desks.emplace_back(with).get("/rois/stop", {}, "POST").status, 200) << "also beyond the limit";
+    EXPECT_EQ(screens.front().get("/rois/profile").status, 200);
+    screens.pop_front();
+    with.token = observer;
+    int status = 429;
+    for (int i = 0; i < 1'000 && status == 429; ++i) status = kit::HttpClient{with}.get("/rois/profile").status;
+    EXPECT_EQ(status, 200) << "one has closed";
+}
+
+TEST_F(ClientLimits, LetClientsShowTheirTokensBeforeTheyAreTakenForStrangers) {
+    auto const with = start_with_tokens({"--max-connections", "4"});
+    std::list<kit::HttpClient> idle, late;
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(idle.emplace_back(with).get("/rois/profile").status, 200);
+    gateway->signal(SIGSTOP);
+    for (int i = 0; i < 3; ++i)
+        late.emplace_back(with).line().send("GET /rois/profile HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer " +
+                                            with.token + "\r\n\r\n");
+    gateway->signal(SIGCONT);
+    for (auto& each : late) EXPECT_EQ(each.read().status, 200);
+}
+
+// Strangers whose connections are held by any thread of the gateway, and who wait at any place of a request.
+TEST_F(ClientLimits, CutStrangersBeforeIdleClients) {
+    auto const with = start_with_tokens({"--max-connections", "20", "--threads", "4"});
+    std::string const refused = "POST /rois HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000000\r\n\r\nabc";
+    for (auto const& begun : {std::string{}, std::string{"G"}, refused}) {
+        kit::HttpClient desk{with};
+        EXPECT_EQ(desk.get("/rois/stop", {}, "POST").status, 200);
+        std::vector<std::unique_ptr<Line>> strangers;
+        for (int i = 0; i < 60; ++i) {
+            strangers.push_back(std::make_unique<Line>(gateway->address()));
+            if (!begun.empty()) strangers.back()->send_now(begun);
+        }
+        kit::HttpClient late{with};
+        EXPECT_EQ(late.get("/rois/profile").status, 200) << "takes the place of a stranger";
+        EXPECT_EQ(desk.get("/rois/stop", {}, "POST").status, 200) << "on its old connection";
+    }
+}
+
+TEST_F(ClientLimits, LetAConnectionReplaceAnIdleOneOfAnyThread) {
+    auto const with = start_with_tokens({"--max-connections", "4", "--threads", "4"});
+    std::list<kit::HttpClient> all;
+    for (int i = 0; i < 12; ++i) EXPECT_EQ(all.emplace_back(with).get("/rois/profile").status, 200);
 }
 
 TEST_F(ClientLimits, BoundTheConnectionsOfOneAddress) {
@@ -207,15 +296,18 @@ TEST(EventStreams, OfASessionAreAsManyAsTheKeyAllows) {
     EXPECT_EQ(status_of(third), 429);
 }
 
+kit::Address media_address(GatewayProcess& gateway) {
+    std::string const mark = "media are served under http://127.0.0.1:";
+    auto const log = gateway.log_with(mark);
+    auto address = gateway.address();
+    address.port = static_cast<std::uint16_t>(std::stoi(log.substr(log.find(mark) + mark.size())));
+    return address;
+}
+
 // A connection beyond the limit is not served before another one has closed.
 TEST(MediaConnections, AreAsManyAsTheKeyAllows) {
     GatewayProcess gateway{{"--media", "127.0.0.1:0", "--max-media-connections", "1"}};
-    std::string const mark = "media are served under http://127.0.0.1:";
-    auto const log = gateway.log_with(mark);
-    auto const begin = log.find(mark);
-    ASSERT_NE(begin, log.npos) << log;
-    auto address = gateway.address();
-    address.port = static_cast<std::uint16_t>(std::stoi(log.substr(begin + mark.size())));
+    auto const address = media_address(gateway);
     auto first = std::make_unique<Line>(address);
     kit::HttpClient second{address};
     second.line().send("GET /unknown HTTP/1.1\r\nHost: localhost\r\n\r\n");
@@ -224,6 +316,13 @@ TEST(MediaConnections, AreAsManyAsTheKeyAllows) {
     first.reset();
     second.line().set_patience(address.patience);
     EXPECT_EQ(second.read().status, 404);
+}
+
+TEST(MediaConnections, EndWhenARequestDoesNotArriveInTime) {
+    GatewayProcess gateway{{"--media", "127.0.0.1:0", "--request-timeout", "0.2"}};
+    Line line{media_address(gateway)};
+    line.send("GET /unknown HTTP/1.1\r\nHo");
+    EXPECT_EQ(line.rest(), "");
 }
 
 TEST(WebSocketWithoutASession, ClosesAfterAWhile) {
@@ -303,6 +402,32 @@ TEST(Limits, DependOnTheAddress) {
     EXPECT_EQ(of("192.0.2.9"), Limits::none);
     EXPECT_EQ(of("198.51.100.1"), Limits::all);
     EXPECT_EQ(limits_of(read_address("127.0.0.1").value(), {read_network("127.0.0.1").value()}), Limits::none);
+}
+
+TEST(Admission, CountsAConnectionForItsTokenOnceItHasShownOne) {
+    auto const here = read_address("192.0.2.1").value();
+    Admission admission{10, 2};
+    std::list<Admission::Place> places;
+    auto const enters = [&] {
+        auto entered = admission.enter(here, Limits::all);
+        auto* place = std::get_if<Admission::Place>(&entered);
+        if (place != nullptr) places.push_back(std::move(*place));
+        return place != nullptr;
+    };
+    ASSERT_TRUE(enters() && enters());
+    EXPECT_TRUE(places.front().show("desk") && places.back().show("desk"));
+    ASSERT_TRUE(enters());
+    EXPECT_FALSE(places.back().show("desk"));
+    EXPECT_TRUE(places.back().show("chief"));
+    EXPECT_TRUE(places.front().show("chief")) << "another one";
+    ASSERT_TRUE(enters());
+    EXPECT_TRUE(places.back().show("desk"));
+    places.clear();
+    ASSERT_TRUE(enters() && enters());
+    EXPECT_FALSE(enters());
+    places.front().leave();
+    EXPECT_TRUE(places.front().is_left());
+    EXPECT_TRUE(enters());
 }
 
 TEST(Admission, CountsEachAddressForAsLongAsItsConnectionsLive) {

@@ -15,9 +15,10 @@ using testing::HasSubstr;
 constexpr std::size_t most_bytes = 50'000, most_header = 2'048, most_fields = 16, most_target = 1'024, most_name = 64;
 
 GatewayProcess& limited() {
-    static GatewayProcess gateway{{"--max-body", "50000", "--max-header", "2048", "--max-header-fields", "16", "--max-target",
-                                   "1024", "--max-depth", "8", "--max-attributes", "8", "--max-elements", "16",
-                                   "--max-name-length", "64", "--max-fragments", "4"}};
+    static GatewayProcess gateway{{"--max-body",      "50000", "--max-header",         "2048", "--max-header-fields", "16",
+                                   "--max-target",    "1024",  "--max-depth",          "8",    "--max-attributes",    "8",
+                                   "--max-elements",  "16",    "--max-name-length",    "64",   "--max-namespaces",    "12",
+                                   "--max-fragments", "4",     "--max-control-frames", "10"}};
     return gateway;
 }
 
@@ -158,6 +159,35 @@ TEST(LimitOfADocument, IsTheLengthOfItsNames) {
     };
     expect_limit(attribute_with_name(most_name), attribute_with_name(most_name + 1),
                  "the name of an attribute is too long: the limit is 64");
+}
+
+// A request of the kit declares two, and a condition one.
+TEST(LimitOfADocument, IsTheNumberOfNamespacesInScope) {
+    auto const with_namespaces = [](int many) {
+        constexpr auto name_space = "http://www.omg.org/spec/RoIS/20240801";
+        auto condition = where(equal("component_ref", "navigation"));
+        Attributes more;
+        for (int i = 3; i < many; ++i) {
+            auto const declaration = "xmlns:p" + std::to_string(i);
+            if (i < 9)
+                more.emplace_back(declaration, name_space);
+            else
+                condition = condition.with(declaration, name_space);
+        }
+        return request("search", condition, more);
+    };
+    expect_limit(with_namespaces(12), with_namespaces(13), "too many namespace declarations in scope: the limit is 12");
+}
+
+TEST(LimitOfAWebSocket, IsTheNumberOfItsControlFrames) {
+    WebSocketClient moderate{limited()}, greedy{limited()};
+    moderate.call("connect");
+    for (int i = 0; i < 10; ++i) moderate.send("", Kind::pong);
+    moderate.send(request("search"));
+    EXPECT_STREQ(moderate.next_document().attribute("return_code").value(), "OK");
+    greedy.call("connect");
+    for (int i = 0; i < 11; ++i) greedy.send("", Kind::pong);
+    EXPECT_EQ(greedy.await_close(), 1008);
 }
 
 TEST(LimitOfAWebSocketMessage, IsTheNumberOfItsFrames) {

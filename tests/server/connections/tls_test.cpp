@@ -1,6 +1,7 @@
 // TLS on the ports of the gateway.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <csignal>
@@ -198,6 +199,48 @@ TEST_F(Tls, IsSpokenByTheMediaServer) {
     EXPECT_THAT(kit::HttpClient{address}.get("/unknown").body, HasSubstr("this port expects TLS"));
 }
 
+// The receiver neither closes the connection nor reads.
+TEST_F(Tls, EndsWithTheStreamOnTheMediaPort) {
+    GatewayProcess gateway{with({"--media", "127.0.0.1:0", "--max-media-connections", "1"})};
+    Application desk{Transport::websocket, certificates.trusting("own", gateway)};
+    desk.connect();
+    desk.bind("audio_streaming");
+    desk.set_parameter("audio_streaming", {{"encoding_parameters", "string", {"audio/wav;rate=8000"}},
+                                           {"transport_parameters", "string", {"http"}}});
+    auto const connected = command_ids(desk.execute(Command{.component = "audio_streaming", .type = "connect_stream"})).front();
+    EXPECT_EQ(desk.status_of(connected), "OK");
+    auto results = desk.get_command_result(connected).values();
+    auto const url = results["transport_parameters"].front(), id = results["stream_id"].front();
+    auto address = certificates.trusting("own", gateway);
+    auto const port = url.rfind(':') + 1, path = url.find('/', port);
+    address.port = static_cast<std::uint16_t>(std::stoi(url.substr(port, path - port)));
+    Line receiver{address};
+    receiver.send("GET " + url.substr(path) + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    receiver.take(44);
+    auto const ended = desk.execute(
+        Command{.component = "audio_streaming", .type = "disconnect_stream", .arguments = {{"stream_id", "string", {id}}}});
+    EXPECT_EQ(desk.status_of(command_ids(ended).front()), "OK");
+    EXPECT_EQ(kit::HttpClient{address}.get("/unknown").status, 404) << "there is a place for the next one";
+}
+
+TEST_F(Tls, IsNeededForPagesToo) {
+    GatewayProcess const gateway{with({})};
+    kit::HttpClient client{certificates.trusting("own", gateway)};
+    auto const status_of_page = [&](std::string const& scheme) {
+        return client.get("/rois/profile", {{"Origin", scheme + "://localhost"}}).status;
+    };
+    EXPECT_EQ(status_of_page("https"), 200);
+    EXPECT_EQ(status_of_page("http"), 403) << "anybody could have sent this page";
+}
+
+TEST_F(Tls, IsCheckedAlsoIfClientsMayHaveACertificate) {
+    certificates.make("other");
+    GatewayProcess const gateway{with({"--tls-client-ca", certificates.certificate("other")})};
+    auto const arguments = with({"--listen", "127.0.0.1:" + std::to_string(gateway.port()), "--tls-client-ca",
+                                 certificates.certificate("other"), "--check-health"});
+    EXPECT_EQ(run_gateway(arguments).exit_code, 0);
+}
+
 TEST_F(Tls, IsChecked) {
     GatewayProcess const gateway{with({})};
     auto arguments = with({"--listen", "127.0.0.1:" + std::to_string(gateway.port()), "--check-health"});
@@ -223,6 +266,11 @@ TEST_F(Tls, NeedsUsableFiles) {
     EXPECT_THAT(error_of({"--tls-certificate", "nowhere.pem", "--tls-key", certificates.key("own")}),
                 HasSubstr("tls_certificate: cannot use 'nowhere.pem': No such file"));
     EXPECT_THAT(error_of(with({"--tls-client-ca", certificates.key("own")})), HasSubstr("tls_client_ca: cannot use"));
+    auto const pipe = certificates.key("own") + ".pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THAT(error_of({"--tls-certificate", pipe, "--tls-key", certificates.key("own")}), HasSubstr("is not a regular file"));
+    EXPECT_THAT(error_of({"--tls-certificate", own, "--tls-key", pipe}), HasSubstr("is not a regular file"));
+    EXPECT_THAT(error_of(with({"--tls-client-ca", pipe})), HasSubstr("is not a regular file"));
 }
 
 }  // namespace rois::test

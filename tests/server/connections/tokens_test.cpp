@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "server/application.hpp"
@@ -286,34 +288,88 @@ TEST_F(Tokens, AreNamedInTheAuditLogAndNeverShown) {
         EXPECT_EQ(outcome(desk, "execute", sequence(unit(drive))), "OK");
         chief.call("connect");
         chief.call("bind", component_ref("navigation"), {{"take_over", "true"}});
+        desk.call("bind", component_ref("navigation"));
         desk.call("bind", component_ref("<script>"));
         desk.call("bind", component_ref("move"), {{"take_over", "true"}});
         chief.say(post("/rois/stop", "Authorization: Bearer " + administrator + "\r\n"));
         chief.say(post("/rois/clear", "Authorization: Bearer " + administrator + "\r\n"));
+        desk.call("stop_everything");
+        desk.call("clear_stop", {}, {{"stop", "0"}});
         HttpClient stranger{gateway};
         for (int i = 0; i < 30; ++i) stranger.get("/rois/profile/secret", {{"Authorization", "Bearer guess"}});
     }
     auto const text = run_shell("cat " + log).out;
     auto const without_times = run_shell("sed 's/\"time\":\"[^\"]*\",//' " + log).out;
-    for (auto const* line :
-         {R"({"what":"connected","token":"desk","session":1,"address":"127.0.0.1"})",
-          R"({"what":"bound","token":"desk","session":1,"component":"navigation"})",
-          R"({"what":"command begun","token":"desk","session":1,"component":"navigation","operation":"start"})",
-          R"({"what":"took over","token":"chief","session":2,"component":"navigation"})",
-          R"({"what":"command ended","token":"desk","session":1,"component":"navigation","operation":"start","outcome":"ABORT"})",
-          R"({"what":"released","token":"desk","session":1,"component":"navigation"})",
-          R"({"what":"bound","token":"chief","session":2,"component":"navigation"})",
-          R"({"what":"refused","token":"desk","session":1,"operation":"bind","outcome":"BAD_PARAMETER"})",
-          R"({"what":"refused","token":"desk","address":"127.0.0.1","operation":"bind","outcome":"not_allowed"})",
-          R"({"what":"stopped everything","token":"chief","address":"127.0.0.1"})",
-          R"({"what":"cleared the stop","token":"chief","address":"127.0.0.1"})",
-          R"({"what":"refused","address":"127.0.0.1","operation":"/rois/profile/","outcome":"unauthorized"})"})
+    for (
+        auto const* line :
+        {R"({"what":"connected","token":"desk","session":1,"address":"127.0.0.1"})",
+         R"({"what":"bound","token":"desk","session":1,"component":"navigation"})",
+         R"({"what":"command begun","token":"desk","session":1,"component":"navigation","operation":"start"})",
+         R"({"what":"took over","token":"chief","session":2,"component":"navigation"})",
+         R"({"what":"command ended","token":"desk","session":1,"component":"navigation","operation":"start","outcome":"ABORT"})",
+         R"({"what":"released","token":"desk","session":1,"component":"navigation"})",
+         R"({"what":"bound","token":"chief","session":2,"component":"navigation"})",
+         R"({"what":"refused","token":"desk","session":1,"component":"navigation","operation":"bind","outcome":"OUT_OF_RESOURCES"})",
+         R"({"what":"refused","token":"desk","session":1,"operation":"bind","outcome":"BAD_PARAMETER"})",
+         R"({"what":"refused","token":"desk","address":"127.0.0.1","operation":"bind","outcome":"not_allowed"})",
+         R"({"what":"stopped everything","token":"chief","address":"127.0.0.1"})",
+         R"({"what":"cleared the stop","token":"chief","address":"127.0.0.1"})",
+         R"({"what":"stopped everything","token":"desk","address":"127.0.0.1"})",
+         R"({"what":"cleared the stop","token":"desk","address":"127.0.0.1"})",
+         R"({"what":"refused","address":"127.0.0.1","operation":"/rois/profile/","outcome":"unauthorized"})"})
         EXPECT_THAT(without_times, HasSubstr(std::string{line} + "\n"));
     for (auto const& secret : {service, administrator, session, std::string{"guess"}, std::string{"my-secret-id"},
                                std::string{"script"}, std::string{"secret"}})
         EXPECT_THAT(text, Not(HasSubstr(secret)));
     EXPECT_LT(std::ranges::count(text, '\n'), 60) << "refusals do not flood it";
     EXPECT_EQ(run_shell("stat -c %a " + log).out, "600\n");
+}
+
+TEST_F(Tokens, HaveTheirAuditLogAlsoOfCommandsThatOutliveTheirSession) {
+    auto const token = file.add("desk", "operator");
+    auto const log = file.folder() + "/audit.log";
+    {
+        GatewayProcess const gateway{
+            file.of_gateway({"--audit-log", log, "--on-session-end", "continue", "--sim-speed", "0.01"})};
+        kit::HttpClient desk{with_token(token, gateway)};
+        desk.call("connect");
+        desk.call("bind", component_ref("speech_synthesis"));
+        Command const say{
+            .component = "speech_synthesis", .type = "start", .id = {}, .arguments = {{"speech_text", "string", {"Welcome."}}}};
+        EXPECT_EQ(outcome(desk, "execute", sequence(unit(say))), "OK");
+        desk.call("disconnect");
+    }
+    auto const without_times = run_shell("sed 's/\"time\":\"[^\"]*\",//' " + log).out;
+    auto const of_speech = std::string{R"("session":1,"component":"speech_synthesis")"};
+    EXPECT_THAT(without_times, HasSubstr(R"({"what":"released","token":"desk",)" + of_speech + "}\n"));
+    EXPECT_THAT(without_times,
+                HasSubstr(R"({"what":"command ended",)" + of_speech + R"(,"operation":"start","outcome":"ABORT"})" + "\n"));
+}
+
+TEST_F(Tokens, CountAndNameTheirSessionsAlsoAfterARestart) {
+    auto const token = file.add("desk", "operator");
+    auto const log = file.folder() + "/audit.log";
+    auto const arguments =
+        file.of_gateway({"--state", file.folder() + "/state", "--audit-log", log, "--max-sessions-per-address", "2"});
+    std::string session;
+    {
+        GatewayProcess gateway{arguments};
+        kit::HttpClient one{with_token(token, gateway)}, two{with_token(token, gateway)};
+        for (auto* client : {&one, &two}) {
+            EXPECT_EQ(outcome(*client, "connect"), "OK");
+            session = std::exchange(client->session, "");
+        }
+        gateway.signal(SIGKILL);
+        gateway.wait();
+    }
+    {
+        GatewayProcess const gateway{arguments};
+        kit::HttpClient third{with_token(token, gateway)}, second{with_token(token, gateway)};
+        EXPECT_EQ(third.call("connect").status, 429);
+        second.session = session;
+        EXPECT_EQ(bind(second, "navigation"), "OK");
+    }
+    EXPECT_THAT(run_shell("cat " + log).out, HasSubstr(R"("what":"bound","token":"desk","session":2,"component":"navigation"})"));
 }
 
 // A bind and a release write two lines of about 100 bytes: 300 of each make more than three files of 10,000 bytes.

@@ -6,6 +6,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <fstream>
+#include <thread>
+
 #include "kit/profile_folder.hpp"
 #include "server/application.hpp"
 #include "server/http_client.hpp"
@@ -361,6 +365,35 @@ TEST_F(HangUp, NeverEndsTheGateway) {
     for (int i = 0; i < 20; ++i) gateway.signal(SIGHUP);
     gateway.log_with("read again");
     EXPECT_EQ(HttpClient{gateway}.get("/healthz").status, 200);
+}
+
+// Returns whether the process ignores or handles SIGHUP (proc(5)).
+bool survives_hang_up(pid_t process) {
+    std::ifstream status{"/proc/" + std::to_string(process) + "/status"};
+    for (std::string line; std::getline(status, line);) {
+        bool const is_mask = line.starts_with("SigIgn:") || line.starts_with("SigCgt:");
+        if (is_mask && (std::stoull(line.substr(line.find('\t')), nullptr, 16) & 1U << (SIGHUP - 1)) != 0) return true;
+    }
+    return false;
+}
+
+TEST_F(HangUp, DoesNotEndAGatewayThatStarts) {
+    kit::Pipe errors;
+    auto const gateway = kit::start(kit::gateway_program, {"--listen", "127.0.0.1:0"}, {}, {.error = errors.to_write});
+    ::close(errors.to_write);
+    auto const patience = std::chrono::steady_clock::now() + std::chrono::seconds{10};
+    while (!survives_hang_up(gateway) && std::chrono::steady_clock::now() < patience) std::this_thread::yield();
+    std::string log;
+    {
+        std::jthread const others{[&](std::stop_token const& end) {
+            for (; !end.stop_requested(); std::this_thread::sleep_for(std::chrono::milliseconds{1})) ::kill(gateway, SIGHUP);
+        }};
+        while (log.find("listening on") == log.npos && kit::read_some(errors.to_read, log)) continue;
+    }
+    ::kill(gateway, SIGTERM);
+    while (kit::read_some(errors.to_read, log)) continue;
+    ::close(errors.to_read);
+    EXPECT_EQ(kit::exit_code(gateway), 0) << log;
 }
 
 TEST(EngineParameters, AreInItsProfile) {

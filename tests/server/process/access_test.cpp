@@ -70,7 +70,10 @@ TEST(TokenCommand, SaysWhatIsWrong) {
     expect_complaint(file.run({"add", "x", "--role", "observer", "--expires", "soon"}), "--expires must be a time in the future");
     expect_complaint(file.run({"add", "x", "--role", "observer", "--expires", "2001-01-01"}),
                      "--expires must be a time in the future");
-    expect_complaint(file.run({"add", "x", "--role", "observer", "--components", ""}), "--components must be a pattern");
+    expect_complaint(file.run({"add", "x", "--role", "observer", "--components", ""}),
+                     "--components cannot be '': expected patterns of refs");
+    for (auto const& pattern : {std::string{"robot[12"}, std::string{"a[]"}, std::string(300, 'x'), std::string{"\xff"}})
+        expect_complaint(file.run({"add", "x", "--role", "operator", "--commands", pattern}), "--commands cannot be '");
     expect_complaint(file.run({"add", "x", "--role", "observer", "--commands", "move"}),
                      "--commands has no effect with --role observer");
     expect_complaint(file.run({"revoke", "unknown"}), "there is no token with the name 'unknown'");
@@ -117,6 +120,10 @@ TEST(FileOfTokens, MustBeValidAndForItsOwnerOnly) {
             "expires must be a time");
     refused(R"({"tokens": [{"name": "x", "role": "observer", "sha256": ")" + hash + R"(", "components": "a"}]})",
             "components must be a list of patterns");
+    for (auto const* pattern : {"", "robot[12", "["})
+        refused(
+            R"({"tokens": [{"name": "x", "role": "observer", "sha256": ")" + hash + R"(", "components": [")" + pattern + "\"]}]}",
+            "of 1 to 256 characters, with a ']' for each '['");
     refused(R"({"tokens": [{"name": "x", "role": "observer", "sha256": ")" + hash + R"(", "rights": 1}]})",
             "'rights' is not a key of a token");
     auto const entry = [&](std::string const& name) {
@@ -158,8 +165,12 @@ TEST(WithoutTokens, OnlyThisMachineIsServed) {
         }
     TokenFile const file;
     file.add("desk", "operator");
-    EXPECT_EQ(run_gateway({"--listen", "0.0.0.0:0", "--check-config", "--tokens", file.name()}).exit_code, 0);
-    EXPECT_EQ(run_gateway({"--listen", "0.0.0.0:0", "--check-config", "--allow-anyone"}).exit_code, 0);
+    auto const with_tokens = run_gateway({"--listen", "0.0.0.0:0", "--check-config", "--tokens", file.name()});
+    EXPECT_EQ(with_tokens.exit_code, 0);
+    EXPECT_THAT(with_tokens.error, HasSubstr("clients send their tokens to 0.0.0.0:0 without TLS"));
+    auto const for_anyone = run_gateway({"--listen", "0.0.0.0:0", "--check-config", "--allow-anyone"});
+    EXPECT_EQ(for_anyone.exit_code, 0);
+    EXPECT_THAT(for_anyone.error, HasSubstr("everyone who reaches 0.0.0.0:0 may command the robot"));
     EXPECT_EQ(run_gateway({"--listen", "0.0.0.0:0", "--check-config"}, {{"ROIS_ALLOW_ANYONE", "yes"}}).exit_code, 0);
     EXPECT_EQ(run_gateway({"--listen", "localhost:0", "--media", "[::1]:0", "--check-config"}).exit_code, 0);
 }

@@ -36,21 +36,38 @@ protected:
     void drive() {
         auto const go =
             kit::sequence(kit::unit({.component = "navigation", .arguments = {kit::target_position({"8000, 6000, 30"})}}));
-        EXPECT_EQ(HttpClient{*gateway}.say("POST /rois/clear HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n\r\n").status,
-                  200);
+        EXPECT_EQ(post("/rois/clear").status, 200);
         auto const going = anew("execute", go);
         EXPECT_EQ(going.return_code(), "OK") << going.status << ' ' << going.body;
     }
 
-    // Sends a request in the desk's session on a new connection. Also takes the notifications: a session ends when too
-    // many wait while memory is missing.
+    // Calls `ask` with a new connection. Without memory, one that has been idle for 0.1 s is cut, which may cross a request: then
+    // the client sends it once more, as browsers do.
+    template <class Ask>
+    HttpReply on_new_connection(Ask ask) {
+        try {
+            return ask(HttpClient{*gateway});
+        } catch (LineEnded const&) {
+            return ask(HttpClient{*gateway});
+        }
+    }
+
+    HttpReply post(std::string const& path) {
+        return on_new_connection([&](HttpClient client) {
+            return client.say("POST " + path + " HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n\r\n");
+        });
+    }
+
+    // Sends a request in the desk's session. Also takes the notifications: a session ends when too many wait while memory is
+    // missing.
     HttpReply anew(std::string const& operation, Xml const& children = {}) {
-        HttpClient client{*gateway};
-        client.session = desk->session;
-        client.notifications(0, 0);
-        auto reply = client.call(operation, children);
-        client.session.clear();
-        return reply;
+        return on_new_connection([&](HttpClient client) {
+            client.session = desk->session;
+            client.notifications(0, 0);
+            auto reply = client.call(operation, children);
+            client.session.clear();
+            return reply;
+        });
     }
 
     // Sends `text` on `count` connections, and replaces the oldest of them again and again.
@@ -78,10 +95,8 @@ protected:
                 EXPECT_EQ(anew("release", component_ref("navigation")).return_code(), "OK");
                 EXPECT_EQ(anew("bind", component_ref("navigation")).return_code(), "OK");
                 drive();
-                auto const stopped =
-                    HttpClient{*gateway}.say("POST /rois/stop HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n\r\n");
-                EXPECT_THAT(stopped.status, testing::AnyOf(200, 202)) << "202: the robot still brakes";
-                EXPECT_EQ(HttpClient{*gateway}.get("/healthz").status, 200);
+                EXPECT_THAT(post("/rois/stop").status, testing::AnyOf(200, 202)) << "202: the robot still brakes";
+                EXPECT_EQ(on_new_connection([](HttpClient client) { return client.get("/healthz"); }).status, 200);
             });
             if (HasFailure()) return;
             ++rounds;

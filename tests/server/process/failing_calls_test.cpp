@@ -51,8 +51,8 @@ TEST_P(FailingCalls, EndNothingThatCannotBeRepeated) {
     for (unsigned which = 1; which <= last; ++which) {
         auto const failure = std::string{call} + " " + std::to_string(which) + " " + std::to_string(error);
         SCOPED_TRACE(failure);
-        GatewayProcess gateway{
-            {}, Variables{{"LD_PRELOAD", ROIS_BINARY_DIR "/tests/libfailing_call.so"}, {"ROIS_FAILING_CALL", failure}}};
+        GatewayProcess gateway{{},
+                               kit::preloading(ROIS_BINARY_DIR "/tests/libfailing_call.so", {{"ROIS_FAILING_CALL", failure}})};
         auto const session = ask(gateway, "", [](HttpClient& client) { return client.call("connect"); }).text("session");
         ASSERT_NE(session, "");
         auto const in_session = [&](std::string const& operation, Xml const& children) {

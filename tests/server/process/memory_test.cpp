@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "server/certificates.hpp"
+#include "server/token_file.hpp"
 #include "server/websocket_client.hpp"
 
 namespace rois::test {
@@ -109,6 +111,59 @@ TEST_F(Memory, IsBoundedForLongLiterals) {
     client.call("connect");
     for (int i = 0; i < 60; ++i) client.call("subscribe", one_of(2, std::to_string(i) + std::string(900'000, 'x')));
     EXPECT_LT(gateway->resident_bytes(), 60 * mib);
+}
+
+// An idle connection with TLS takes 75 kB.
+struct MemoryOfTls : Memory {
+    void fill(std::vector<std::string> const& arguments) {
+        certificates.make("robot");
+        start(64, certificates.of_gateway("robot", arguments));
+        address = certificates.trusting("robot", *gateway);
+        desk_address = address;
+    }
+    // Opens more connections than there is memory for.
+    void use_up() {
+        for (int i = 0; i < 900; ++i) try {
+                strangers.emplace_back(address);
+            } catch (std::exception const&) {  // the gateway has cut it
+            }
+    }
+    HttpReply stop(kit::HttpClient& client) const {
+        auto const token = desk_address.token.empty() ? "" : "Authorization: Bearer " + desk_address.token + "\r\n";
+        return client.say("POST /rois/stop HTTP/1.1\r\nHost: localhost\r\n" + token + "Content-Length: 0\r\n\r\n");
+    }
+
+    Certificates const certificates;
+    kit::Address address, desk_address;
+    std::list<kit::HttpClient> strangers;
+};
+
+TEST_F(MemoryOfTls, ThatIsUsedUpLeavesAnswers) {
+    fill({});
+    kit::HttpClient early{desk_address};
+    early.call("connect");
+    early.call("bind", component_ref("navigation"));
+    use_up();
+    EXPECT_EQ(kit::HttpClient{desk_address}.call("connect").status, 429) << "there is no memory for a session";
+    EXPECT_EQ(stop(early).status, 200);
+    EXPECT_EQ(early.call("release", component_ref("navigation")).return_code(), "OK");
+    kit::HttpClient late{desk_address};
+    EXPECT_EQ(stop(late).status, 200);
+}
+
+TEST_F(MemoryOfTls, IsTakenFromStrangers) {
+    TokenFile const file;
+    auto const token = file.add("desk", "operator");
+    fill(file.of_gateway());
+    desk_address.token = token;
+    kit::HttpClient early{desk_address};
+    early.call("connect");
+    use_up();
+    EXPECT_EQ(stop(early).status, 200) << "its connection was not cut";
+    bool has_room = false;
+    for (auto const until = std::chrono::steady_clock::now() + 5s; !has_room && std::chrono::steady_clock::now() < until;)
+        has_room = kit::HttpClient{desk_address}.call("connect").status == 200;
+    EXPECT_TRUE(has_room);
 }
 
 TEST_F(Memory, IsBoundedForUnfinishedBodies) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <memory>
@@ -53,6 +54,16 @@ TEST_F(TrustedEngines, AreAskedWithTheTokenOfTheirEntry) {
     application.disconnect();
 }
 
+TEST_F(TrustedEngines, AreNotAskedWithATokenThatOthersCouldRead) {
+    put("engine.token", engine);
+    put("engines.json", R"({"engines": [{"name": "hall", "url": "ws://192.0.2.1:8080", "token_file": "engine.token"}]})");
+    auto arguments = main();
+    arguments.emplace_back("--check-config");
+    EXPECT_THAT(
+        run_gateway(arguments).error,
+        HasSubstr("engines.json:1:61: sub engine 'hall': others could read the token on its way to 'ws://192.0.2.1:8080'"));
+}
+
 TEST_F(TrustedEngines, JoinWithATokenUntilItIsRevoked) {
     put("engines.json", R"({"engines": [{"name": "hall", "joins": "hall"}]})");
     put("engine.token", engine);
@@ -69,6 +80,18 @@ TEST_F(TrustedEngines, JoinWithATokenUntilItIsRevoked) {
     gateway.log_with("present with");
     EXPECT_EQ(file.run({"revoke", "engine"}).exit_code, 0);
     EXPECT_THAT(robot.log_with("401"), HasSubstr("401")) << "the link was cut, and another one is refused";
+}
+
+TEST_F(TrustedEngines, DoNotKeepAGatewayThatEnds) {
+    put("engines.json", R"({"engines": [{"name": "hall", "joins": "hall"}]})");
+    put("engine.token", engine);
+    GatewayProcess gateway{main()};
+    GatewayProcess const robot{{"--join", gateway.url(), "--join-as", "hall", "--join-token-file", path("engine.token")}};
+    gateway.log_with("present with");
+    auto const begun = std::chrono::steady_clock::now();
+    gateway.signal(SIGTERM);
+    EXPECT_EQ(gateway.wait().exit_code, 0);
+    EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds{3}) << "shutdown_timeout is 5 s";
 }
 
 TEST_F(TrustedEngines, JoinOnlyByTheNamesThatTheirTokensCover) {

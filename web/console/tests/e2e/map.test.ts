@@ -315,7 +315,7 @@ describe('people', () => {
       await pass_until(page, page.getByText('robot1 has reached start'));
       await hall.walk('tanaka', '8000, 6000, 180');
       await pass_until(page, row(page, /tanaka/), 200);
-      await pass_until(page, row(page, /tanaka person-\d/).getByText(/x (7\.9|8\.[01])\d m, y (5\.9|6\.0)/), 200);
+      await pass_until(page, row(page, /tanaka person-\d/).getByText(/x (7\.[89]|8\.[0-2])\d m, y (5\.[89]|6\.[0-2])/), 200);
       const trails = await page.evaluate(() => [...(window as unknown as { rois: Console }).rois.entities.all.values()].filter((one) => one.kind === 'person').map((one) => one.trail.size));
       expect(trails.every((points) => points > 1), `trails of ${trails.join(', ')} points`).toBe(true);
       await hall.say('tanaka', 'Good morning, is anybody there? I have come for the meeting at ten.');
