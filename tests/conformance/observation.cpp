@@ -137,9 +137,9 @@ milliseconds duration_of(Client& client, Command const& command, Component const
     return since(begin);
 }
 
-milliseconds shortest_duration(Client& client, Component const& component) {
+milliseconds shortest_duration(Client& client, Command const& command, Component const& component) {
     auto shortest = milliseconds::max();
-    for (int i = 0; i < 3; ++i) shortest = std::min(shortest, duration_of(client, command(component, "stop"), component));
+    for (int i = 0; i < 3; ++i) shortest = std::min(shortest, duration_of(client, command, component));
     return shortest;
 }
 

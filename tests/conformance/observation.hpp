@@ -69,8 +69,8 @@ void await_success(Client&, std::string const& command_id, Component const&);
 // Requires that the command completes with OK. Returns the time from the request to its end. Throws Skipped if the component has
 // failed.
 milliseconds duration_of(Client&, Command const&, Component const&);
-// Returns the duration of a command that completes at once: the transmission time to the component and back.
-milliseconds shortest_duration(Client&, Component const&);
+// Returns the shortest of three durations: a delay between the client and the robot only makes one longer.
+milliseconds shortest_duration(Client&, Command const&, Component const&);
 
 void wait(milliseconds);
 
