@@ -187,6 +187,7 @@ private:
     StoredEngine stored_engine() const;
     // Answers when the changes of the operation are stored, or cannot be stored now.
     void answer_when_stored(SharedAsked const&, Reply&&);
+    void look_again(Asked const&, Reply&) const;
     // Runs the commands of a sequence when they are stored, or at once. `reply` is the answer when they are stored.
     enum class Runs : std::uint8_t { when_stored, at_once };
     Later run_when_stored(Session&, SharedAsked const&, CommandUnitSequence const&, std::vector<Preparation>, Reply, Runs,

@@ -21,6 +21,7 @@
 #include "types/text/listing.hpp"
 #include "types/text/texts.hpp"
 #include "types/text/to_number.hpp"
+#include "wire/credentials.hpp"
 
 namespace rois {
 
@@ -197,6 +198,13 @@ SubEngine read(json const& entry, std::filesystem::path const& folder,
     if (!engine.token.empty() && remote::is_in_the_clear(engine.url))
         throw BadSettings{where("token_file") + named() + "others could read the token on its way to " +
                           rois::quoted(engine.url) + ": expected a URL with https:// or wss://"};
+    if (!engine.ca_file.empty()) {
+        try {
+            tls::require_certificates("ca_file", engine.ca_file);
+        } catch (std::runtime_error const& problem) {
+            throw BadSettings{where("ca_file") + named() + problem.what()};
+        }
+    }
     if (!engine.command.empty()) {
         if (engine.url.empty() && engine.joins.empty()) engine.joins = engine.name;
         if (!is_found(engine.command.front(), folder))

@@ -250,6 +250,7 @@ int serve(CommandLine const& command) {
     auto const choosing_settings = settings.engines.empty() ? choosing::Settings{} : read_choosing(settings.engines, sub_engines);
     auto const credentials = credentials_of(settings.tls);
     auto const join_token = settings.join_token_file.empty() ? std::string{} : token_in(settings.join_token_file);
+    if (!settings.join_ca_file.empty()) tls::require_certificates("join_ca_file", settings.join_ca_file);
     auto warnings = command.warnings;
     std::ranges::copy(check_exposure(settings), std::back_inserter(warnings));
     if (command.wish == CommandLine::Wish::check_config) {

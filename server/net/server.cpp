@@ -22,12 +22,6 @@
 
 namespace rois::net {
 
-namespace {
-
-using Signals = asio::basic_signal_set<Executor>;
-
-}  // namespace
-
 class Server::Running {
 public:
     Running(Settings settings, Gateway& gateway, Telemetry& telemetry, Documents const& documents,
@@ -100,6 +94,8 @@ public:
     }
 
 private:
+    using Signals = asio::basic_signal_set<Executor>;
+
     void show_limits(Settings const& settings) {
         shared_.telemetry.set(Telemetry::Limit::connections, settings.max_connections);
         shared_.telemetry.set(Telemetry::Limit::connections_per_address, settings.max_connections_per_address);

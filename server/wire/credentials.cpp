@@ -29,6 +29,13 @@ void require(boost::system::error_code const& error, std::string const& key, std
                                  " in PEM format"};
 }
 
+void trust(ssl::context& context, std::string const& key, std::string const& file) {
+    require_file(key, file);
+    boost::system::error_code error;
+    context.load_verify_file(file, error);
+    require(error, key, file, "certificates");
+}
+
 // No session is resumed: each connection is checked with the present files.
 std::shared_ptr<ssl::context> read(Files const& files) {
     auto context = std::make_shared<ssl::context>(ssl::context::tls_server);
@@ -42,7 +49,6 @@ std::shared_ptr<ssl::context> read(Files const& files) {
     ::SSL_CTX_set_mode(native, SSL_MODE_RELEASE_BUFFERS);
     require_file("tls_certificate", files.certificate);
     require_file("tls_key", files.key);
-    require_file("tls_client_ca", files.client_ca);
     boost::system::error_code error;
     context->use_certificate_chain_file(files.certificate, error);
     require(error, "tls_certificate", files.certificate, "a certificate, and those between it and its root,");
@@ -51,8 +57,7 @@ std::shared_ptr<ssl::context> read(Files const& files) {
     context->use_private_key_file(files.key, ssl::context::pem, error);
     require(error, "tls_key", files.key, "the private key of the certificate, without a password,");
     if (files.client_ca.empty()) return context;
-    context->load_verify_file(files.client_ca, error);
-    require(error, "tls_client_ca", files.client_ca, "certificates");
+    trust(*context, "tls_client_ca", files.client_ca);
     auto const mode = files.client_must ? ssl::verify_peer | ssl::verify_fail_if_no_peer_cert : ssl::verify_peer;
     context->set_verify_mode(mode, error);
     return context;
@@ -67,6 +72,11 @@ std::shared_ptr<ssl::context> Credentials::read_again() const { return read(file
 void Credentials::use(std::shared_ptr<ssl::context> fresh) {
     std::lock_guard const lock{mutex_};
     context_ = std::move(fresh);
+}
+
+void require_certificates(std::string const& key, std::string const& file) {
+    ssl::context context{ssl::context::tls_client};
+    trust(context, key, file);
 }
 
 }  // namespace rois::tls

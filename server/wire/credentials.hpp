@@ -4,6 +4,7 @@
 #include <boost/asio/ssl/context.hpp>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <string_view>
 
 #include "wire/tls_files.hpp"
@@ -33,5 +34,8 @@ private:
     mutable std::mutex mutex_;
     std::shared_ptr<boost::asio::ssl::context> context_;
 };
+
+// Throws std::runtime_error that names the key, the file and the problem, unless the file holds certificates.
+void require_certificates(std::string const& key, std::string const& file);
 
 }  // namespace rois::tls

@@ -1,5 +1,6 @@
 // What the engine stores, and how it continues after the process has died (docs/journal.md).
 #include "engine/journaled.hpp"
+#include "types/asking.hpp"
 
 namespace rois {
 
@@ -163,6 +164,20 @@ TEST_F(Journaled, ARefusalAboutACommandWaitsUntilThatIsStored) {
     store();
     EXPECT_EQ(std::get<Execute::Reply>(std::get<Reply>(again->said.value())).reason,
               "command_unit_list[1]: the command_id 'go' is in use in this session");
+}
+
+TEST_F(Journaled, ARefusalSaysWhenTheCommandThatHadTheIdCannotBeStored) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    journal().then = MemoryJournal::Then::later;
+    world.begin_to_say(desk.session, Execute{{{go("go")}}});
+    auto const again = world.begin_to_say(desk.session, Execute{{{go("go")}}});
+    auto const unknown = world.begin_to_say(desk.session, Execute{{{command("fly", "navigation")}}});
+    fail_to_store();
+    world.advance(50ms);
+    auto const code_of = [](auto const& asked) { return outcome_of(std::get<Reply>(asked->said.value())).return_code; };
+    EXPECT_EQ(code_of(again), ReturnCode::out_of_resources) << "no command has this id";
+    EXPECT_EQ(code_of(unknown), ReturnCode::bad_parameter);
 }
 
 TEST_F(Journaled, QueriesDoNotWait) {

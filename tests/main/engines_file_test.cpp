@@ -188,6 +188,12 @@ TEST(EnginesFile, IsCheckedAgainstTheNamesOfTheGateway) {
     EXPECT_EQ(complaint_of("robot1", {"--robots", "none"}), "");
 }
 
+TEST(EnginesFile, NamesCertificatesThatExist) {
+    EXPECT_EQ(complaint("{\"engines\": [{\"name\": \"a\", \"url\": \"wss://a\",\n \"ca_file\": \"/nowhere.pem\"}]}"),
+              "2:2: sub engine 'a': ca_file: cannot use '/nowhere.pem': No such file or directory (system library); expected "
+              "certificates in PEM format");
+}
+
 TEST(EnginesFile, ReportsAMistakeInItsOwnEntry) {
     EXPECT_EQ(
         complaint("{\"engines\": [\n {\"name\": \"a\", \"url\": \"ws://a\", \"window\": 3, \"covariance\": [1,0,0,0,-1,0,0,0,1]},"

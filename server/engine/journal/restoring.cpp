@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/commands/sequence_check.hpp"
 #include "engine/core.hpp"
 #include "types/asking.hpp"
 #include "types/text/texts.hpp"
@@ -70,8 +71,19 @@ void Engine::Core::not_stored(Instant now) {
 
 void Engine::Core::answer_when_stored(SharedAsked const& asked, Reply&& reply) {
     if (!recorder_.must_wait()) return asked->answer(std::move(reply));
-    recorder_.when_stored(
-        [asked, held = std::make_shared<Reply>(std::move(reply))](bool, Instant) { asked->answer(std::move(*held)); });
+    recorder_.when_stored([this, asked, held = std::make_shared<Reply>(std::move(reply))](bool stored, Instant) {
+        Attempts attempts;
+        if (!stored) attempts([&] { look_again(*asked, *held); });
+        asked->answer(std::move(*held));
+    });
+}
+
+// A refusal that the id of the command is in use is wrong if the other command has not begun, because it could not be stored.
+void Engine::Core::look_again(Asked const& asked, Reply& reply) const {
+    auto const* const execute = std::get_if<Execute>(&asked.operation());
+    auto const* const session = session_of(asked);
+    if (execute == nullptr || session == nullptr || outcome_of(reply).return_code != ReturnCode::bad_parameter) return;
+    if (!SequenceCheck{*session, registry_}.objection(execute->command_unit_list)) reply = not_stored_reply(asked.operation());
 }
 
 Engine::Core::Later Engine::Core::run_when_stored(Session& session, SharedAsked const& asked, CommandUnitSequence const& sequence,
