@@ -23,7 +23,8 @@ Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instan
         return refused<Subscribe::Reply>(ReturnCode::out_of_resources, *std::move(problem));
     Subscribe::Reply reply;
     reply.subscribe_id = subscriptions_.add(session, subscribe.event_type, std::move(wanted), subscribe.inline_results).id;
-    recorder_.subscribed(session, reply.subscribe_id, subscribe);
+    recorder_.subscribed(session, reply.subscribe_id, subscribe,
+                         again ? Recorder::Has::subscribed_again : Recorder::Has::subscribed);
     deliver_kept(subscribe.event_type, now);
     return reply;
 }

@@ -269,6 +269,37 @@ TEST_F(Journaled, WhatBeginsAndEndsWhileTheDiskIsFullLeavesNoTrace) {
     EXPECT_EQ(journal().gone, 1u) << "that one is in the journal";
 }
 
+TEST_F(Journaled, ASubscriptionThatIsRepeatedAndEndsWhileTheDiskIsFullDoesNotReturn) {
+    auto desk = world.connect();
+    auto const stored = desk.subscribe("reached_target");
+    journal().then = MemoryJournal::Then::not_stored;
+    EXPECT_EQ(desk.subscribe("reached_target").subscribe_id, stored.subscribe_id);
+    world.advance(300ms);
+    EXPECT_EQ(desk.subscribe("reached_target").subscribe_id, stored.subscribe_id);
+    EXPECT_EQ(desk.unsubscribe(stored.subscribe_id), ReturnCode::ok);
+    journal().then = MemoryJournal::Then::stored;
+    world.advance(300ms);
+    auto resumed = die_and_resume(desk);
+    world["navigation"].fires("reached_target");
+    EXPECT_THAT(resumed.received(), IsEmpty());
+}
+
+TEST_F(Journaled, SubscriptionsWithOneConditionBelongToTheirSessions) {
+    auto leaves = world.connect(), stays = world.connect();
+    auto const id = leaves.subscribe("reached_target").subscribe_id;
+    journal().then = MemoryJournal::Then::not_stored;
+    EXPECT_EQ(stays.subscribe("reached_target").subscribe_id, id);
+    world.advance(300ms);
+    EXPECT_EQ(leaves.unsubscribe(id), ReturnCode::ok);
+    world.advance(300ms);
+    journal().then = MemoryJournal::Then::stored;
+    world.advance(300ms);
+    auto resumed = die_and_resume(stays);
+    world["navigation"].fires("reached_target");
+    EXPECT_THAT(resumed.received(), ElementsAre("1 reached_target navigation"));
+    EXPECT_THAT((Application{world, leaves.session}.received()), IsEmpty());
+}
+
 TEST_F(Journaled, AJournalThatTakesTooLongCountsAsFull) {
     auto desk = world.connect();
     desk.bind("navigation");

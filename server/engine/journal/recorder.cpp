@@ -58,42 +58,34 @@ void append(auto& to, auto& from) noexcept {
 }  // namespace
 
 bool Recorder::Collected::any() const {
-    return engine || !sessions.empty() || !with_news.empty() || !commands.empty() || !others.subscriptions.empty() ||
-           !others.ended.empty() || !others.unsubscribed.empty() || !others.forgotten_commands.empty();
+    return engine || !sessions.empty() || !with_news.empty() || !commands.empty() || !subscriptions.empty() ||
+           !others.ended.empty() || !others.forgotten_commands.empty();
 }
 
 void Recorder::Collected::forget(Session& session) {
     sessions.erase(&session);
     with_news.erase(&session);
     std::erase_if(commands, [&](auto const& command) { return command->session == &session || command->session == nullptr; });
-    auto const is_of_it = [&](auto const& each) { return each.session == session.number; };
-    std::erase_if(others.subscriptions, is_of_it);
-    std::erase_if(others.unsubscribed, is_of_it);
-    std::erase_if(others.forgotten_commands, is_of_it);
+    std::erase_if(subscriptions, [&](auto const& each) { return each.first.first == session.number; });
+    std::erase_if(others.forgotten_commands, [&](auto const& each) { return each.session == session.number; });
 }
 
 // The changes of `earlier` that are still true come before these. A subscription that has ended before it was stored leaves no
 // trace.
 void Recorder::Collected::add(Collected& earlier) {
-    std::set<std::string> begun, gone;  // their ids are unique in the engine
-    for (auto const& each : earlier.others.subscriptions) begun.insert(each.id.text);
-    for (auto const& each : others.unsubscribed) gone.insert(each.id);
     auto const make_room = [](auto& to, auto const& from) { to.reserve(to.size() + from.size()); };
-    make_room(earlier.others.subscriptions, others.subscriptions);
     make_room(others.ended, earlier.others.ended);
-    make_room(others.unsubscribed, earlier.others.unsubscribed);
     make_room(others.forgotten_commands, earlier.others.forgotten_commands);
     // Nothing below throws.
-    std::erase_if(earlier.others.subscriptions, [&](auto const& each) { return gone.contains(each.id.text); });
-    std::erase_if(others.unsubscribed, [&](auto const& each) { return begun.contains(each.id); });
+    for (auto const& [key, before] : earlier.subscriptions)
+        if (auto const later = subscriptions.find(key); later != subscriptions.end()) later->second.is_new = before.is_new;
+    subscriptions.merge(earlier.subscriptions);
+    std::erase_if(subscriptions, [](auto const& each) { return each.second.is_new && !each.second.asked; });
     engine = engine || earlier.engine;
     sessions.merge(earlier.sessions);
     with_news.merge(earlier.with_news);
     commands.merge(earlier.commands);
-    append(earlier.others.subscriptions, others.subscriptions);
-    std::swap(others.subscriptions, earlier.others.subscriptions);
     append(others.ended, earlier.others.ended);
-    append(others.unsubscribed, earlier.others.unsubscribed);
     append(others.forgotten_commands, earlier.others.forgotten_commands);
     earlier = {};
 }
@@ -118,15 +110,18 @@ void Recorder::ended(Session& session) {
     session.is_stored = false;
 }
 
-void Recorder::subscribed(Session const& session, SubscribeId const& id, Subscribe const& asked) {
-    if (stores(session)) changed_.others.subscriptions.push_back({session.number, id, asked});
+void Recorder::subscribed(Session const& session, SubscribeId const& id, Subscribe const& asked, Has has) {
+    if (!stores(session)) return;
+    Subscribed const subscription{asked, has == Has::subscribed};
+    auto const [place, is_first] = changed_.subscriptions.try_emplace({session.number, id.text}, subscription);
+    if (!is_first) place->second.asked = asked;
 }
 
 void Recorder::unsubscribed(Session const& session, SubscribeId const& id) {
     if (!stores(session)) return;
-    auto const is_it = [&](StoredSubscription const& one) { return one.session == session.number && one.id == id; };
-    if (std::erase_if(changed_.others.subscriptions, is_it) == 0)
-        changed_.others.unsubscribed.push_back({session.number, id.text});
+    auto const place = changed_.subscriptions.try_emplace({session.number, id.text}).first;
+    place->second.asked.reset();
+    if (place->second.is_new) changed_.subscriptions.erase(place);
 }
 
 void Recorder::changed(std::shared_ptr<Command> const& command) {
@@ -184,6 +179,12 @@ std::shared_ptr<Changes> Recorder::changes(StoredEngine const& engine, std::vect
         for (auto const& [id, session] : sessions_)
             if (stores(*session)) changed_.with_news.insert(session.get());
     for (auto* session : changed_.with_news) add_notifications(*session, *changes, to_show);
+    for (auto const& [key, each] : changed_.subscriptions) {
+        if (each.asked)
+            changes->subscriptions.push_back({key.first, {key.second}, *each.asked});
+        else
+            changes->unsubscribed.push_back({key.first, key.second});
+    }
     for (auto const* session : changed_.sessions) changes->sessions.push_back(to_store(*session));
     for (auto const& command : changed_.commands) changes->commands.push_back(to_store(*command));
     return changes;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -37,7 +38,8 @@ public:
     void ended(Session&);
     // This session from before a restart does not return.
     void withdrawn(std::uint64_t session) { changed_.others.ended.push_back(session); }
-    void subscribed(Session const&, SubscribeId const&, Subscribe const&);
+    enum class Has : std::uint8_t { subscribed, subscribed_again };  // it had this subscription before
+    void subscribed(Session const&, SubscribeId const&, Subscribe const&, Has);
     void unsubscribed(Session const&, SubscribeId const&);
     void changed(std::shared_ptr<Command> const&);
     void forgot(Session const&, std::shared_ptr<Command> const&);
@@ -76,12 +78,17 @@ public:
     void look(Instant now, Attempts&);
 
 private:
+    struct Subscribed {
+        std::optional<Subscribe> asked;  // nullopt: the subscription has ended
+        bool is_new = false;             // the journal does not have it yet
+    };
     struct Collected {
         bool engine = false;
         std::set<Session*> sessions;
         std::set<Session*> with_news;  // sessions with new notifications
         std::set<std::shared_ptr<Command>> commands;
-        Changes others;  // subscriptions, and what is gone
+        std::map<std::pair<std::uint64_t, std::string>, Subscribed> subscriptions;  // by the number of the session, and id
+        Changes others;                                                              // what is gone
 
         bool any() const;
         void forget(Session&);
