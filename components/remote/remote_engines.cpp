@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "core/loop.hpp"
+#include "engine/attempts.hpp"
 #include "remote/join_acceptor.hpp"
 #include "remote/joiner.hpp"
 #include "remote/rate_limit.hpp"
@@ -75,7 +76,10 @@ public:
 
     void everything_stopped(bool is_stopped) {
         everything_is_stopped_ = is_stopped;
-        for (auto const& [name, engine] : engines_) is_stopped ? engine->stop_everything() : engine->clear_stop();
+        Attempts attempts;
+        for (auto const& [name, engine] : engines_)
+            attempts([&] { is_stopped ? engine->stop_everything() : engine->clear_stop(); });
+        attempts.rethrow();
     }
 
     void accept(UniqueDescriptor&& socket, std::string head, JoinAcceptor::MayJoin may_join) {

@@ -231,12 +231,9 @@ void RemoteEngine::note_stop_there(std::optional<std::uint64_t> stop) {
     if (std::exchange(stop_there_, stop) != stop) host_->stopped_there(settings_.name, stop);
 }
 
-// Asks until all components there stand still. A component program does not know this request: it has no other applications. If
-// an earlier session has ended before the answer, the number of its stop is not known: asks again, to clear that stop.
+// Asks until all components there stand still. A component program does not know this request: it has no other applications.
 void RemoteEngine::ask_to_stop() {
-    bool const is_needed = everything_is_stopped_ || stop_there_ == ClearStop::own;
-    if (!is_needed || !is_open_ || std::exchange(stop_is_asked_, true)) return;
-    if (!stop_there_) note_stop_there(ClearStop::own);
+    if (!everything_is_stopped_ || !is_open_ || std::exchange(stop_is_asked_, true)) return;
     ask(StopEverything{}, [self = shared_from_this()](Reply const* reply) {
         self->stop_is_asked_ = false;
         auto const* stopped = reply == nullptr ? nullptr : std::get_if<StopEverything::Reply>(reply);
@@ -255,6 +252,7 @@ void RemoteEngine::ask_to_stop() {
         }
         if (is_waiting) self->host_->at(self->host_->now() + between_questions, [self] { self->ask_to_stop(); });
     });
+    if (!stop_there_) note_stop_there(ClearStop::own);
 }
 
 void RemoteEngine::pause(std::shared_ptr<ComponentRecord> const& record, Ticket ticket, std::string const& command_type) {

@@ -194,8 +194,9 @@ private:
                           Instant now);
     void restore(StoredSession&&, StoredState&, RightsOf const&, Instant now);
     void restore(Session&, StoredCommand&&, Instant now);
-    void restore(Session&, StoredBinding const&, Instant now);
     bool restore(StoredSubscription const&);
+    void bind_absent(Session&, Instant now);
+    void ask_to_bind(Session&, RegisteredComponent&, StoredBinding const&, Instant now);
     void take_answer(Session&, RegisteredComponent&, StoredBinding const&, std::optional<ComponentAnswer> const&, Instant now);
     void bind_again(Session&, RegisteredComponent&, StoredBinding const&, Instant now);
     void ask_absent_again(Instant now);

@@ -160,14 +160,16 @@ Reply Engine::Core::perform(Session& session, StopEverything const&, Instant now
         session.owns_stop = !was_stopped || present_stop_has_owners();
         auto const number = last_stop_;
         auto ended_owners = std::move(ended_owners_);
-        stop_everything(now);
+        Attempts attempts;
+        attempts([&] { stop_everything(now); });
         if (was_stopped) {
             last_stop_ = number;
             ended_owners_ = std::move(ended_owners);
-            follow_ended_owner(session);
+            attempts([&] { follow_ended_owner(session); });
         }
         session.last_stop = last_stop_;
-        recorder_.changed(session);
+        attempts([&] { recorder_.changed(session); });
+        attempts.rethrow();
     }
     if (owns_present_stop(session)) reply.stop = last_stop_;  // also again: the first answer may have been lost
     reply.not_halted = not_halted();
@@ -176,7 +178,9 @@ Reply Engine::Core::perform(Session& session, StopEverything const&, Instant now
 }
 
 Reply Engine::Core::perform(Session& session, ClearStop const& asked, Instant) {
-    auto const stop = asked.stop == ClearStop::own && owns_present_stop(session) ? last_stop_ : asked.stop;
+    // An engine whose earlier session has ended before it knew the number of its stop.
+    bool const follows = session.is_engine && std::ranges::find(ended_owners_, owner_of(session)) != ended_owners_.end();
+    auto const stop = asked.stop == ClearStop::own && (owns_present_stop(session) || follows) ? last_stop_ : asked.stop;
     if (stop != last_stop_ || !present_stop_has_owners()) return ClearStop::Reply{};
     recorder_.changed(session);
     recorder_.changed_engine();

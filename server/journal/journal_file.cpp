@@ -106,6 +106,7 @@ void JournalFile::Close::operator()(sqlite3_stmt* statement) const { sqlite3_fin
 
 JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
     : name_{folder + "/journal.db"},
+      log_{name_ + "-wal"},
       reserve_{folder + "/reserve"},
       log_pages_{longest_log},  // an earlier process may have left a long log
       most_pages_{most_pages(most_bytes)} {
@@ -114,7 +115,7 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
     check_log(is_new);
     open();
     check_header(is_new);
-    for (auto const* end : {"", "-wal"}) keep_to_owner(name_ + end);
+    for (auto const& each : {name_, log_}) keep_to_owner(each);
     struct stat found {};
     if (::lstat(name_.c_str(), &found) != 0) refuse("cannot be read");
     inode_ = found.st_ino;
@@ -140,14 +141,13 @@ void JournalFile::refuse(std::string const& why) const { throw BadJournal{"state
 
 // SQLite itself drops all steps behind a damaged place in its log, as after a write that was cut short.
 void JournalFile::check_log(bool is_new) const {
-    auto const log = name_ + "-wal";
-    UniqueDescriptor const file{::open(log.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
+    UniqueDescriptor const file{::open(log_.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
     if (file.get() < 0 && errno == ENOENT) return;
     struct stat found {};
     if (file.get() < 0 || ::fstat(file.get(), &found) != 0 || !S_ISREG(found.st_mode))
-        throw BadJournal{"state: cannot read " + rois::quoted(log)};
-    if (is_new && found.st_size > 0) refuse("is missing or empty, and its log " + rois::quoted(log) + " is not");
-    if (is_damaged_log(file.get())) throw BadJournal{"state: " + rois::quoted(log) + " is damaged"};
+        throw BadJournal{"state: cannot read " + rois::quoted(log_)};
+    if (is_new && found.st_size > 0) refuse("is missing or empty, and its log " + rois::quoted(log_) + " is not");
+    if (is_damaged_log(file.get())) throw BadJournal{"state: " + rois::quoted(log_) + " is damaged"};
 }
 
 void JournalFile::open() {
@@ -324,7 +324,7 @@ JournalFile::Result JournalFile::tidy() {
 bool JournalFile::is_in_place() {
     struct stat named {};
     if (::lstat(name_.c_str(), &named) != 0 || named.st_ino != inode_ || named.st_dev != device_) return false;
-    bool const has_log = ::lstat((name_ + "-wal").c_str(), &named) == 0;
+    bool const has_log = ::lstat(log_.c_str(), &named) == 0;
     if (log_inode_ == 0 && has_log) log_inode_ = named.st_ino;
     return log_inode_ == 0 || (has_log && named.st_ino == log_inode_);
 }

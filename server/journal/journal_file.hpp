@@ -85,8 +85,9 @@ private:
     void give_up_reserve();
     [[noreturn]] void refuse(std::string const& why) const;
 
-    std::string name_;
-    std::string reserve_;
+    std::string const name_;
+    std::string const log_;  // of SQLite
+    std::string const reserve_;
     ::ino_t inode_ = 0;      // of the database
     ::ino_t log_inode_ = 0;  // of SQLite's log; 0: not seen yet
     ::dev_t device_ = 0;

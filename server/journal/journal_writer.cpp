@@ -69,11 +69,11 @@ void JournalWriter::write(Changes const& changes) {
         result = file_->store(records_of(changes));
         if (result == JournalFile::Result::no_room && !std::exchange(is_failing_, true))
             calls_.say("not stored, and tried again: " + file_->problem());
-    } catch (std::bad_alloc const&) {  // `done` says that they are not stored
+        auto const time = std::chrono::steady_clock::now() - begin;
+        if (time >= slow) calls_.say("storing took " + in_seconds(time) + ": the disk is slow");
+    } catch (std::bad_alloc const&) {  // `done` says whether they are stored
     }
     if (result == JournalFile::Result::broken) return calls_.broken(file_->name() + ": " + file_->problem());
-    auto const time = std::chrono::steady_clock::now() - begin;
-    if (time >= slow) calls_.say("storing took " + in_seconds(time) + ": the disk is slow");
     bool const stored = result == JournalFile::Result::stored;
     if (stored) is_failing_ = false;
     ++(stored ? stored_ : not_stored_);
@@ -84,7 +84,10 @@ void JournalWriter::write(Changes const& changes) {
 void JournalWriter::note_room() {
     file_->keep_reserve(std::chrono::steady_clock::now());
     if (has_room_.exchange(file_->has_reserve()) == file_->has_reserve()) return;
-    calls_.say(file_->has_reserve() ? "the journal has room again" : no_room);
+    try {
+        calls_.say(file_->has_reserve() ? "the journal has room again" : no_room);
+    } catch (std::bad_alloc const&) {  // a line less in the log
+    }
 }
 
 }  // namespace rois::journal

@@ -112,28 +112,35 @@ void Listener::serve(Socket socket, Admission::Place place) {
 }
 
 // Without a free place, takes that of a stranger or of the connection that has been idle for longest, or waits: then the kernel
-// keeps further connections waiting. Returns nothing if its address has reached its limit, or if the listener is closed.
+// keeps further connections waiting. If its address has reached its limit, does not wait: others may be behind it. Returns
+// nothing if that limit stays, or if the listener is closed.
 Task<std::optional<Admission::Place>> Listener::place(Socket& socket) {
+    auto& shared = loop_.shared();
     auto const address = remote_address(socket);
     if (!address) co_return std::nullopt;
-    for (unsigned looks = 1; acceptor_.is_open(); ++looks) {
-        auto entered = admission_.enter(*address, limits_of(*address, loop_.shared().settings().proxies));
+    auto const limits = limits_of(*address, shared.settings().proxies);
+    bool const has_tokens = shared.gateway.tokens() != nullptr;
+    auto number = Admission::OfAddress::limited;
+    for (unsigned looks = 0; acceptor_.is_open();) {
+        auto entered = admission_.enter(*address, limits, number);
         if (auto* place = std::get_if<Admission::Place>(&entered)) co_return std::move(*place);
-        bool const of_address = std::get<Admission::Refused>(entered) == Admission::Refused::full_of_address;
-        if (loop_.cut_stranger(of_address ? &*address : nullptr)) {
+        if (std::get<Admission::Refused>(entered) == Admission::Refused::full_of_address) {
+            if (!has_tokens) co_return refuse(socket, shared, admission_.too_many_of("this address"));
+            number = Admission::OfAddress::any_number;  // at most one stranger more on each thread
+            loop_.cut_stranger(&*address);
             co_await asio::post(loop_.executor(), asio::use_awaitable_t<Executor>{});  // earlier ones have a turn
             continue;
         }
-        bool const may_be_strangers = loop_.shared().gateway.tokens() != nullptr && looks <= looks_for_strangers;
-        if (of_address && !may_be_strangers) co_return refuse(socket, loop_.shared(), admission_.too_many_of("this address"));
-        if (!of_address && admission_.is_news()) {
-            loop_.shared().telemetry.reached(Telemetry::Limit::connections);
+        if (admission_.is_news()) {
+            shared.telemetry.reached(Telemetry::Limit::connections);
             spdlog::warn("{} connections are open: each new one waits, or replaces one that is idle",
-                         loop_.shared().settings().max_connections);
+                         shared.settings().max_connections);
         }
-        if (!may_be_strangers && loop_.cut_longest_idle()) continue;
-        loop_.shared().make_room(may_be_strangers, of_address ? address : std::nullopt);
+        bool const may_be_strangers = has_tokens && looks < looks_for_strangers;
+        if (may_be_strangers ? loop_.cut_stranger(nullptr) : loop_.cut_longest_idle()) continue;
+        auto const asked = shared.make_room(may_be_strangers);
         co_await pause(may_be_strangers ? between_looks : between_tries);
+        if (asked.expired()) ++looks;
     }
     co_return std::nullopt;
 }

@@ -17,6 +17,7 @@ namespace {
 
 constexpr auto between_sweeps = std::chrono::milliseconds{50};
 constexpr auto shortest_idle = std::chrono::milliseconds{100};  // a connection that waits for less is not cut: a request may come
+constexpr std::uint64_t sweeps_of_grace = 3;                    // for a client to show its token: 0.1 s
 constexpr auto between_tries = std::chrono::milliseconds{10};
 
 // Returns the number of sweeps that check all connections: 1 if a deadline is short, 5 by default. So a deadline is missed by at
@@ -110,6 +111,7 @@ Task<> Loop::sweep() {
 }
 
 void Loop::sweep_now() noexcept {
+    ++sweeps_;
     wakes_.retry_turn();
     sweep_some(std::chrono::steady_clock::now());
     over_ = draining() && connections_.empty();
@@ -143,8 +145,8 @@ bool Loop::cut_longest_idle() {
 bool Loop::cut_stranger(Address const* from) {
     auto strangers = connections_ | std::views::filter([&](auto const* each) { return each->is_stranger(from); });
     auto const oldest = std::ranges::min_element(strangers, {}, &Connection::accepted);
-    auto const latest = from != nullptr ? Steady::max() : std::chrono::steady_clock::now() - shortest_idle;
-    if (oldest == strangers.end() || (*oldest)->accepted() > latest) return false;
+    auto const age = from != nullptr ? 0 : sweeps_of_grace;
+    if (oldest == strangers.end() || (*oldest)->accepted() + age > sweeps_) return false;
     (*oldest)->give_way();
     return true;
 }

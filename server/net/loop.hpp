@@ -48,8 +48,9 @@ public:
     std::shared_ptr<xml::Schemas const> schemas;
     Troubles& troubles;
     LongDocuments long_documents;
-    // Each thread soon cuts a stranger from this address, or from any, or the connection that has been idle for longest.
-    std::function<void(bool among_strangers, std::optional<Address> const& from)> make_room;
+    // Each thread soon cuts a stranger, or the connection that has been idle for longest. What is returned expires when all have
+    // looked for one.
+    std::function<std::weak_ptr<void>(bool among_strangers)> make_room;
 
 private:
     std::list<Settings> versions_;  // after each SIGHUP one more
@@ -76,8 +77,10 @@ public:
     void serve(Socket, Admission::Place, From);
     // Cuts the connection that has been idle for longest. Returns false if none has been for 0.1 s.
     bool cut_longest_idle();
-    // With tokens, cuts the oldest connection from this address that has shown none. Null: from any address, if it is 0.1 s old.
+    // With tokens, cuts the oldest connection from this address that has shown none. Null: from any address, if this loop has
+    // been able to read its request for 0.1 s.
     bool cut_stranger(Address const* from);
+    std::uint64_t sweeps() const { return sweeps_; }  // until now
     bool draining() const { return last_moment_ != Steady::max(); }
     Shared& shared() const { return shared_; }
     xml::RequestReader& reader() { return reader_; }
@@ -104,7 +107,8 @@ private:
     Shared& shared_;
     xml::RequestReader reader_;
     std::vector<Connection*> connections_;
-    std::size_t swept_ = 0;  // index of the next connection to check
+    std::size_t swept_ = 0;     // index of the next connection to check
+    std::uint64_t sweeps_ = 0;  // none while this loop stands still
     std::deque<Background> background_;
     bool over_ = false;
     Steady last_moment_ = Steady::max();  // set by shut_down: the remaining connections are cut then

@@ -33,11 +33,13 @@ public:
           signals_{first_.executor()},
           hang_ups_{first_.executor()} {
         while (loops_.size() < shared_.settings().threads) add_loop();
-        shared_.make_room = [this](bool among_strangers, std::optional<Address> const& from) {
-            auto const cut = [=](Loop& at) {
-                among_strangers ? at.cut_stranger(from ? &*from : nullptr) : at.cut_longest_idle();
-            };
-            for (auto& loop : loops_) asio::post(loop.executor(), [&loop, cut] { cut(loop); });
+        shared_.make_room = [this](bool among_strangers) {
+            auto const looking = std::make_shared<char>();
+            for (auto& loop : loops_)
+                asio::post(loop.executor(), [&loop, among_strangers, looking] {
+                    among_strangers ? loop.cut_stranger(nullptr) : loop.cut_longest_idle();
+                });
+            return std::weak_ptr<void>{looking};
         };
         show_limits(shared_.settings());
         gateway.begin();  // before the first request

@@ -167,6 +167,23 @@ TEST_F(AStopOfEverything, IsClearedOnceTheHallCanBeUsedAgain) {
     EXPECT_FALSE(hall_is_stopped());
 }
 
+TEST_F(AStopOfEverything, DoesNotReachASubEngineAfterItWasCleared) {
+    engines.hold_back(true);  // the request is lost
+    stop(engines.main);
+    engines.settle();
+    engines.cut();
+    clear(engines.main);
+    engines.restart_hall();
+    auto application = engines.hall.connect();
+    application.bind("navigation");
+    application.execute(go("go", "navigation"));
+    engines.hold_back(false);
+    engines.repair();
+    engines.advance(31s);
+    EXPECT_FALSE(hall_is_stopped());
+    EXPECT_EQ(application.result_of("go"), "RUNNING");
+}
+
 TEST_F(AStopOfEverything, LastsThereWhenTheMainEngineHasDied) {
     engines.main.keep_journal();
     stop(engines.main);

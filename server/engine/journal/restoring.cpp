@@ -213,7 +213,8 @@ void Engine::Core::restore(StoredSession&& stored, StoredState& state, RightsOf 
     auto const commands = of(state.commands);
     std::ranges::stable_sort(commands, {}, [](StoredCommand const& each) { return each.end ? each.end->at : Utc::max(); });
     for (auto& command : commands) restore(session, std::move(command), now);
-    for (auto const& binding : stored.bindings) restore(session, binding, now);
+    session.absent = std::move(stored.bindings);
+    bind_absent(session, now);
     for (auto const& subscription : of(state.subscriptions))
         if (!restore(subscription)) absent_subscriptions_.push_back(subscription);
     executor_.forget_old_results(session, now);
@@ -249,26 +250,33 @@ void Engine::Core::restore(Session& session, StoredCommand&& stored, Instant now
     executor_.restore(session, command, now);
 }
 
-// A component of another engine must confirm the binding. If it is not here yet, or cannot answer, the binding waits for it: it
-// ends only if the component is bound now, or the other engine refuses it.
-void Engine::Core::restore(Session& session, StoredBinding const& binding, Instant now) {
-    auto* const component = registry_.find(binding.ref);
-    if (component == nullptr) return session.absent.push_back(binding);
-    if (component->bound_to != nullptr) return recorder_.changed(session);
-    if (!component->confirms_binding()) return bind_again(session, *component, binding, now);
-    auto then = [this, binding, id = session.id, shared = component->shared_from_this()](std::optional<ComponentAnswer>& answer,
-                                                                                         Instant when) {
+// Binds the components that have come. A component of another engine must confirm that first. If it is not here yet, or cannot
+// answer, its binding waits: it ends only if the component is bound now, or the other engine refuses it.
+void Engine::Core::bind_absent(Session& session, Instant now) {
+    auto const waiting = session.absent;  // a copy, because binding changes the list
+    for (auto const& binding : waiting) {
+        auto* const component = registry_.find(binding.ref);
+        if (component == nullptr || binding.is_asked) continue;
+        if (component->bound_to == nullptr && component->confirms_binding())
+            ask_to_bind(session, *component, binding, now);
+        else
+            bind_again(session, *component, binding, now);
+    }
+}
+
+void Engine::Core::ask_to_bind(Session& session, RegisteredComponent& component, StoredBinding const& binding, Instant now) {
+    auto then = [this, binding, id = session.id, shared = component.shared_from_this()](std::optional<ComponentAnswer>& answer,
+                                                                                        Instant when) {
         --shared->binds_asked;
         if (auto* const asker = find(id)) take_answer(*asker, *shared, binding, answer, when);
         notify_of_release(*shared, when);
     };
-    session.absent.push_back(binding);
-    auto const ticket = questions_.ask(*component, now.steady + settings_.question_deadline,
+    auto const ticket = questions_.ask(component, now.steady + settings_.question_deadline,
                                        "the component did not answer whether it can be bound", std::move(then));
-    session.absent.back().is_asked = true;
-    ++component->binds_asked;
-    auto parameters = component->in_own_frame(binding.parameters).value_or(binding.parameters);
-    component->hosted().bind(
+    std::ranges::find(session.absent, binding.ref, &StoredBinding::ref)->is_asked = true;
+    ++component.binds_asked;
+    auto parameters = component.in_own_frame(binding.parameters).value_or(binding.parameters);
+    component.hosted().bind(
         ticket, {.session = session.number, .switching = binding.switching, .parameters = std::move(parameters)}, now);
 }
 
@@ -280,9 +288,9 @@ void Engine::Core::take_answer(Session& session, RegisteredComponent& component,
     waiting->is_asked = false;
     bool const confirmed = answer && std::holds_alternative<Done>(*answer) && !component.has_departed();
     bool const refused = answer && std::holds_alternative<Refused>(*answer) && !component.is_logical();
-    if (!confirmed && !refused) return ask_absent_again(now);
+    if (confirmed) return bind_again(session, component, binding, now);
+    if (!refused) return ask_absent_again(now);
     session.absent.erase(waiting);
-    if (confirmed) bind_again(session, component, binding, now);
     recorder_.changed(session);
 }
 
@@ -293,17 +301,18 @@ void Engine::Core::bind_again(Session& session, RegisteredComponent& component, 
                              .condition = binding.preference},
                             now);
     if (outcome_of(reply).return_code == ReturnCode::ok) return component.restore_parameters(binding.parameters, now);
-    if (component.bound_to != nullptr) return;
-    session.absent.push_back(binding);  // it has not confirmed its halt yet
-    ask_absent_again(now);
+    if (component.bound_to == nullptr) return ask_absent_again(now);  // it has not confirmed its halt yet
+    forget_absent(session, binding.ref);
+    recorder_.changed(session);
 }
 
 void Engine::Core::ask_absent_again(Instant now) {
-    if (std::exchange(asks_absent_again_, true)) return;
+    if (asks_absent_again_) return;
     deadlines_.add(now.steady + between_tries, [this](Instant then) {
         asks_absent_again_ = false;
         restore_absent(then);
     });
+    asks_absent_again_ = true;
 }
 
 // Returns false if its condition names something that no component has yet.
@@ -320,17 +329,7 @@ bool Engine::Core::restore(StoredSubscription const& subscription) {
 // Restores what belongs to components that have come.
 void Engine::Core::restore_absent(Instant now) {
     std::erase_if(absent_subscriptions_, [&](StoredSubscription const& each) { return restore(each); });
-    for (auto const& [id, session] : sessions_) {
-        auto& absent = session->absent;
-        for (auto left = absent.size(); left > 0; --left) {  // those that still have to wait are added at the end
-            auto const binding = absent.front();
-            absent.erase(absent.begin());
-            if (binding.is_asked)
-                absent.push_back(binding);
-            else
-                restore(*session, binding, now);
-        }
-    }
+    for (auto const& [id, session] : sessions_) bind_absent(*session, now);
 }
 
 }  // namespace rois

@@ -59,9 +59,12 @@ public:
 
     Admission(std::size_t most, std::size_t most_of_address) : most_{most}, most_of_address_{most_of_address} {}
 
-    std::variant<Place, Refused> enter(Address const& address, Limits limits) {
+    // `any_number`: the limit of the address does not apply.
+    enum class OfAddress : unsigned char { limited, any_number };
+    std::variant<Place, Refused> enter(Address const& address, Limits limits, OfAddress number = OfAddress::limited) {
         std::lock_guard const lock{mutex_};
-        auto const counted = limits == Limits::all ? of_address_.find(address) : of_address_.end();
+        bool const is_limited = limits == Limits::all && number == OfAddress::limited;
+        auto const counted = is_limited ? of_address_.find(address) : of_address_.end();
         if (counted != of_address_.end() && counted->second >= most_of_address_) return Refused::full_of_address;
         if (taken_ >= most_) return Refused::full;
         if (limits == Limits::all) ++of_address_[address];

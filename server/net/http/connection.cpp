@@ -83,15 +83,11 @@ void Connection::sweep(Steady at) {
     bool const arriving = websocket || request_due_ != Steady::max();
     auto const unfinished = arriving ? wire_.received().size() + (websocket ? websocket->gathered() : 0) : 0;
     bool const unread = memory.full() && wire_.waits_for_reader(at - longest_wait_without_memory);
-    bool const only_waits = (memory.exhausted() && waiting_since() <= at - longest_wait_without_memory) ||
-                            (is_stranger() && waiting_since() <= at - longest_wait_of_strangers);
-    if (unread || only_waits || unfinished > memory.longest_document()) cut_for_memory();
-}
-
-Steady Connection::waiting_since() const {
     auto const& settings = loop_.shared().settings();
-    auto const idle = idle_due_ == Steady::max() ? Steady::max() : idle_due_ - settings.idle_timeout;
-    return std::min(idle, request_due_ == Steady::max() ? Steady::max() : request_due_ - settings.request_timeout);
+    auto const waits_since = std::min(idle_due_ - settings.idle_timeout, request_due_ - settings.request_timeout);
+    bool const only_waits = (memory.exhausted() && waits_since <= at - longest_wait_without_memory) ||
+                            (is_stranger() && waits_since <= at - longest_wait_of_strangers);
+    if (unread || only_waits || unfinished > memory.longest_document()) cut_for_memory();
 }
 
 void Connection::shut_down() {
@@ -224,15 +220,17 @@ Connection::Then Connection::judge_head() {
 // Finds out who sends the request. Returns an answer if a token is needed, and missing or wrong.
 std::optional<HttpAnswer> Connection::identify() {
     bool const is_program = from_ == Loop::From::programs;
+    bool const needs_none = is_for_everyone(route_.endpoint) && !is_program;
     auto* const tokens = is_program ? loop_.shared().settings().program_tokens : loop_.shared().gateway.tokens();
     if (tokens == nullptr || from_ == Loop::From::this_process) return {};
     auto const refused = token_check_.check(*tokens, head_.token(), *client_);
     if (!refused && !place_.show(client_->name()) && route_.endpoint != Endpoint::stop) {
         token_check_.forget(*client_);
+        if (needs_none) return {};
         loop_.shared().telemetry.reached(Telemetry::Limit::connections_per_address);
         return answer_of(place_.of().too_many_of("this token"));
     }
-    if (!refused || (is_for_everyone(route_.endpoint) && !is_program)) return {};
+    if (!refused || needs_none) return {};
     if (refused != Tokens::Refused::too_many) return answer_of(unauthorized());
     auto answer = answer_of({FaultCode::too_many, "too many wrong tokens from this address: try again in a minute"});
     answer.fields.set(http::field::retry_after, "60");
@@ -336,13 +334,11 @@ Connection::Then Connection::serve_upgrade() {
     auto const& shared = loop_.shared();
     if (shared.gateway.shutting_down()) return reply(answer_of(shutting_down()));
     bool const joins = route_.endpoint == Endpoint::engines;
-    bool const is_trusted = client_->principal != nullptr || is_loopback(place_.address());
-    if (joins && !shared.settings().join)
-        return reply(
-            answer_of({FaultCode::not_allowed, "joining is not allowed: expected the key engines in the configuration"}));
-    if (joins && !is_trusted)
-        return reply(
-            answer_of({FaultCode::not_allowed, "joining is not allowed: expected a connection from this machine, or tokens"}));
+    std::string missing = shared.settings().join ? "" : "the key engines in the configuration";
+    if (missing.empty() && client_->principal == nullptr && !is_loopback(place_.address()))
+        missing = "a connection from this machine, or tokens";
+    if (joins && !missing.empty())
+        return reply(answer_of({FaultCode::not_allowed, "joining is not allowed: expected " + missing}));
     auto const answer = upgrade(head_);
     if (answer.status != http::status::switching_protocols) return reply(answer);
     if (joins) return Then::engine;  // client::accepted_link sends the answer to the handshake

@@ -39,9 +39,7 @@ public:
     }
     // When this connection ends if no request begins; `max` if it is not idle.
     Steady idle_due() const { return idle_ && !place_.is_left() ? idle_due_ : Steady::max(); }
-    // Since when this connection has waited for a request, or for the rest of one; `max` if it does not.
-    Steady waiting_since() const;
-    Steady accepted() const { return accepted_; }
+    std::uint64_t accepted() const { return accepted_; }  // the loop's number of sweeps then
     // Whether the gateway has tokens, and this connection has a place, comes from this address (null: any), and has shown none.
     bool is_stranger(Address const* from = nullptr) const {
         bool const is_from = from == nullptr || place_.address() == *from;
@@ -100,7 +98,7 @@ private:
     RequestHead head_;
     Route route_;
     SessionId session_;  // that the request names; empty if it names none
-    Steady const accepted_ = std::chrono::steady_clock::now();
+    std::uint64_t const accepted_ = loop_.sweeps();
     Steady request_due_ = Steady::max();
     Steady idle_due_ = Steady::max();  // when the next request must have begun; empty lines do not begin one
     bool idle_ = false;                // no byte of the next request has arrived
