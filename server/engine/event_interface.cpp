@@ -133,16 +133,13 @@ bool Engine::Core::deliver(RegisteredComponent& component, std::string const& ev
     bool begun = false;  // some subscriber may have been notified
     auto const sees = [&](Subscription::Subscriber const& one) { return may_see(one.rights, component.ref().code); };
     auto const deliver_to = [&](Subscription& subscription) {
-        if (std::ranges::none_of(subscription.subscribers, sees)) return;
-        auto const is_restricted = [](Subscription::Subscriber const& one) { return !may_see_everything(one.rights); };
-        bool const each = subscription.filter.depends_on_asker() ||
-                          (subscription.filter.restricts() && std::ranges::any_of(subscription.subscribers, is_restricted));
+        bool const each = subscription.filter.depends_on_asker();
+        bool const all = !each && subscription.filter.match(candidate) == Match::yes;  // that may see everything
         auto const is_for = [&](Subscription::Subscriber const& one) {
-            return sees(one) && (!each || matches(subscription, *one.session));
+            bool const alone = each || (subscription.filter.restricts() && !may_see_everything(one.rights));
+            return sees(one) && (alone ? matches(subscription, *one.session) : all);
         };
-        bool const is_for_some =
-            each ? std::ranges::any_of(subscription.subscribers, is_for) : subscription.filter.match(candidate) == Match::yes;
-        if (!is_for_some) return;
+        if (std::ranges::none_of(subscription.subscribers, is_for)) return;
         if (event_id.empty()) {
             auto const& profile = component.entry().profile;
             event_id = events_.add(results, {profile, find_message(*profile, MessageKind::event, event_type)}, now);

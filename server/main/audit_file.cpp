@@ -121,9 +121,15 @@ void AuditFile::open() {
     if (!is_audit_log(file))
         throw BadSettings{"audit_log: " + rois::quoted(name_) + " is another file: expected an audit log, or no file"};
     if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0)
-        throw BadSettings{"audit_log: " + rois::quoted(name_) + " is in use by another gateway: each needs its own"};
+        throw BadSettings{"audit_log: " + rois::quoted(name_) +
+                          (errno == EWOULDBLOCK ? " is in use by another gateway: each needs its own"
+                                                : std::string{" cannot be locked: "} + std::strerror(errno))};
     ::fchmod(file.get(), S_IRUSR | S_IWUSR);
-    end_last_line(file);
+    try {
+        end_last_line(file);
+    } catch (std::system_error const& problem) {  // the disk is full: later lines may be lost, too
+        spdlog::error("audit_log: its last line is incomplete: {}", problem.what());
+    }
     file_ = std::move(file);
 }
 
@@ -135,8 +141,8 @@ void AuditFile::begin_another() {
             auto const name = path.stem().string() + (number == 0 ? "" : "." + std::to_string(number));
             return path.parent_path() / (name + path.extension().string());
         };
-        bool const has_moved = !std::filesystem::exists(path);  // and then another one could not be opened
-        for (auto number = has_moved ? 0 : limits_.files; number > 0; --number)
+        // A file of another program that has taken its place is not touched.
+        for (auto number = is_in_place() ? limits_.files : 0; number > 0; --number)
             if (std::filesystem::exists(earlier(number - 1))) std::filesystem::rename(earlier(number - 1), earlier(number));
         open();
         cannot_begin_ = false;

@@ -42,14 +42,17 @@ protected:
     }
 
     // Calls `ask` with a new connection. Without memory, one that has been idle for 0.1 s is cut, which may cross a request: then
-    // the client sends it once more, as browsers do.
+    // the client sends it again, as browsers do.
     template <class Ask>
     HttpReply on_new_connection(Ask ask) {
-        try {
-            return ask(HttpClient{*gateway});
-        } catch (LineEnded const&) {
-            return ask(HttpClient{*gateway});
+        constexpr int most = 10;
+        for (int tries = 1; tries < most; ++tries) {
+            try {
+                return ask(HttpClient{*gateway});
+            } catch (LineEnded const&) {
+            }
         }
+        return ask(HttpClient{*gateway});
     }
 
     HttpReply post(std::string const& path) {

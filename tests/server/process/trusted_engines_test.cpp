@@ -91,7 +91,7 @@ TEST_F(TrustedEngines, DoNotKeepAGatewayThatEnds) {
     auto const begun = std::chrono::steady_clock::now();
     gateway.signal(SIGTERM);
     EXPECT_EQ(gateway.wait().exit_code, 0);
-    EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds{3}) << "shutdown_timeout is 5 s";
+    EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::milliseconds{4'500}) << "shutdown_timeout is 5 s";
 }
 
 TEST_F(TrustedEngines, JoinOnlyByTheNamesThatTheirTokensCover) {
