@@ -169,6 +169,7 @@ Reply Engine::Core::perform(Session& session, StopEverything const&, Instant now
         }
         session.last_stop = last_stop_;
         attempts([&] { recorder_.changed(session); });
+        attempts([&] { trace_->stopped_everything(session.number); });
         attempts.rethrow();
     }
     if (owns_present_stop(session)) reply.stop = last_stop_;  // also again: the first answer may have been lost
@@ -188,7 +189,9 @@ Reply Engine::Core::perform(Session& session, ClearStop const& asked, Instant) {
         session.owns_stop = false;
     else
         follow_ended_owner(session);
-    if (!present_stop_has_owners()) clear();
+    bool const is_over = !present_stop_has_owners();
+    if (is_over) clear();
+    trace_->cleared_stop(session.number, is_over);
     return ClearStop::Reply{};
 }
 

@@ -26,6 +26,9 @@ public:
     virtual void released(std::uint64_t /*session*/, std::string const& /*ref*/) {}
     // The session takes the component from another one, which then releases it.
     virtual void taken_over(std::uint64_t /*session*/, std::uint64_t /*from*/, std::string const& /*ref*/) {}
+    // The session has stopped everything, perhaps as others did before; or has cleared its stop. `is_over`: commands may begin.
+    virtual void stopped_everything(std::uint64_t /*session*/) {}
+    virtual void cleared_stop(std::uint64_t /*session*/, bool /*is_over*/) {}
     // The component did not confirm a halt. The engine repeats the halt until it does (decision 35).
     virtual void halt_failed(std::string const& /*ref*/, std::string_view /*why*/) {}
     virtual void halted_at_last(std::string const& /*ref*/) {}

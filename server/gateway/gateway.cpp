@@ -274,7 +274,6 @@ PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via 
             return refused(std::move(*fault));
         }
     log_.take_joined();  // of an operation that failed
-    bool const was_stopped = engine_.everything_is_stopped();
     // `disconnect` holds nothing: the readers receive the last notifications before the answer (decision 3).
     if (known && !std::holds_alternative<Disconnect>(request.operation)) hold = Hold{*this, queue};
     auto exchange = std::make_shared<Exchange>(*this, std::move(queue), hold.number(), std::move(request), now, std::move(waits),
@@ -287,7 +286,6 @@ PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via 
         note(audit_, connects ? "connected" : "resumed", *client, {.what = {}, .session = number});
     }
     if (opens && number != 0) quota_.opened(number, client);
-    if (client) note_stop(*client, exchange->operation(), was_stopped);
     engine_.work(lock, now);
     hold.leave();
     exchange->wait();
@@ -425,13 +423,6 @@ void Gateway::session_restored(std::uint64_t session, Rights const* rights) {
     if (!holder) return;
     log_.session_is_of(session, holder->name());
     quota_.opened(session, std::make_shared<Client>(Address{}, Limits::all, holder));
-}
-
-// A session that has stopped everything asks again to see how far that is.
-void Gateway::note_stop(Client const& by, Operation const& operation, bool was_stopped) const {
-    bool const is_stopped = engine_.everything_is_stopped();
-    if (std::holds_alternative<StopEverything>(operation) && !was_stopped) note(audit_, "stopped everything", by);
-    if (std::holds_alternative<ClearStop>(operation) && was_stopped && !is_stopped) note(audit_, "cleared the stop", by);
 }
 
 StopState Gateway::stop_everything(Client const* asked_by) {

@@ -261,7 +261,6 @@ private:
     PendingAnswer refused(Fault);
     std::optional<Fault> refusal_of(Client const&);
     void session_restored(std::uint64_t session, Rights const*);
-    void note_stop(Client const& by, Operation const&, bool was_stopped) const;
     Fault fault_of(Refusal);
     MemoryBudget::Room room_for(std::string_view text);
     void save_memory(Steady now);

@@ -84,6 +84,17 @@ void EngineLog::taken_over(std::uint64_t session, std::uint64_t from, std::strin
     spdlog::info("session {} takes {} over from session {}", session, ref, from);
 }
 
+void EngineLog::stopped_everything(std::uint64_t session) {
+    audit("stopped everything", session);
+    spdlog::warn("everything is stopped, as asked by session {}", session);
+}
+
+void EngineLog::cleared_stop(std::uint64_t session, bool is_over) {
+    audit(is_over ? "cleared the stop" : "cleared its own stop", session);
+    spdlog::warn("session {} has cleared its stop: {}", session,
+                 is_over ? "commands may start again" : "everything stays stopped, as others have asked for it");
+}
+
 void EngineLog::halt_failed(std::string const& ref, std::string_view why) {
     spdlog::error("{} may still move: {}; it is halted again until it confirms", ref, why);
 }

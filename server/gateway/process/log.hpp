@@ -44,12 +44,14 @@ private:
     void bound(std::uint64_t session, std::string const& ref) override;
     void released(std::uint64_t session, std::string const& ref) override;
     void taken_over(std::uint64_t session, std::uint64_t from, std::string const& ref) override;
+    void stopped_everything(std::uint64_t session) override;
+    void cleared_stop(std::uint64_t session, bool is_over) override;
     void halt_failed(std::string const& ref, std::string_view why) override;
     void halted_at_last(std::string const& ref) override;
     void refused(std::uint64_t session, Operation const&, Outcome const&, std::string_view ref) override;
     void command_begun(Command const&) override;
     void command_ended(Command const&) override;
-    void audit(std::string_view what, std::uint64_t session, std::string_view component, std::string_view operation = {},
+    void audit(std::string_view what, std::uint64_t session, std::string_view component = {}, std::string_view operation = {},
                std::string_view outcome = {}) const;
     void audit(std::string_view what, Command const&, std::string_view outcome) const;
 

@@ -293,8 +293,8 @@ TEST_F(Tokens, AreNamedInTheAuditLogAndNeverShown) {
         desk.call("bind", component_ref("move"), {{"take_over", "true"}});
         chief.say(post("/rois/stop", "Authorization: Bearer " + administrator + "\r\n"));
         chief.say(post("/rois/clear", "Authorization: Bearer " + administrator + "\r\n"));
-        desk.call("stop_everything");
-        desk.call("clear_stop", {}, {{"stop", "0"}});
+        for (auto* one : {&desk, &chief}) one->call("stop_everything");
+        for (auto* one : {&desk, &chief}) one->call("clear_stop", {}, {{"stop", "0"}});
         HttpClient stranger{gateway};
         for (int i = 0; i < 30; ++i) stranger.get("/rois/profile/secret", {{"Authorization", "Bearer guess"}});
     }
@@ -314,8 +314,8 @@ TEST_F(Tokens, AreNamedInTheAuditLogAndNeverShown) {
          R"({"what":"refused","token":"desk","address":"127.0.0.1","operation":"bind","outcome":"not_allowed"})",
          R"({"what":"stopped everything","token":"chief","address":"127.0.0.1"})",
          R"({"what":"cleared the stop","token":"chief","address":"127.0.0.1"})",
-         R"({"what":"stopped everything","token":"desk","address":"127.0.0.1"})",
-         R"({"what":"cleared the stop","token":"desk","address":"127.0.0.1"})",
+         R"({"what":"stopped everything","token":"desk","session":1})", R"({"what":"stopped everything","token":"chief","session":2})",
+         R"({"what":"cleared its own stop","token":"desk","session":1})", R"({"what":"cleared the stop","token":"chief","session":2})",
          R"({"what":"refused","address":"127.0.0.1","operation":"/rois/profile/","outcome":"unauthorized"})"})
         EXPECT_THAT(without_times, HasSubstr(std::string{line} + "\n"));
     for (auto const& secret : {service, administrator, session, std::string{"guess"}, std::string{"my-secret-id"},
