@@ -48,8 +48,8 @@ public:
     std::shared_ptr<xml::Schemas const> schemas;
     Troubles& troubles;
     LongDocuments long_documents;
-    // Each thread soon cuts a stranger, or the connection that has been idle for longest. What is returned expires when all have
-    // looked for one.
+    // Each thread soon cuts a stranger, or the connection that has been idle for longest. The returned pointer expires when all
+    // have looked for one.
     std::function<std::weak_ptr<void>(bool among_strangers)> make_room;
 
 private:

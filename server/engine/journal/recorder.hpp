@@ -88,7 +88,7 @@ private:
         std::set<Session*> with_news;  // sessions with new notifications
         std::set<std::shared_ptr<Command>> commands;
         std::map<std::pair<std::uint64_t, std::string>, Subscribed> subscriptions;  // by the number of the session, and id
-        Changes others;                                                              // what is gone
+        Changes others;                                                             // sessions and commands that are gone
 
         bool any() const;
         void forget(Session&);
