@@ -51,6 +51,8 @@ public:
     // this sub engine, instead of its earlier ones, and returns nothing. Instances of an entry with `engine` belong to no sub
     // engine: several entries may use the same gateway.
     virtual std::optional<std::string> why_loop(SubEngine const&, std::vector<std::string> const& instances) = 0;
+    // Whether everything is stopped in this engine.
+    virtual bool everything_is_stopped() const = 0;
     // Returns whether this engine's clock runs. If not, the sub engine receives no signs of life, and its robot stops.
     virtual bool is_alive() const = 0;
     // A line of the log about the sub engine.
@@ -79,7 +81,7 @@ public:
 
     // Called when everything is stopped in this engine, and when that stop is cleared. The sub engine does the same, also with
     // what its own applications have begun.
-    void stop_everything();
+    void ask_to_stop();
     void clear_stop();
 
     // Reports a problem. If the same one is reported again and again, the log has it once.
@@ -179,7 +181,6 @@ private:
     void judge_failed_halt(std::shared_ptr<ComponentRecord> const&);
     void check_binding(std::shared_ptr<ComponentRecord> const&, std::function<void()> const& if_held);
     void halt_by_release(std::shared_ptr<ComponentRecord> const&);
-    void ask_to_stop();
     void clear_stop_there();
     void note_stop_there(std::optional<std::uint64_t> stop);
 
@@ -217,7 +218,6 @@ private:
     Steady last_sign_{};             // when the last sign of life was sent
     std::optional<Steady> asked_for_sign_;  // when the first sign of life that is not answered yet was sent
     EngineState state_;                     // the state that `show` passed on last
-    bool everything_is_stopped_ = false;
     bool stop_is_asked_ = false;               // a `stop_everything` is not answered yet
     bool has_resumed_ = false;                 // and no notification has come since
     std::optional<std::uint64_t> stop_there_;  // to clear there; ClearStop::own: the number is not known (yet)

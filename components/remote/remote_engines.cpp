@@ -9,7 +9,6 @@
 #include <variant>
 
 #include "core/loop.hpp"
-#include "engine/attempts.hpp"
 #include "remote/join_acceptor.hpp"
 #include "remote/joiner.hpp"
 #include "remote/rate_limit.hpp"
@@ -69,17 +68,13 @@ public:
             auto& engine = engines_[each.name];
             if (engine) continue;
             engine = std::make_shared<RemoteEngine>(each, shared_from_this());
-            if (everything_is_stopped_) engine->stop_everything();
             engine->begin();
         }
     }
 
     void everything_stopped(bool is_stopped) {
         everything_is_stopped_ = is_stopped;
-        Attempts attempts;
-        for (auto const& [name, engine] : engines_)
-            attempts([&] { is_stopped ? engine->stop_everything() : engine->clear_stop(); });
-        attempts.rethrow();
+        for (auto const& [name, engine] : engines_) is_stopped ? engine->ask_to_stop() : engine->clear_stop();
     }
 
     void accept(UniqueDescriptor&& socket, std::string head, JoinAcceptor::MayJoin may_join) {
@@ -143,6 +138,7 @@ private:
         std::lock_guard const lock{states_mutex_};
         states_[state.name] = state;
     }
+    bool everything_is_stopped() const override { return everything_is_stopped_; }
     bool is_alive() const override { return pulse_->beats(now()); }
 
     std::optional<std::string> why_loop(SubEngine const& sub_engine, std::vector<std::string> const& instances) override {

@@ -158,7 +158,7 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
 void RemoteEngine::halt(std::shared_ptr<ComponentRecord> const& record, Ticket ticket) {
     record->halt = ticket;
     bool const can_be_asked = record->can_be_stopped && record->is_held && is_open_;
-    if (!record->may_act && !can_be_asked) return everything_is_stopped_ ? ask_to_stop() : record->confirm_halt();
+    if (!record->may_act && !can_be_asked) return host_->everything_is_stopped() ? ask_to_stop() : record->confirm_halt();
     if (!record->is_held || is_given_up_) return;
     if (!record->can_be_stopped) return halt_by_release(record);
     auto& stops = record->stops;
@@ -205,14 +205,8 @@ void RemoteEngine::halt_by_release(std::shared_ptr<ComponentRecord> const& recor
     });
 }
 
-void RemoteEngine::stop_everything() {
-    everything_is_stopped_ = true;
-    ask_to_stop();
-}
-
 // Until then, the halts of components that this engine does not command wait for the sub engine's answer.
 void RemoteEngine::clear_stop() {
-    everything_is_stopped_ = false;
     clear_stop_there();
     for (auto const& [ref, record] : records_)
         if (!record->may_act && !record->is_held) record->confirm_halt();
@@ -220,7 +214,7 @@ void RemoteEngine::clear_stop() {
 
 // Repeated in the next session if this one ends before the answer.
 void RemoteEngine::clear_stop_there() {
-    if (everything_is_stopped_ || !stop_there_ || stop_is_asked_) return;
+    if (host_->everything_is_stopped() || !stop_there_ || stop_is_asked_) return;
     ask(ClearStop{*stop_there_}, [self = shared_from_this()](Reply const* reply) {
         if (reply != nullptr) self->note_stop_there({});
     });
@@ -233,13 +227,13 @@ void RemoteEngine::note_stop_there(std::optional<std::uint64_t> stop) {
 
 // Asks until all components there stand still. A component program does not know this request: it has no other applications.
 void RemoteEngine::ask_to_stop() {
-    if (!everything_is_stopped_ || !is_open_ || std::exchange(stop_is_asked_, true)) return;
+    if (!host_->everything_is_stopped() || !is_open_ || std::exchange(stop_is_asked_, true)) return;
     ask(StopEverything{}, [self = shared_from_this()](Reply const* reply) {
         self->stop_is_asked_ = false;
         auto const* stopped = reply == nullptr ? nullptr : std::get_if<StopEverything::Reply>(reply);
         if (stopped == nullptr) return;
         self->note_stop_there(stopped->stop);
-        if (!self->everything_is_stopped_) return self->clear_stop_there();
+        if (!self->host_->everything_is_stopped()) return self->clear_stop_there();
         if (stopped->return_code != ReturnCode::ok && stopped->return_code != ReturnCode::unsupported) return;
         bool is_waiting = false;
         for (auto const& [ref, record] : self->records_) {

@@ -134,7 +134,7 @@ void RemoteEngine::go_on_when_handled(std::uint64_t era) {
 // This engine was restarted. The sub engine tells how the commands of the earlier session have ended, and ends that session, with
 // what still runs in it. Perhaps a stop of everything was cleared here, and not yet there.
 void RemoteEngine::ask_about_earlier_commands() {
-    if (!everything_is_stopped_)
+    if (!host_->everything_is_stopped())
         link_->send(client::document_of({ClearStop{stop_there_.value_or(ClearStop::own)}, std::string{opening}}));
     for (auto const command : earlier_.commands)
         link_->send(client::document_of({GetCommandResult{{id_of(command)}, {}}, std::string{has_ended} + number_of(command)}));

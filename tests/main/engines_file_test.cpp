@@ -190,8 +190,8 @@ TEST(EnginesFile, IsCheckedAgainstTheNamesOfTheGateway) {
 
 TEST(EnginesFile, NamesCertificatesThatExist) {
     EXPECT_EQ(complaint("{\"engines\": [{\"name\": \"a\", \"url\": \"wss://a\",\n \"ca_file\": \"/nowhere.pem\"}]}"),
-              "2:2: sub engine 'a': ca_file: cannot use '/nowhere.pem': No such file or directory (system library); expected "
-              "certificates in PEM format");
+              "2:2: sub engine 'a': ca_file: cannot use '/nowhere.pem': No such file or directory; expected certificates in "
+              "PEM format");
 }
 
 TEST(EnginesFile, ReportsAMistakeInItsOwnEntry) {

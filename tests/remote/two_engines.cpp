@@ -176,6 +176,7 @@ public:
         if (std::ranges::find(instances, engines_.instance_of_main) == instances.end()) return {};
         return "that would be a loop";
     }
+    bool everything_is_stopped() const override { return is_stopped; }
     bool is_alive() const override { return engines_.main_is_alive; }
     void report(std::string const&, std::string const& what) override { engines_.reported.push_back(what); }
     void show(EngineState const& state) override { engines_.shown = state; }
@@ -193,6 +194,7 @@ public:
         engines_.on_links(next);
         return true;
     }
+    bool is_stopped = false;
     void drop() {
         posted_.clear();
         alarms_.clear();
@@ -230,9 +232,12 @@ TwoEngines::TwoEngines(std::vector<Part> const& parts, remote::SubEngine setting
 void TwoEngines::begin_main() {
     remote_ = std::make_shared<remote::RemoteEngine>(settings_, host_);
     main.engine->on_stop([this](bool is_stopped) {
-        remote_->run([is_stopped](auto& engine) { is_stopped ? engine.stop_everything() : engine.clear_stop(); });
+        remote_->run([this, is_stopped](auto& engine) {
+            host_->is_stopped = is_stopped;
+            is_stopped ? engine.ask_to_stop() : engine.clear_stop();
+        });
     });
-    if (main.engine->everything_is_stopped()) remote_->run([](auto& engine) { engine.stop_everything(); });
+    host_->is_stopped = main.engine->everything_is_stopped();
     remote_->begin();
     advance(100ms);
 }
