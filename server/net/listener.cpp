@@ -128,7 +128,6 @@ Task<std::optional<Admission::Place>> Listener::place(Socket& socket) {
             if (!has_tokens) co_return refuse(socket, shared, admission_.too_many_of("this address"));
             number = Admission::OfAddress::any_number;  // at most one stranger more on each thread
             loop_.cut_stranger(&*address);
-            co_await asio::post(loop_.executor(), asio::use_awaitable_t<Executor>{});  // earlier ones have a turn
             continue;
         }
         if (admission_.is_news()) {

@@ -65,6 +65,7 @@ void Loop::start_background() {
         task.is_started = true;
     }
     wakes_.retry_turn();
+    turns_.go_on();
 }
 
 void Loop::run() {

@@ -17,7 +17,7 @@
 #include "net/http/documents.hpp"
 #include "net/long_documents.hpp"
 #include "net/settings.hpp"
-#include "wire/asio.hpp"
+#include "wire/turns.hpp"
 
 namespace rois::net {
 
@@ -86,6 +86,7 @@ public:
     xml::RequestReader& reader() { return reader_; }
     Executor executor() { return io_.get_executor(); }
     Wakes& wakes() { return wakes_; }
+    Turns& turns() { return turns_; }  // of strangers
 
 private:
     friend class Connection;
@@ -113,6 +114,7 @@ private:
     bool over_ = false;
     Steady last_moment_ = Steady::max();  // set by shut_down: the remaining connections are cut then
     asio::io_context io_{1};
+    Turns turns_{io_.get_executor()};
     Wakes wakes_;
 };
 

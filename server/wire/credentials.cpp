@@ -10,7 +10,35 @@ namespace rois::tls {
 
 namespace {
 
+int index_of_handshake() {
+    static int const index = ::SSL_get_ex_new_index(0, nullptr, nullptr, nullptr, nullptr);
+    return index;
+}
+
+}  // namespace
+
+// Handshakes without a PausedHandshake do not pause.
+int at_client_hello(SSL* ssl, int* /*alert*/, void* /*argument*/) {
+    auto* const handshake = static_cast<PausedHandshake*>(::SSL_get_ex_data(ssl, index_of_handshake()));
+    bool const goes_on = handshake == nullptr || std::exchange(handshake->may_go_on_, false);
+    return goes_on ? SSL_CLIENT_HELLO_SUCCESS : SSL_CLIENT_HELLO_RETRY;
+}
+
+PausedHandshake::PausedHandshake(SSL* ssl) : ssl_{ssl} { ::SSL_set_ex_data(ssl_, index_of_handshake(), this); }
+
+PausedHandshake::~PausedHandshake() { ::SSL_set_ex_data(ssl_, index_of_handshake(), nullptr); }
+
+bool PausedHandshake::pauses() {
+    bool const pauses = SSL_want_client_hello_cb(ssl_);
+    may_go_on_ = pauses;
+    return pauses;
+}
+
+namespace {
+
 namespace ssl = boost::asio::ssl;
+
+constexpr auto groups = "X25519:P-256:P-384";  // those for which an answer is cheap
 
 // For TLS 1.2: with forward secrecy, and authenticated. TLS 1.3 has no others.
 constexpr auto ciphers = "ECDHE+AESGCM:ECDHE+CHACHA20";
@@ -44,6 +72,8 @@ std::shared_ptr<ssl::context> read(Files const& files) {
     ::SSL_CTX_set_options(native, SSL_OP_NO_RENEGOTIATION | SSL_OP_CIPHER_SERVER_PREFERENCE | SSL_OP_NO_TICKET);
     ::SSL_CTX_set_min_proto_version(native, TLS1_2_VERSION);
     ::SSL_CTX_set_cipher_list(native, ciphers);
+    ::SSL_CTX_set1_groups_list(native, groups);
+    ::SSL_CTX_set_client_hello_cb(native, at_client_hello, nullptr);
     ::SSL_CTX_set_num_tickets(native, 0);
     ::SSL_CTX_set_session_cache_mode(native, SSL_SESS_CACHE_OFF);
     ::SSL_CTX_set_mode(native, SSL_MODE_RELEASE_BUFFERS);
@@ -55,6 +85,8 @@ std::shared_ptr<ssl::context> read(Files const& files) {
     // OpenSSL would ask for the password at the terminal.
     context->set_password_callback([](std::size_t, ssl::context::password_purpose) { return std::string{}; }, error);
     context->use_private_key_file(files.key, ssl::context::pem, error);
+    bool const fits = !error && ::SSL_CTX_check_private_key(native) == 1;  // also if it is of another type
+    if (!error && !fits) error = {static_cast<int>(::ERR_get_error()), boost::asio::error::get_ssl_category()};
     require(error, "tls_key", files.key, "the private key of the certificate, without a password,");
     if (files.client_ca.empty()) return context;
     trust(*context, "tls_client_ca", files.client_ca);

@@ -35,6 +35,24 @@ private:
     std::shared_ptr<boost::asio::ssl::context> context_;
 };
 
+// Lets a handshake end with an error at each ClientHello, before the part that needs much time: then `pauses` returns true once,
+// and the handshake has to be begun again. Must live until the handshake is over.
+class PausedHandshake {
+public:
+    explicit PausedHandshake(SSL*);
+    ~PausedHandshake();
+    PausedHandshake(PausedHandshake const&) = delete;
+    PausedHandshake& operator=(PausedHandshake const&) = delete;
+
+    bool pauses();
+
+private:
+    friend int at_client_hello(SSL*, int*, void*);
+
+    SSL* const ssl_;
+    bool may_go_on_ = false;
+};
+
 // Throws std::runtime_error that names the key, the file and the problem, unless the file holds certificates.
 void require_certificates(std::string const& key, std::string const& file);
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "types/text/address.hpp"
+#include "wire/credentials.hpp"
 
 namespace rois::net {
 
@@ -45,14 +46,26 @@ void Wire::use(std::size_t bytes) {
     used_ = 0;
 }
 
-Task<Wire::Outcome> Wire::secure(std::shared_ptr<asio::ssl::context> context, Steady until) {
+Task<> Wire::take_turn(Turns& turns) {
+    boost::system::error_code error;
+    auto const endpoint = socket_.remote_endpoint(error);
+    co_await turns.take(error ? asio::ip::address{} : endpoint.address());
+}
+
+Task<Wire::Outcome> Wire::secure(std::shared_ptr<asio::ssl::context> context, Steady until, Turns& turns) {
     auto const received = co_await receive(until);
     if (received != Outcome::done || input_.front() != first_byte_of_tls) co_return received;
     tls_ = std::make_unique<Tls>(std::move(context), socket_);
-    input_due_ = until;
+    tls::PausedHandshake handshake{tls_->stream.native_handle()};
     boost::system::error_code error;
-    auto const read = co_await tls_->stream.async_handshake(asio::ssl::stream_base::server, asio::buffer(input_), into(error));
-    use(read);
+    for (bool pauses = true; pauses;) {
+        input_due_ = until;
+        auto const read = co_await tls_->stream.async_handshake(
+            asio::ssl::stream_base::server, asio::buffer(input_.data() + used_, input_.size() - used_), into(error));
+        use(read);
+        pauses = handshake.pauses();
+        if (pauses) co_await take_turn(turns);
+    }
     // Otherwise a client whose system waits for this acknowledgement (Nagle's algorithm) sends its request 40 ms later.
     int const on = 1;
     ::setsockopt(socket_.native_handle(), IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);

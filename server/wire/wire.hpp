@@ -14,6 +14,7 @@
 #include "types/instant.hpp"
 #include "types/unique_descriptor.hpp"
 #include "wire/asio.hpp"
+#include "wire/turns.hpp"
 
 namespace rois::net {
 
@@ -35,9 +36,12 @@ public:
 
     enum class Outcome : std::uint8_t { done, closed, late };
 
-    // The opening handshake of TLS, before anything else. Returns `done` also if the peer does not begin it: then `is_secure` is
-    // false, and the wire has received something else.
-    Task<Outcome> secure(std::shared_ptr<asio::ssl::context>, Steady until);
+    // Waits for a turn among the clients that have not shown who they are.
+    Task<> take_turn(Turns&);
+
+    // The opening handshake of TLS, before anything else. Takes a turn for its costly part. Returns `done` also if the peer does
+    // not begin it: then `is_secure` is false, and the wire has received something else.
+    Task<Outcome> secure(std::shared_ptr<asio::ssl::context>, Steady until, Turns&);
     bool is_secure() const { return tls_ != nullptr; }
 
     // Waits for input, and reads once. `expected`: the number of bytes that the peer will send, if it is known. Returns `late`

@@ -102,7 +102,7 @@ Task<Connection::Then> Connection::secure() {
     idle_ = true;
     idle_due_ = std::chrono::steady_clock::now() + settings.idle_timeout;
     auto const due = std::chrono::steady_clock::now() + settings.handshake_timeout;
-    auto const outcome = co_await wire_.secure(settings.credentials->context(), due);
+    auto const outcome = co_await wire_.secure(settings.credentials->context(), due, loop_.turns());
     idle_ = false;
     if (outcome != Wire::Outcome::done) {
         loop_.shared().telemetry.handshake_failed();
@@ -119,6 +119,7 @@ Task<Connection::Then> Connection::serve() {
     auto then = Then::next;
     unsigned in_a_row = 0;
     while (then == Then::next) {
+        if (is_stranger() && !wire_.received().empty()) co_await wire_.take_turn(loop_.turns());
         then = take_request();
         if (then == Then::receive) {
             then = co_await receive();

@@ -45,10 +45,6 @@ std::string_view methods_of(Endpoint endpoint) {
 
 bool is_known_method(std::string_view method) { return method == "GET" || method == "HEAD" || method == "POST"; }
 
-bool takes(Route const& route, std::string_view method) {
-    return is_known_method(method) && methods_of(route.endpoint).find(method) != std::string_view::npos;
-}
-
 HttpAnswer method_not_allowed(Route const& route, std::string_view method) {
     auto const allowed = std::string{methods_of(route.endpoint)};
     auto const reason = "the method " + quoted(method) + " is not allowed here: expected one of " + allowed;
@@ -110,7 +106,8 @@ Role least_role_for(Endpoint endpoint, RequestHead const& head) {
 std::optional<HttpAnswer> refusal(RequestHead const& head, Route const& route, Settings const& settings) {
     if (route.endpoint == Endpoint::unknown && is_known_method(head.method()))
         return answer_of({FaultCode::not_found, "unknown path " + quoted(head.path) + ": docs/clients.md lists the paths"});
-    if (!takes(route, head.method())) return method_not_allowed(route, head.method());
+    bool const is_taken = methods_of(route.endpoint).find(head.method()) != std::string_view::npos;
+    if (!is_known_method(head.method()) || !is_taken) return method_not_allowed(route, head.method());
     if (head.content_length > settings.document.bytes) {
         auto const size = std::to_string(head.content_length), most = std::to_string(settings.document.bytes);
         return answer_of({FaultCode::too_large, "the body has " + size + " bytes: expected at most " + most});
