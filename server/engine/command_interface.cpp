@@ -160,12 +160,10 @@ std::optional<std::string> Engine::Core::take_over(Session const& session, Regis
     attempts([&] { trace_->taken_over(session.number, previous->number, component.ref().code); });
     attempts([&] { unbind(*previous, component, now); });
     attempts([&] {
-        FoundError const found{component.shared_from_this(), ErrorType::user_defined_error,
-                               "the component " + quoted(component.ref().code) + " was taken over by " + by};
-        auto error = noted(found, now);
-        if (previous->is_engine) error.text = found.text;
-        errors_.add_receiver(previous->errors.slot);
-        notifier_.notify(*previous, error);
+        tell(*previous,
+             {component.shared_from_this(), ErrorType::user_defined_error,
+              "the component " + quoted(component.ref().code) + " was taken over by " + by},
+             now);
     });
     attempts.rethrow();
     return {};

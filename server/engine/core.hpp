@@ -199,6 +199,7 @@ private:
     void ask_to_bind(Session&, RegisteredComponent&, StoredBinding const&, Instant now);
     void take_answer(Session&, RegisteredComponent&, StoredBinding const&, std::optional<ComponentAnswer> const&, Instant now);
     void bind_again(Session&, RegisteredComponent&, StoredBinding const&, Instant now);
+    void lose_absent(Session&, RegisteredComponent&, std::string const& why, Instant now);
     void ask_absent_again(Instant now);
     static bool forget_absent(Session&, std::string const& ref);  // returns whether a binding of this component waited
     void restore_absent(Instant now);
@@ -218,6 +219,7 @@ private:
     // Delivers the events that only this session should have received, and has not read, to other sessions, or keeps them.
     void pass_on_unread(Session const&, Instant now);
     void publish(FoundError const&, Instant now, Attempts& deliveries);
+    void tell(Session&, FoundError const&, Instant now);  // only this session
     ReceiveError noted(FoundError const&, Instant now);
 
     // Conditions (conditions.cpp)

@@ -85,13 +85,7 @@ Session& Engine::Core::open(std::unique_ptr<Session> session, Instant now) {
         std::make_shared<NotificationQueue>(session->id, settings_.max_waiting_notifications, settings_.max_sent_notifications);
     auto& opened = enter(std::move(session));
     trace_->session_opened(opened.number);
-    if (everything_is_stopped_) {
-        auto const stop = everything_was_stopped();
-        auto error = noted(stop, now);
-        if (opened.is_engine) error.text = stop.text;
-        errors_.add_receiver(opened.errors.slot);
-        notifier_.notify(opened, std::move(error));
-    }
+    if (everything_is_stopped_) tell(opened, everything_was_stopped(), now);
     return opened;
 }
 
@@ -264,6 +258,13 @@ void Engine::Core::publish(FoundError const& report, Instant now, Attempts& deli
     if (component == nullptr)
         for (auto const& [id, session] : sessions_) notify(*session);
     for (auto* session : concerned) notify(*session);
+}
+
+void Engine::Core::tell(Session& session, FoundError const& found, Instant now) {
+    auto error = noted(found, now);
+    if (session.is_engine) error.text = found.text;
+    errors_.add_receiver(session.errors.slot);
+    notifier_.notify(session, std::move(error));
 }
 
 // Keeps the details of the error.

@@ -220,9 +220,12 @@ TakenNames names_of_engines(GatewaySettings const& settings, simulation::FloorPl
     return taken;
 }
 
-// Returns null without TLS.
-std::shared_ptr<tls::Credentials> credentials_of(tls::Files const& files) {
-    return files.certificate.empty() ? nullptr : std::make_shared<tls::Credentials>(files);
+// Reads the certificates that the settings name. Returns null without TLS.
+std::shared_ptr<tls::Credentials> credentials_of(GatewaySettings const& settings) try {
+    if (!settings.join_ca_file.empty()) tls::require_certificates("join_ca_file", settings.join_ca_file);
+    return settings.tls.certificate.empty() ? nullptr : std::make_shared<tls::Credentials>(settings.tls);
+} catch (std::runtime_error const& problem) {
+    throw BadSettings{problem.what()};
 }
 
 constexpr std::chrono::milliseconds longest_reading{300};  // of files after SIGHUP, at the end (docs/safety.md#the-end)
@@ -248,9 +251,8 @@ int serve(CommandLine const& command) {
     auto const sub_engines =
         settings.engines.empty() ? std::vector<remote::SubEngine>{} : read_engines_file(settings.engines, taken);
     auto const choosing_settings = settings.engines.empty() ? choosing::Settings{} : read_choosing(settings.engines, sub_engines);
-    auto const credentials = credentials_of(settings.tls);
+    auto const credentials = credentials_of(settings);
     auto const join_token = settings.join_token_file.empty() ? std::string{} : token_in(settings.join_token_file);
-    if (!settings.join_ca_file.empty()) tls::require_certificates("join_ca_file", settings.join_ca_file);
     auto warnings = command.warnings;
     std::ranges::copy(check_exposure(settings), std::back_inserter(warnings));
     if (command.wish == CommandLine::Wish::check_config) {

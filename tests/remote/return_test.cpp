@@ -199,6 +199,18 @@ TEST_F(AMainEngineThatHasDied, HasItsBindingsAgain) {
     EXPECT_EQ(engines.hall.connect().bind("navigation"), ReturnCode::out_of_resources) << "also there";
 }
 
+TEST_F(AMainEngineThatHasDied, TellsWhoHasLostABindingMeanwhile) {
+    std::optional<Application> other;
+    engines.restart_main([&] {
+        engines.hall.advance(31s);
+        other.emplace(engines.hall.connect());
+        EXPECT_EQ(other->bind("navigation"), ReturnCode::ok);
+    });
+    auto again = resumed();
+    engines.advance(1s);
+    EXPECT_THAT(again.received(), testing::Contains(HasSubstr("USER_DEFINED_ERROR")));
+}
+
 TEST_F(AMainEngineThatHasDied, RestoresTheParametersThatItsApplicationsHaveSet) {
     engines.execute(*desk, command("set_parameter", "hall.navigation", {value("time_limit", "int", {"7000"})}));
     engines.hall["navigation"].changed_to.clear();

@@ -287,11 +287,20 @@ void Engine::Core::take_answer(Session& session, RegisteredComponent& component,
     if (waiting == session.absent.end()) return;  // released, or bound again
     waiting->is_asked = false;
     bool const confirmed = answer && std::holds_alternative<Done>(*answer) && !component.has_departed();
-    bool const refused = answer && std::holds_alternative<Refused>(*answer) && !component.is_logical();
+    auto const* const refused = answer && !component.is_logical() ? std::get_if<Refused>(&*answer) : nullptr;
     if (confirmed) return bind_again(session, component, binding, now);
-    if (!refused) return ask_absent_again(now);
-    session.absent.erase(waiting);
+    if (refused == nullptr) return ask_absent_again(now);
+    lose_absent(session, component, refused->reason, now);
+}
+
+void Engine::Core::lose_absent(Session& session, RegisteredComponent& component, std::string const& why, Instant now) {
+    forget_absent(session, component.ref().code);
     recorder_.changed(session);
+    trace_->released(session.number, component.ref().code);
+    tell(session,
+         {component.shared_from_this(), ErrorType::user_defined_error,
+          "the binding of the component " + quoted(component.ref().code) + " has ended: " + why},
+         now);
 }
 
 void Engine::Core::bind_again(Session& session, RegisteredComponent& component, StoredBinding const& binding, Instant now) {
@@ -302,8 +311,7 @@ void Engine::Core::bind_again(Session& session, RegisteredComponent& component, 
                             now);
     if (outcome_of(reply).return_code == ReturnCode::ok) return component.restore_parameters(binding.parameters, now);
     if (component.bound_to == nullptr) return ask_absent_again(now);  // it has not confirmed its halt yet
-    forget_absent(session, binding.ref);
-    recorder_.changed(session);
+    lose_absent(session, component, outcome_of(reply).reason, now);
 }
 
 void Engine::Core::ask_absent_again(Instant now) {

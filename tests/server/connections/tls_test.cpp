@@ -241,6 +241,15 @@ TEST_F(Tls, IsCheckedAlsoIfClientsMayHaveACertificate) {
     EXPECT_EQ(run_gateway(arguments).exit_code, 0);
 }
 
+// The client first offers a key for a group that the gateway does not have, and has to begin again.
+TEST_F(Tls, AsksForAnotherGroupIfItDoesNotHaveTheFirst) {
+    GatewayProcess const gateway{with({})};
+    auto const shown = run_shell("openssl s_client -connect 127.0.0.1:" + std::to_string(gateway.port()) + " -CAfile " +
+                                 certificates.certificate("own") + " -groups P-521:P-256 -brief </dev/null 2>&1");
+    EXPECT_THAT(shown.out, HasSubstr("Verification: OK"));
+    EXPECT_THAT(shown.out, HasSubstr("P-256"));
+}
+
 TEST_F(Tls, IsChecked) {
     GatewayProcess const gateway{with({})};
     auto arguments = with({"--listen", "127.0.0.1:" + std::to_string(gateway.port()), "--check-health"});
@@ -263,6 +272,10 @@ TEST_F(Tls, NeedsUsableFiles) {
     EXPECT_THAT(error_of({"--tls-certificate", own, "--tls-key", certificates.key("other")}),
                 HasSubstr("tls_key: cannot use '" + certificates.key("other") + "': key values mismatch"));
     EXPECT_THAT(error_of({"--tls-certificate", own, "--tls-key", certificates.key("secret")}), HasSubstr("tls_key: cannot use"));
+    auto const of_other_type = certificates.key("rsa");
+    run_shell("openssl genpkey -algorithm RSA -pkeyopt rsa_keygen_bits:2048 -out " + of_other_type);
+    EXPECT_THAT(error_of({"--tls-certificate", own, "--tls-key", of_other_type}),
+                HasSubstr("tls_key: cannot use '" + of_other_type + "': "));
     EXPECT_THAT(error_of({"--tls-certificate", "nowhere.pem", "--tls-key", certificates.key("own")}),
                 HasSubstr("tls_certificate: cannot use 'nowhere.pem': No such file"));
     EXPECT_THAT(error_of(with({"--tls-client-ca", certificates.key("own")})), HasSubstr("tls_client_ca: cannot use"));
