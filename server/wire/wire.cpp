@@ -63,7 +63,7 @@ Task<Wire::Outcome> Wire::secure(std::shared_ptr<asio::ssl::context> context, St
         auto const read = co_await tls_->stream.async_handshake(
             asio::ssl::stream_base::server, asio::buffer(input_.data() + used_, input_.size() - used_), into(error));
         pauses = handshake.pauses();
-        use(pauses ? received().size() : read);  // with an error, Asio has kept all input
+        use(pauses ? input_.size() - used_ : read);  // with an error, Asio has kept all input
         if (pauses) co_await take_turn(turns);
     }
     // Otherwise a client whose system waits for this acknowledgement (Nagle's algorithm) sends its request 40 ms later.
