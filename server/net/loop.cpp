@@ -146,8 +146,7 @@ bool Loop::cut_longest_idle() {
 bool Loop::cut_stranger(Address const* from) {
     auto strangers = connections_ | std::views::filter([&](auto const* each) { return each->is_stranger(from); });
     auto const oldest = std::ranges::min_element(strangers, {}, &Connection::accepted);
-    auto const age = from != nullptr ? 0 : sweeps_of_grace;
-    if (oldest == strangers.end() || (*oldest)->accepted() + age > sweeps_) return false;
+    if (oldest == strangers.end() || (*oldest)->accepted() + (from != nullptr ? 0 : sweeps_of_grace) > sweeps_) return false;
     (*oldest)->give_way();
     return true;
 }

@@ -80,7 +80,6 @@ public:
     // With tokens, cuts the oldest connection from this address that has shown none. Null: from any address, if this loop has
     // been able to read its request for 0.1 s.
     bool cut_stranger(Address const* from);
-    std::uint64_t sweeps() const { return sweeps_; }  // until now
     bool draining() const { return last_moment_ != Steady::max(); }
     Shared& shared() const { return shared_; }
     xml::RequestReader& reader() { return reader_; }

@@ -5,8 +5,8 @@
 
 namespace rois::net {
 
-Task<> Turns::take(asio::ip::address from) {
-    Timer timer{executor_, std::chrono::steady_clock::time_point::max()};
+Task<> Turns::take(asio::ip::address from, Timer& timer) {
+    timer.expires_at(std::chrono::steady_clock::time_point::max());
     Place const place{std::move(from), ++last_number_};
     struct Leaving {
         std::map<Place, Timer*>& waiting;

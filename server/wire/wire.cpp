@@ -46,10 +46,16 @@ void Wire::use(std::size_t bytes) {
     used_ = 0;
 }
 
-Task<> Wire::take_turn(Turns& turns) {
+Task<bool> Wire::take_turn(Turns& turns) {
+    Timer timer{executor()};
+    struct Waiting {
+        Timer*& turn;
+        ~Waiting() { turn = nullptr; }
+    } const waiting{turn_ = &timer};
     boost::system::error_code error;
     auto const endpoint = socket_.remote_endpoint(error);
-    co_await turns.take(error ? asio::ip::address{} : endpoint.address());
+    co_await turns.take(error ? asio::ip::address{} : endpoint.address(), timer);
+    co_return socket_.is_open();
 }
 
 Task<Wire::Outcome> Wire::secure(std::shared_ptr<asio::ssl::context> context, Steady until, Turns& turns) {
@@ -58,13 +64,15 @@ Task<Wire::Outcome> Wire::secure(std::shared_ptr<asio::ssl::context> context, St
     tls_ = std::make_unique<Tls>(std::move(context), socket_);
     tls::PausedHandshake handshake{tls_->stream.native_handle()};
     boost::system::error_code error;
-    for (bool pauses = true; pauses;) {
+    while (true) {
         input_due_ = until;
         auto const read = co_await tls_->stream.async_handshake(
             asio::ssl::stream_base::server, asio::buffer(input_.data() + used_, input_.size() - used_), into(error));
-        pauses = handshake.pauses();
+        bool const pauses = handshake.pauses();
         use(pauses ? input_.size() - used_ : read);  // with an error, Asio has kept all input
-        if (pauses) co_await take_turn(turns);
+        if (!pauses) break;
+        auto const is_open = co_await take_turn(turns);
+        if (!is_open) co_return input_ended(asio::error::operation_aborted);
     }
     // Otherwise a client whose system waits for this acknowledgement (Nagle's algorithm) sends its request 40 ms later.
     int const on = 1;
@@ -194,6 +202,7 @@ UniqueDescriptor Wire::release() {
 }
 
 void Wire::cut() {
+    if (turn_ != nullptr) turn_->cancel();
     boost::system::error_code ignored;
     socket_.close(ignored);
 }

@@ -36,8 +36,8 @@ public:
 
     enum class Outcome : std::uint8_t { done, closed, late };
 
-    // Waits for a turn among the clients that have not shown who they are.
-    Task<> take_turn(Turns&);
+    // Waits for a turn among the clients that have not shown who they are. Returns false if the connection was cut meanwhile.
+    Task<bool> take_turn(Turns&);
 
     // The opening handshake of TLS, before anything else. Takes a turn for its costly part. Returns `done` also if the peer does
     // not begin it: then `is_secure` is false, and the wire has received something else.
@@ -122,7 +122,8 @@ private:
     Steady output_due_ = Steady::max();
     bool input_late_ = false;
     bool interrupted_ = false;
-    bool probed_ = false;  // the system probes the peer
+    bool probed_ = false;     // the system probes the peer
+    Timer* turn_ = nullptr;  // waits for a turn
     std::optional<Watching> watching_;
 };
 

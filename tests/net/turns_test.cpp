@@ -17,7 +17,8 @@ using testing::ElementsAre;
 
 struct ATurn : testing::Test {
     Task<> work(std::string address, std::string name) {
-        co_await turns.take(asio::ip::make_address(address));
+        Timer timer{io.get_executor()};
+        co_await turns.take(asio::ip::make_address(address), timer);
         done.push_back(name);
         asio::post(io, [this] { done.emplace_back("other"); });
     }

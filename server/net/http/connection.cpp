@@ -24,8 +24,6 @@ constexpr auto longest_linger = std::chrono::seconds{2};
 constexpr auto longest_wait_without_memory = std::chrono::milliseconds{100};  // for a request while the system has no memory
 constexpr auto longest_wait_of_strangers = std::chrono::seconds{1};           // while memory_budget is nearly used up
 
-Fault only_joining() { return {FaultCode::not_allowed, "programs can only join here: expected GET /rois/engines"}; }
-
 }  // namespace
 
 Connection::Connection(Loop& loop, Socket socket, Admission::Place place, Loop::From from)
@@ -119,7 +117,10 @@ Task<Connection::Then> Connection::serve() {
     auto then = Then::next;
     unsigned in_a_row = 0;
     while (then == Then::next) {
-        if (is_stranger() && !wire_.received().empty()) co_await wire_.take_turn(loop_.turns());
+        if (is_stranger() && !wire_.received().empty()) {
+            auto const is_open = co_await wire_.take_turn(loop_.turns());
+            if (!is_open) co_return Then::end;
+        }
         then = take_request();
         if (then == Then::receive) {
             then = co_await receive();
@@ -202,7 +203,8 @@ Connection::Then Connection::judge_head() {
     bool const is_identified = !refused;
     if (!refused) refused = identify();
     if (!refused) refused = refusal(head_, route_, settings);
-    if (!refused && from_ == Loop::From::programs && route_.endpoint != Endpoint::engines) refused = answer_of(only_joining());
+    if (!refused && from_ == Loop::From::programs && route_.endpoint != Endpoint::engines)
+        refused = answer_of({FaultCode::not_allowed, "programs can only join here: expected GET /rois/engines"});
     if (!refused && route_.endpoint == Endpoint::clear && !client_->sees_everything()) refused = answer_of(only_for_all());
     auto const least = least_role_for(route_.endpoint, head_);
     if (!refused && client_->principal && client_->principal->role < least)

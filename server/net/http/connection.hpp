@@ -98,7 +98,7 @@ private:
     RequestHead head_;
     Route route_;
     SessionId session_;  // that the request names; empty if it names none
-    std::uint64_t const accepted_ = loop_.sweeps();
+    std::uint64_t const accepted_ = loop_.sweeps_;
     Steady request_due_ = Steady::max();
     Steady idle_due_ = Steady::max();  // when the next request must have begun; empty lines do not begin one
     bool idle_ = false;                // no byte of the next request has arrived
