@@ -216,8 +216,8 @@ private:
     bool profile_asked_ = false;     // a `get_profile` is not answered yet
     bool profile_changed_ = false;   // the profile changed after it was requested
     Steady last_sign_{};             // when the last sign of life was sent
-    std::optional<Steady> asked_for_sign_;  // when the first sign of life that is not answered yet was sent
-    EngineState state_;                     // the state that `show` passed on last
+    std::optional<Steady> asked_for_sign_;     // when the first sign of life that is not answered yet was sent
+    EngineState state_;                        // the state that `show` passed on last
     bool stop_is_asked_ = false;               // a `stop_everything` is not answered yet
     bool has_resumed_ = false;                 // and no notification has come since
     std::optional<std::uint64_t> stop_there_;  // to clear there; ClearStop::own: the number is not known (yet)

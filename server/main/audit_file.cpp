@@ -40,7 +40,8 @@ std::string line_of(AuditEntry const& entry, std::uint64_t left_out) {
 
 // Whether the file is empty, or begins with a line of line_of().
 bool is_audit_log(UniqueDescriptor const& file) {
-    constexpr std::string_view begin = R"({"time":"2026-11-28T10:15:30.123Z","what":")", time = R"({"time":")", what = R"(","what":")";
+    constexpr std::string_view begin = R"({"time":"2026-11-28T10:15:30.123Z","what":")", time = R"({"time":")",
+                               what = R"(","what":")";
     std::array<char, begin.size()> found{};
     auto const size = ::pread(file.get(), found.data(), found.size(), 0);
     std::string_view const text{found.data(), found.size()};

@@ -15,8 +15,8 @@ class Turns {
 public:
     explicit Turns(Executor const& executor) : executor_{executor} {}
 
-    // Waits for a turn, with this timer: to cancel it ends the waiting. The addresses have their turns one after the other, however
-    // many clients of one address wait.
+    // Waits for a turn, with this timer: to cancel it ends the waiting. The addresses have their turns one after the other,
+    // however many clients of one address wait.
     Task<> take(asio::ip::address from, Timer&);
     // Call it after an exception has ended the work of the thread.
     void go_on();

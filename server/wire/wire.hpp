@@ -122,7 +122,7 @@ private:
     Steady output_due_ = Steady::max();
     bool input_late_ = false;
     bool interrupted_ = false;
-    bool probed_ = false;     // the system probes the peer
+    bool probed_ = false;    // the system probes the peer
     Timer* turn_ = nullptr;  // waits for a turn
     std::optional<Watching> watching_;
 };

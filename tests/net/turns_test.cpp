@@ -22,9 +22,7 @@ struct ATurn : testing::Test {
         done.push_back(name);
         asio::post(io, [this] { done.emplace_back("other"); });
     }
-    void begin(std::string const& address, std::string const& name) {
-        asio::co_spawn(io, work(address, name), asio::detached);
-    }
+    void begin(std::string const& address, std::string const& name) { asio::co_spawn(io, work(address, name), asio::detached); }
 
     asio::io_context io;
     Turns turns{io.get_executor()};

@@ -314,8 +314,10 @@ TEST_F(Tokens, AreNamedInTheAuditLogAndNeverShown) {
          R"({"what":"refused","token":"desk","address":"127.0.0.1","operation":"bind","outcome":"not_allowed"})",
          R"({"what":"stopped everything","token":"chief","address":"127.0.0.1"})",
          R"({"what":"cleared the stop","token":"chief","address":"127.0.0.1"})",
-         R"({"what":"stopped everything","token":"desk","session":1})", R"({"what":"stopped everything","token":"chief","session":2})",
-         R"({"what":"cleared its own stop","token":"desk","session":1})", R"({"what":"cleared the stop","token":"chief","session":2})",
+         R"({"what":"stopped everything","token":"desk","session":1})",
+         R"({"what":"stopped everything","token":"chief","session":2})",
+         R"({"what":"cleared its own stop","token":"desk","session":1})",
+         R"({"what":"cleared the stop","token":"chief","session":2})",
          R"({"what":"refused","address":"127.0.0.1","operation":"/rois/profile/","outcome":"unauthorized"})"})
         EXPECT_THAT(without_times, HasSubstr(std::string{line} + "\n"));
     for (auto const& secret : {service, administrator, session, std::string{"guess"}, std::string{"my-secret-id"},
