@@ -133,6 +133,7 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
     free_pages_ = prepared("PRAGMA freelist_count");
     count_pages();
     keep_reserve(Steady::clock::now());
+    open_stop(folder + "/stop");
 }
 
 JournalFile::~JournalFile() = default;
@@ -327,6 +328,23 @@ bool JournalFile::is_in_place() {
     bool const has_log = ::lstat(log_.c_str(), &named) == 0;
     if (log_inode_ == 0 && has_log) log_inode_ = named.st_ino;
     return log_inode_ == 0 || (has_log && named.st_ino == log_inode_);
+}
+
+// Its only byte is 1 or 0.
+void JournalFile::open_stop(std::string const& name) {
+    make_file(name);
+    keep_to_owner(name);
+    stop_ = UniqueDescriptor{::open(name.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC)};
+    char kept = '0';
+    if (::pread(stop_.get(), &kept, 1, 0) == 1)
+        is_stopped_ = kept == '1';
+    else if (::pwrite(stop_.get(), &kept, 1, 0) != 1)
+        throw BadJournal{"state: cannot write " + rois::quoted(name) + ": " + std::strerror(errno)};
+}
+
+void JournalFile::keep_stop(bool is_stopped) {
+    if (is_stopped == is_stopped_) return;
+    if (::pwrite(stop_.get(), is_stopped ? "1" : "0", 1, 0) == 1 && ::fdatasync(stop_.get()) == 0) is_stopped_ = is_stopped;
 }
 
 void JournalFile::give_up_reserve() {

@@ -14,6 +14,7 @@
 
 #include "journal/records.hpp"
 #include "types/instant.hpp"
+#include "types/unique_descriptor.hpp"
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -54,6 +55,10 @@ public:
     // Why the last `store` or `tidy` did not succeed.
     std::string const& problem() const { return problem_; }
 
+    // Whether everything is stopped, in a file of its own that never grows: also a full disk takes a change of it.
+    void keep_stop(bool is_stopped);
+    bool is_stopped() const { return is_stopped_; }
+
     // Whether the file and SQLite's log still have their names: otherwise the next start would not find them.
     bool is_in_place();
 
@@ -80,6 +85,7 @@ private:
     bool write(RecordChanges const&);
     bool step(Statement&);
     void count_pages();
+    void open_stop(std::string const& name);
     Result judged();
     bool note_failure();
     void give_up_reserve();
@@ -88,6 +94,8 @@ private:
     std::string const name_;
     std::string const log_;  // of SQLite
     std::string const reserve_;
+    UniqueDescriptor stop_;
+    bool is_stopped_ = false;  // as kept
     ::ino_t inode_ = 0;      // of the database
     ::ino_t log_inode_ = 0;  // of SQLite's log; 0: not seen yet
     ::dev_t device_ = 0;

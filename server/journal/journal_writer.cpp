@@ -66,6 +66,7 @@ void JournalWriter::write(Changes const& changes) {
     auto const begin = std::chrono::steady_clock::now();
     auto result = JournalFile::Result::no_room;
     try {
+        file_->keep_stop(changes.engine.is_stopped);
         result = file_->store(records_of(changes));
         if (result == JournalFile::Result::no_room && !std::exchange(is_failing_, true))
             calls_.say("not stored, and tried again: " + file_->problem());

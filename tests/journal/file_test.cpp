@@ -108,6 +108,18 @@ TEST_F(JournalsFile, KnowsWhetherItsLogWasRemoved) {
     EXPECT_FALSE(file.is_in_place());
 }
 
+TEST_F(JournalsFile, KeepsAStopWithoutNeedingRoom) {
+    for (bool const stopped : {true, false}) {
+        {
+            JournalFile file{folder.name(), plenty};
+            EXPECT_NE(file.is_stopped(), stopped);
+            file.keep_stop(stopped);
+        }
+        EXPECT_EQ((JournalFile{folder.name(), plenty}.is_stopped()), stopped);
+        EXPECT_EQ(std::filesystem::file_size(folder.name() + "/stop"), 1U);
+    }
+}
+
 TEST_F(JournalsFile, IsMadeWithItsFolder) {
     auto const below = folder.name() + "/below";
     EXPECT_EQ(why_refused(below), "");
