@@ -38,14 +38,17 @@ std::string line_of(AuditEntry const& entry, std::uint64_t left_out) {
     return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-// Whether the file is empty, or begins with a line of line_of().
+// Whether the file is empty, or begins with a line of line_of(), which may have been cut short.
 bool is_audit_log(UniqueDescriptor const& file) {
-    constexpr std::string_view begin = R"({"time":"2026-11-28T10:15:30.123Z","what":")", time = R"({"time":")",
-                               what = R"(","what":")";
+    constexpr std::string_view begin = R"({"time":"0000-00-00T00:00:00.000Z","what":")";
     std::array<char, begin.size()> found{};
     auto const size = ::pread(file.get(), found.data(), found.size(), 0);
-    std::string_view const text{found.data(), found.size()};
-    return size == 0 || (text.starts_with(time) && text.ends_with(what));
+    for (::ssize_t i = 0; i < size; ++i) {
+        auto const at = static_cast<std::size_t>(i);
+        bool const is_digit = found.at(at) >= '0' && found.at(at) <= '9';
+        if (begin[at] == '0' ? !is_digit : found.at(at) != begin[at]) return false;
+    }
+    return size >= 0;
 }
 
 // A process that was killed may have written a part of it.

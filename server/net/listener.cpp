@@ -22,7 +22,6 @@ bool has_gone(boost::system::error_code const& error) {
 
 constexpr auto between_tries = std::chrono::milliseconds{50};
 constexpr auto between_looks = std::chrono::milliseconds{10};  // for a stranger
-constexpr unsigned looks_for_strangers = 25;                   // with tokens: only then, one that has shown a token gives way
 constexpr unsigned most_at_once = 64;                          // connections, before the open ones have a turn
 constexpr unsigned most_without_memory = 64;                   // connections between two pauses while the system has no memory
 
@@ -111,9 +110,9 @@ void Listener::serve(Socket socket, Admission::Place place) {
     }
 }
 
-// Without a free place, takes that of a stranger or of the connection that has been idle for longest, or waits: then the kernel
-// keeps further connections waiting. If its address has reached its limit, does not wait: others may be behind it. Returns
-// nothing if that limit stays, or if the listener is closed.
+// Without a free place, takes that of a stranger or, if there is none, of the connection that has been idle for longest; or
+// waits: then the kernel keeps further connections waiting. Never waits because of the limit of an address: others may be behind.
+// Returns nothing if that limit stays, or if the listener is closed.
 Task<std::optional<Admission::Place>> Listener::place(Socket& socket) {
     auto& shared = loop_.shared();
     auto const address = remote_address(socket);
@@ -121,7 +120,7 @@ Task<std::optional<Admission::Place>> Listener::place(Socket& socket) {
     auto const limits = limits_of(*address, shared.settings().proxies);
     bool const has_tokens = shared.gateway.tokens() != nullptr;
     auto number = Admission::OfAddress::limited;
-    for (unsigned looks = 0; acceptor_.is_open();) {
+    for (bool all_known = !has_tokens; acceptor_.is_open();) {
         auto entered = admission_.enter(*address, limits, number);
         if (auto* place = std::get_if<Admission::Place>(&entered)) co_return std::move(*place);
         if (std::get<Admission::Refused>(entered) == Admission::Refused::full_of_address) {
@@ -135,11 +134,10 @@ Task<std::optional<Admission::Place>> Listener::place(Socket& socket) {
             spdlog::warn("{} connections are open: each new one waits, or replaces one that is idle",
                          shared.settings().max_connections);
         }
-        bool const may_be_strangers = has_tokens && looks < looks_for_strangers;
-        if (may_be_strangers ? loop_.cut_stranger(nullptr) : loop_.cut_longest_idle()) continue;
-        auto const asked = shared.make_room(may_be_strangers);
-        co_await pause(may_be_strangers ? between_looks : between_tries);
-        if (asked.expired()) ++looks;
+        if (all_known ? loop_.cut_longest_idle() : loop_.cut_stranger(nullptr) == Loop::Stranger::cut) continue;
+        auto const found = shared.make_room(!all_known);
+        co_await pause(all_known ? between_tries : between_looks);
+        all_known = !has_tokens || (!all_known && found.use_count() == 1 && !*found);
     }
     co_return std::nullopt;
 }

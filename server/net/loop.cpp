@@ -143,12 +143,13 @@ bool Loop::cut_longest_idle() {
     return true;
 }
 
-bool Loop::cut_stranger(Address const* from) {
+Loop::Stranger Loop::cut_stranger(Address const* from) {
     auto strangers = connections_ | std::views::filter([&](auto const* each) { return each->is_stranger(from); });
     auto const oldest = std::ranges::min_element(strangers, {}, &Connection::accepted);
-    if (oldest == strangers.end() || (*oldest)->accepted() + (from != nullptr ? 0 : sweeps_of_grace) > sweeps_) return false;
+    if (oldest == strangers.end()) return Stranger::none;
+    if ((*oldest)->accepted() + (from != nullptr ? 0 : sweeps_of_grace) > sweeps_) return Stranger::stays;
     (*oldest)->give_way();
-    return true;
+    return Stranger::cut;
 }
 
 void Loop::add(Connection& connection) {

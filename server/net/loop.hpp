@@ -48,9 +48,9 @@ public:
     std::shared_ptr<xml::Schemas const> schemas;
     Troubles& troubles;
     LongDocuments long_documents;
-    // Each thread soon cuts a stranger, or the connection that has been idle for longest. The returned pointer expires when all
-    // have looked for one.
-    std::function<std::weak_ptr<void>(bool among_strangers)> make_room;
+    // Each thread soon cuts a stranger, or the connection that has been idle for longest. When all have looked for one, nobody
+    // else holds the returned value: whether there is a stranger.
+    std::function<std::shared_ptr<std::atomic<bool> const>(bool among_strangers)> make_room;
 
 private:
     std::list<Settings> versions_;  // after each SIGHUP one more
@@ -79,7 +79,8 @@ public:
     bool cut_longest_idle();
     // With tokens, cuts the oldest connection from this address that has shown none. Null: from any address, if this loop has
     // been able to read its request for 0.1 s.
-    bool cut_stranger(Address const* from);
+    enum class Stranger : std::uint8_t { none, stays, cut };
+    Stranger cut_stranger(Address const* from);
     bool draining() const { return last_moment_ != Steady::max(); }
     Shared& shared() const { return shared_; }
     xml::RequestReader& reader() { return reader_; }

@@ -34,12 +34,13 @@ public:
           hang_ups_{first_.executor()} {
         while (loops_.size() < shared_.settings().threads) add_loop();
         shared_.make_room = [this](bool among_strangers) {
-            auto const looking = std::make_shared<char>();
+            auto const found = std::make_shared<std::atomic<bool>>(false);
             for (auto& loop : loops_)
-                asio::post(loop.executor(), [&loop, among_strangers, looking] {
-                    among_strangers ? loop.cut_stranger(nullptr) : loop.cut_longest_idle();
+                asio::post(loop.executor(), [&loop, among_strangers, found] {
+                    if (!among_strangers) loop.cut_longest_idle();
+                    if (among_strangers && loop.cut_stranger(nullptr) != Loop::Stranger::none) *found = true;
                 });
-            return std::weak_ptr<void>{looking};
+            return found;
         };
         show_limits(shared_.settings());
         gateway.begin();  // before the first request

@@ -70,14 +70,17 @@ TEST_F(OfAudit, GoesOnBehindALineThatWasCutShort) {
 }
 
 TEST_F(OfAudit, IsNotAddedToAFileOfAnotherKind) {
-    std::ofstream{file.name()} << R"({"tokens": []})";
-    try {
-        AuditFile const audit{file.name(), {}};
-        FAIL() << "it would damage the file";
-    } catch (BadSettings const& problem) {
-        EXPECT_THAT(problem.what(), testing::HasSubstr("is another file"));
+    std::string const log = R"({"time":"2026-11-29T10:15:30.123Z","level":"info","message":"listening"})";
+    for (auto const& text : {std::string{R"({"tokens": []})"}, log}) {
+        std::ofstream{file.name()} << text;
+        try {
+            AuditFile const audit{file.name(), {}};
+            FAIL() << "it would damage the file";
+        } catch (BadSettings const& problem) {
+            EXPECT_THAT(problem.what(), testing::HasSubstr("is another file"));
+        }
+        EXPECT_EQ(content(file.name()), text);
     }
-    EXPECT_EQ(content(file.name()), R"({"tokens": []})");
 }
 
 TEST_F(OfAudit, LeavesSessionsOutIfThereAreTooMany) {
