@@ -77,8 +77,7 @@ public:
     void serve(Socket, Admission::Place, From);
     // Cuts the connection that has been idle for longest. Returns false if none has been for 0.1 s.
     bool cut_longest_idle();
-    // With tokens, cuts the oldest connection from this address that has shown none. Null: from any address, if this loop has
-    // been able to read its request for 0.1 s.
+    // With tokens, cuts the oldest connection of this address (null: of any, if it is 0.1 s old) that has shown none.
     enum class Stranger : std::uint8_t { none, stays, cut };
     Stranger cut_stranger(Address const* from);
     bool draining() const { return last_moment_ != Steady::max(); }
