@@ -189,7 +189,7 @@ TEST_F(CppPsm, EventsThatWaitTooLongAreDroppedAndReportedOnce) {
     receiver.bell.ring([&] { receiver.free = true; });
     EXPECT_EQ(system.disconnect(), ok);
     EXPECT_GT(receiver.received, 1'000);
-    EXPECT_LE(receiver.received, 1'024 + 1) << "those that waited, and the one that was being delivered";
+    EXPECT_LT(receiver.received, 1'100) << "1,024 that waited, one that was being delivered, and a few that came afterwards";
     EXPECT_EQ(application.errors.size(), 1);
 }
 
