@@ -13,7 +13,7 @@ namespace rois::net {
 // Belongs to one thread, as its executor. Between two turns, the thread does all other work that is ready.
 class Turns {
 public:
-    explicit Turns(Executor const& executor) : executor_{executor} {}
+    explicit Turns(Executor executor) : executor_{std::move(executor)} {}
 
     // Waits for a turn, with this timer: to cancel it ends the waiting. The addresses have their turns one after the other,
     // however many clients of one address wait.
