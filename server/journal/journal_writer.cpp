@@ -73,6 +73,7 @@ void JournalWriter::write(Changes const& changes) {
         auto const time = std::chrono::steady_clock::now() - begin;
         if (time >= slow) calls_.say("storing took " + in_seconds(time) + ": the disk is slow");
     } catch (std::bad_alloc const&) {  // `done` says whether they are stored
+        is_failing_ = false;           // the reason is said the next time
     }
     if (result == JournalFile::Result::broken) return calls_.broken(file_->name() + ": " + file_->problem());
     bool const stored = result == JournalFile::Result::stored;
@@ -87,7 +88,8 @@ void JournalWriter::note_room() {
     if (has_room_.exchange(file_->has_reserve()) == file_->has_reserve()) return;
     try {
         calls_.say(file_->has_reserve() ? "the journal has room again" : no_room);
-    } catch (std::bad_alloc const&) {  // a line less in the log
+    } catch (std::bad_alloc const&) {
+        return;  // a line less in the log
     }
 }
 
