@@ -96,8 +96,8 @@ private:
     std::string const reserve_;
     UniqueDescriptor stop_;
     bool is_stopped_ = false;  // as kept
-    ::ino_t inode_ = 0;      // of the database
-    ::ino_t log_inode_ = 0;  // of SQLite's log; 0: not seen yet
+    ::ino_t inode_ = 0;        // of the database
+    ::ino_t log_inode_ = 0;    // of SQLite's log; 0: not seen yet
     ::dev_t device_ = 0;
     std::unique_ptr<sqlite3, Close> database_;
     int log_pages_ = 0;

@@ -73,7 +73,7 @@ void JournalWriter::write(Changes const& changes) {
         auto const time = std::chrono::steady_clock::now() - begin;
         if (time >= slow) calls_.say("storing took " + in_seconds(time) + ": the disk is slow");
     } catch (std::bad_alloc const&) {  // `done` says whether they are stored
-        is_failing_ = false;           // the reason is said the next time
+        is_failing_ = false;           // the log gets the reason the next time
     }
     if (result == JournalFile::Result::broken) return calls_.broken(file_->name() + ": " + file_->problem());
     bool const stored = result == JournalFile::Result::stored;

@@ -48,8 +48,8 @@ public:
     std::shared_ptr<xml::Schemas const> schemas;
     Troubles& troubles;
     LongDocuments long_documents;
-    // Each thread soon cuts a stranger, or the connection that has been idle for longest. When all have looked for one, nobody
-    // else holds the returned value: whether there is a stranger.
+    // Each thread soon cuts a stranger, or the connection that has been idle for longest. Returns whether there is a stranger;
+    // that is known when all threads have looked, and the caller is the only holder of the value.
     std::function<std::shared_ptr<std::atomic<bool> const>(bool among_strangers)> make_room;
 
 private:

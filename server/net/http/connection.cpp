@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <boost/asio/post.hpp>
 #include <boost/beast/http/write.hpp>
 #include <sstream>
@@ -337,11 +338,11 @@ Connection::Then Connection::serve_upgrade() {
     auto const& shared = loop_.shared();
     if (shared.gateway.shutting_down()) return reply(answer_of(shutting_down()));
     bool const joins = route_.endpoint == Endpoint::engines;
-    std::string missing = shared.settings().join ? "" : "the key engines in the configuration";
-    if (missing.empty() && client_->principal == nullptr && !is_loopback(place_.address()))
-        missing = "a connection from this machine, or tokens";
-    if (joins && !missing.empty())
-        return reply(answer_of({FaultCode::not_allowed, "joining is not allowed: expected " + missing}));
+    bool const is_trusted = client_->principal != nullptr || is_loopback(place_.address());
+    if (joins && !(shared.settings().join && is_trusted))
+        return reply(answer_of({FaultCode::not_allowed, std::string{"joining is not allowed: expected "} +
+                                                            (shared.settings().join ? "a connection from this machine, or tokens"
+                                                                                    : "the key engines in the configuration")}));
     auto const answer = upgrade(head_);
     if (answer.status != http::status::switching_protocols) return reply(answer);
     if (joins) return Then::engine;  // client::accepted_link sends the answer to the handshake

@@ -1,7 +1,6 @@
 // One HTTP connection: receives requests and answers them in order. It may become a WebSocket or an event stream.
 #pragma once
 
-#include <algorithm>
 #include <list>
 #include <memory>
 #include <optional>
