@@ -45,7 +45,7 @@ Session& Engine::Core::own_session(RegisteredComponent& component, Instant now) 
     auto session = std::make_unique<Session>(MotionLease::Terms{settings_.motion_lease, settings_.motion_lease_http}, now.steady);
     session->window = settings_.resume_window;
     session->is_engine = true;
-    session->owner = &component;
+    session->owner = component.shared_from_this();
     session->lease.opened(LinkKind::stream, now.steady);
     component.hosted().call([now](Component& owner) { owner.session_began(now); });
     component.own_session = &open(std::move(session), now);
@@ -65,7 +65,9 @@ void Engine::Core::free_members(RegisteredComponent const& component, Instant no
     }
 }
 
+// A component that leaves may still ask, because its provider runs on another thread. It gets no answer.
 void Engine::Core::perform(RegisteredComponent& component, OperationAsked&& asked, Instant now) {
+    if (registry_.find(component.ref().code) != &component) return;
     auto const& session = own_session(component, now);
     take(std::make_shared<OwnOperation>(session, std::move(asked)), now);
 }

@@ -69,8 +69,8 @@ struct Session {
 
     // The client is another engine (decision 39), or a logical component.
     bool is_engine = false;
-    RegisteredComponent* owner = nullptr;  // the logical component (own_sessions.cpp)
-    std::uint64_t delivered = 0;           // sequence of the last notification that the owner was called with
+    std::shared_ptr<RegisteredComponent> owner;  // the logical component (own_sessions.cpp)
+    std::uint64_t delivered = 0;                 // sequence of the last notification that the owner was called with
     struct Notified {
         Steady at;
         ComponentStatus status = ComponentStatus::uninitialized;

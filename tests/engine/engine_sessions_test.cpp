@@ -7,6 +7,29 @@ namespace {
 
 Connect const as_engine{.motion_lease = {}, .motion_lease_http = {}, .motion_proof = {}, .is_engine = true, .window = 3000ms};
 
+// A logical component that does nothing by itself.
+class Chooser final : public Component {
+public:
+    Chooser() {
+        description_.ref = Application::identifier("chooser");
+        description_.profile = std::make_shared<ComponentProfile const>(navigation.profile);
+        description_.members = {"navigation"};
+        description_.returns_at_once = true;
+    }
+    ComponentDescription const& description() const override { return description_; }
+    void attach(ComponentPort& its_port) override { port = &its_port; }
+    void prepare(Ticket, std::string_view, ParameterList const&, Instant) override {}
+    void halt(Ticket ticket, Instant) override { port->halted(ticket); }
+    void suspend(Ticket, Instant) override {}
+    void resume(Ticket, Instant) override {}
+    void query(Ticket, std::string_view, Instant) override {}
+
+    ComponentPort* port = nullptr;
+
+private:
+    ComponentDescription description_;
+};
+
 struct AnEngine : testing::Test {
     World world{navigation, speech};
     Application engine = world.connect(as_engine);
@@ -205,6 +228,28 @@ TEST_F(AnEngine, HasAtMostEightStopsThatWaitForAHalt) {
     for (int i = 1; i <= 9; ++i) engine.execute(named("stop" + std::to_string(i), stop("navigation")));
     EXPECT_EQ(engine.result_of("stop1"), "TIMEOUT");
     EXPECT_EQ(engine.result_of("stop2"), "RUNNING");
+}
+
+// Its provider may run on another thread while the engine removes it.
+TEST(ALogicalComponent, GetsNoSessionAgainAsItLeaves) {
+    struct AskingAtTheEnd final : Trace {
+        void session_ended(std::uint64_t, std::string_view why) override {
+            EXPECT_EQ(why, "its logical component has left");
+            port->ask(GetProfile{}, [](Reply const*) {});
+        }
+        ComponentPort* port = nullptr;
+    } trace;
+    World world{navigation};
+    auto chooser = std::make_unique<Chooser>();
+    auto const& its_port = chooser->port;
+    world.engine->add(std::move(chooser));
+    world.advance(100ms);
+    ASSERT_EQ(world.engine->statistics().sessions, 1u);
+    trace.port = its_port;
+    world.engine->report_to(trace);
+    world.change({"chooser"}, {});
+    EXPECT_EQ(world.engine->statistics().sessions, 0u);
+    world.advance(1s);
 }
 
 TEST(Window, IsTheTimeAfterWhichASessionWithoutALinkEnds) {
