@@ -73,7 +73,7 @@ TEST(HttpHead, HasAtMostOneContentLength) {
     EXPECT_EQ(std::get<RequestHead>(read(with("Content-Length: 18446744073709551615"))).content_length, UINT64_MAX);
     for (auto const* line :
          {"Content-Length: -1", "Content-Length: 1e3", "Content-Length: +1", "Content-Length: 99999999999999999999999",
-          "Content-Length:", "Content-Length: 1\r\nContent-Length: 1"}) {
+          "Content-Length:", "Content-Length: 1, 1", "Content-Length: 1\r\nContent-Length: 1"}) {
         EXPECT_EQ(fault(with(line)), FaultCode::not_well_formed) << line;
     }
     EXPECT_EQ(fault(with("Transfer-Encoding: chunked")), FaultCode::length_required);

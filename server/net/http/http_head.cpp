@@ -35,7 +35,7 @@ bool is_refused(std::string_view parameters) {
 Fault broken(std::string reason) { return {FaultCode::not_well_formed, "broken HTTP: " + std::move(reason)}; }
 
 Fault overlong_target(Settings const& settings) {
-    return {FaultCode::uri_too_long, "the request target is longer than " + std::to_string(settings.max_target) + " bytes"};
+    return {FaultCode::uri_too_long, "the target has more than " + std::to_string(settings.max_target) + " bytes (max_target)"};
 }
 
 Fault no_transfer_encoding() {
@@ -81,15 +81,15 @@ std::optional<Fault> find_fault(std::string_view text, Settings const& settings,
     auto const hosts = fields.count(http::field::host);
     std::string_view const host = fields[http::field::host];
     if (static_cast<std::size_t>(std::distance(fields.begin(), fields.end())) > settings.max_header_fields)
-        return Fault{FaultCode::header_too_large, "more than " + std::to_string(settings.max_header_fields) + " header fields"};
+        return Fault{FaultCode::header_too_large,
+                     "more than " + std::to_string(settings.max_header_fields) + " header fields (max_header_fields)"};
     if (is_folded(text)) return broken("a folded header line: send each header field in one line");
     if (hosts > 1 || (hosts == 0 && !head.is_http_1_0())) return broken("expected exactly one Host header");
     if (!may_be_authority(host)) return broken("Host " + quoted(host) + " is not a name or an address with an optional port");
     if (!may_be_authority(head.target_authority))
         return broken("the target's host is not a name or an address with an optional port");
     if (fields.count(http::field::transfer_encoding) > 0) return no_transfer_encoding();
-    if (fields.count(http::field::content_length) > 1 || fields[http::field::content_length].contains(','))
-        return broken("expected one Content-Length header, with one number");
+    if (fields.count(http::field::content_length) > 1) return broken("more than one Content-Length header");
     return {};
 }
 
@@ -185,6 +185,7 @@ std::optional<Fault> read_head(std::string_view text, Settings const& settings, 
     boost::system::error_code error;
     parser.put(boost::asio::buffer(text), error);
     if (error == http::error::bad_transfer_encoding) return no_transfer_encoding();
+    if (error == http::error::bad_content_length) return broken("expected one Content-Length header, with one number");
     if (error && error != http::error::need_more) return broken(error.message());
     if (!parser.is_header_done()) return broken("a line that does not end with CR LF");
     head.content_length = parser.content_length().value_or(0);
@@ -197,7 +198,7 @@ std::optional<Fault> read_head(std::string_view text, Settings const& settings, 
 
 Fault overlong_head(std::string_view text, Settings const& settings) {
     if (text.find('\n') == std::string_view::npos) return overlong_target(settings);
-    return {FaultCode::header_too_large, "the header has more than " + std::to_string(settings.max_header) + " bytes"};
+    return {FaultCode::header_too_large, "the head has more than " + std::to_string(settings.max_header) + " bytes (max_header)"};
 }
 
 }  // namespace rois::net

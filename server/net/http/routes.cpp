@@ -108,10 +108,9 @@ std::optional<HttpAnswer> refusal(RequestHead const& head, Route const& route, S
         return answer_of({FaultCode::not_found, "unknown path " + quoted(head.path) + ": docs/clients.md lists the paths"});
     bool const is_taken = methods_of(route.endpoint).find(head.method()) != std::string_view::npos;
     if (!is_known_method(head.method()) || !is_taken) return method_not_allowed(route, head.method());
-    if (head.content_length > settings.document.bytes) {
-        auto const size = std::to_string(head.content_length), most = std::to_string(settings.document.bytes);
-        return answer_of({FaultCode::too_large, "the body has " + size + " bytes: expected at most " + most});
-    }
+    auto const most = settings.document.bytes;
+    if (head.content_length > most)
+        return answer_of({FaultCode::too_large, "the body has more than " + std::to_string(most) + " bytes (max_body)"});
     auto const type = head.field("Content-Type").value_or("");
     bool const has_document = head.verb() == http::verb::post && route.endpoint == Endpoint::rois;
     if (!has_document || xml::is_xml_media_type(type)) return {};

@@ -89,7 +89,7 @@ TEST(LimitOfARequest, IsTheSizeOfItsHeader) {
     auto const refused = client.say(head_of_size(most_header + 1));
     EXPECT_EQ(refused.status, 431);
     EXPECT_EQ(refused.fault(), "header_too_large");
-    EXPECT_THAT(refused.reason(), HasSubstr("2048"));
+    EXPECT_THAT(refused.reason(), HasSubstr("2048 bytes (max_header)"));
 }
 
 TEST(LimitOfARequest, IsTheNumberOfItsHeaderFields) {
@@ -102,7 +102,7 @@ TEST(LimitOfARequest, IsTheNumberOfItsHeaderFields) {
     EXPECT_EQ(client.say(with_fields(most_fields)).status, 200);
     auto const refused = client.say(with_fields(most_fields + 1));
     EXPECT_EQ(refused.status, 431);
-    EXPECT_EQ(refused.reason(), "more than 16 header fields");
+    EXPECT_EQ(refused.reason(), "more than 16 header fields (max_header_fields)");
 }
 
 TEST(LimitOfARequest, IsTheLengthOfItsTarget) {
@@ -114,7 +114,7 @@ TEST(LimitOfARequest, IsTheLengthOfItsTarget) {
     auto const refused = client.say(with_target(most_target + 1));
     EXPECT_EQ(refused.status, 414);
     EXPECT_EQ(refused.fault(), "uri_too_long");
-    EXPECT_THAT(refused.reason(), HasSubstr("1024"));
+    EXPECT_THAT(refused.reason(), HasSubstr("1024 bytes (max_target)"));
 }
 
 // search, condition, Filter and PropertyIsEqualTo with its ValueReference are five levels.
