@@ -49,7 +49,11 @@ std::vector<std::string> check_exposure(GatewaySettings const& settings) {
         warnings.push_back("clients send their tokens to " + where + " without TLS: others on the network can read them");
     if (is_reachable && !needs_token && settings.allow_anyone)
         warnings.push_back("everyone who reaches " + where + " may command the robot (allow_anyone)");
-    if (!settings.join.empty() && remote::is_in_the_clear(settings.join))
+    bool const joins_in_the_clear = !settings.join.empty() && remote::is_in_the_clear(settings.join);
+    if (joins_in_the_clear && !settings.join_token_file.empty())
+        throw BadSettings{"join_token_file: others could read the token on its way to " + quoted(settings.join) +
+                          ": expected a URL with https:// or wss:// in join"};
+    if (joins_in_the_clear)
         warnings.push_back("any program that answers at " + settings.join +
                            " may command this robot: with wss:// it must have a certificate");
     if (needs_token || settings.allow_anyone) return warnings;

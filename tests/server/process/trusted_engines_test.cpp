@@ -64,6 +64,17 @@ TEST_F(TrustedEngines, AreNotAskedWithATokenThatOthersCouldRead) {
         HasSubstr("engines.json:1:61: sub engine 'hall': others could read the token on its way to 'ws://192.0.2.1:8080'"));
 }
 
+TEST_F(TrustedEngines, DoNotJoinWithATokenThatOthersCouldRead) {
+    put("engine.token", engine);
+    for (std::vector<std::string> flags : {std::vector<std::string>{"--check-config"}, {}}) {
+        flags.insert(flags.end(), {"--join", "ws://192.0.2.1:8080", "--join-token-file", path("engine.token")});
+        auto const refused = run_gateway(flags);
+        EXPECT_EQ(refused.exit_code, 2);
+        EXPECT_THAT(refused.error,
+                    HasSubstr("join_token_file: others could read the token on its way to 'ws://192.0.2.1:8080': expected "));
+    }
+}
+
 TEST_F(TrustedEngines, JoinWithATokenUntilItIsRevoked) {
     put("engines.json", R"({"engines": [{"name": "hall", "joins": "hall"}]})");
     put("engine.token", engine);
