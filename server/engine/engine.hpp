@@ -215,6 +215,8 @@ public:
     // Returns the session's queue, or null, also if the session was opened with other rights. The queue stays readable after the
     // session's end.
     std::shared_ptr<NotificationQueue> notifications(SessionId const&, Rights const* = nullptr) const;
+    // Returns whether the session was opened with other rights; false for an unknown one.
+    bool is_of_another(SessionId const&, Rights const*) const;
     // Returns whether the session was opened by another engine (decision 39); false for an unknown one.
     bool is_engine(SessionId const&) const;
 

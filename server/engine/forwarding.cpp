@@ -49,6 +49,11 @@ std::shared_ptr<NotificationQueue> Engine::notifications(SessionId const& id, Ri
     return session == nullptr || session->rights.get() != rights ? nullptr : session->notifications;
 }
 
+bool Engine::is_of_another(SessionId const& id, Rights const* rights) const {
+    auto const* session = core_->find(id);
+    return session != nullptr && session->rights.get() != rights;
+}
+
 bool Engine::is_engine(SessionId const& id) const {
     auto const* session = core_->find(id);
     return session != nullptr && session->is_engine;

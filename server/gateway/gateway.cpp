@@ -268,6 +268,8 @@ PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via 
     bool const known = queue != nullptr;
     bool const connects = std::holds_alternative<Connect>(request.operation);
     bool const opens = client && !known && connects;
+    auto const* resume = std::get_if<Resume>(&request.operation);
+    if (!known) note_foreign(resume != nullptr ? resume->session : session, rights.get(), operation_name(request.operation));
     if (opens)
         if (auto fault = refusal_of(*client)) {
             fault->request_id = request.request_id;
@@ -319,6 +321,7 @@ std::variant<std::unique_ptr<Reading>, Fault> Gateway::read(SessionId const& ses
     auto reading = std::make_unique<Reading>(*this, link, after, reader);
     Lock const lock{*this};
     auto queue = engine_.notifications(session, rights);
+    if (!queue) note_foreign(session, rights, "/rois/notifications");
     if (!queue || queue->closed()) return no_such_session();
     if (auto const last = queue->last_sequence(); after > last) return beyond(after, last);
     if (until == Readers::Until::closed && link == LinkKind::stream && readers_.streams(session) >= streams_per_session_) {
@@ -341,6 +344,12 @@ void Gateway::audit_to(Audit audit) {
 
 void Gateway::note_refusal(Client const& client, std::string_view operation, FaultCode code) const {
     note(audit_, "refused", client, {.what = {}, .operation = operation, .outcome = to_text(code)});
+}
+
+// A client that knows the id of another's session gets the same answer as for a session that does not exist.
+void Gateway::note_foreign(SessionId const& session, Rights const* rights, std::string_view operation) const {
+    if (rights == nullptr || !engine_.is_of_another(session, rights)) return;
+    audit_({.what = "refused", .token = rights->holder(), .operation = operation, .outcome = to_text(FaultCode::no_session)});
 }
 
 void Gateway::begin() {

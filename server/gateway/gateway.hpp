@@ -260,6 +260,7 @@ private:
                           Reading const*, Instant now);
     PendingAnswer refused(Fault);
     std::optional<Fault> refusal_of(Client const&);
+    void note_foreign(SessionId const&, Rights const*, std::string_view operation) const;
     void session_restored(std::uint64_t session, Rights const*);
     Fault fault_of(Refusal);
     MemoryBudget::Room room_for(std::string_view text);

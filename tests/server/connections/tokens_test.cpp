@@ -293,6 +293,10 @@ TEST_F(Tokens, AreNamedInTheAuditLogAndNeverShown) {
         desk.call("bind", component_ref("move"), {{"take_over", "true"}});
         chief.say(post("/rois/stop", "Authorization: Bearer " + administrator + "\r\n"));
         chief.say(post("/rois/clear", "Authorization: Bearer " + administrator + "\r\n"));
+        auto const own_session = std::exchange(chief.session, session);
+        EXPECT_EQ(chief.call("release", component_ref("move")).fault(), "no_session");
+        EXPECT_EQ(chief.notifications(0, 0).fault(), "no_session");
+        chief.session = own_session;
         for (auto* one : {&desk, &chief}) one->call("stop_everything");
         for (auto* one : {&desk, &chief}) one->call("clear_stop", {}, {{"stop", "0"}});
         HttpClient stranger{gateway};
@@ -312,6 +316,8 @@ TEST_F(Tokens, AreNamedInTheAuditLogAndNeverShown) {
          R"({"what":"refused","token":"desk","session":1,"component":"navigation","operation":"bind","outcome":"OUT_OF_RESOURCES"})",
          R"({"what":"refused","token":"desk","session":1,"operation":"bind","outcome":"BAD_PARAMETER"})",
          R"({"what":"refused","token":"desk","address":"127.0.0.1","operation":"bind","outcome":"not_allowed"})",
+         R"({"what":"refused","token":"chief","operation":"release","outcome":"no_session"})",
+         R"({"what":"refused","token":"chief","operation":"/rois/notifications","outcome":"no_session"})",
          R"({"what":"stopped everything","token":"chief","address":"127.0.0.1"})",
          R"({"what":"cleared the stop","token":"chief","address":"127.0.0.1"})",
          R"({"what":"stopped everything","token":"desk","session":1})",
