@@ -69,8 +69,10 @@ void HostedComponent::call(std::function<void(Component&)> what) {
 
 void HostedComponent::depart() {
     registered = nullptr;
-    provider_->part(*this);
-    add({}, [this](Component*) { component_.reset(); });
+    add({}, [this](Component*) {
+        component_.reset();
+        provider_->part(*this);  // not earlier: the first call, which joins, may still be waiting
+    });
 }
 
 void HostedComponent::report(ComponentReport&& report) {
