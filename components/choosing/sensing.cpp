@@ -217,6 +217,7 @@ void Sensing::take(Event const& event, ReceiveEvent const& received, Member cons
         case Reports::names:
             return report_names(event, received, member, now);
         case Reports::number:
+            if (number == nullptr || number->values.empty()) return;
             counts_[member.ref] = to_number<int>(number->values.front()).value_or(0);
             return report_number(event, now);
         case Reports::other:

@@ -134,6 +134,17 @@ private:
         }
     }
 
+    class Counted {
+    public:
+        explicit Counted(std::size_t& all) : all_{all} { ++all_; }
+        ~Counted() { --all_; }
+        Counted(Counted const&) = delete;
+        Counted& operator=(Counted const&) = delete;
+
+    private:
+        std::size_t& all_;
+    };
+
     // Connections beyond the limit wait until another one closes.
     Task<> accept() {
         struct End {
@@ -150,9 +161,9 @@ private:
             if (connections_ < settings_.max_connections) {
                 auto socket = co_await acceptor_.async_accept(into(error));
                 if (!error) {
-                    ++connections_;
+                    auto counted = std::make_unique<Counted>(connections_);
                     asio::co_spawn(io_, serve_receiver(std::move(socket), *directory_, settings_),
-                                   [this](std::exception_ptr const&) { --connections_; });
+                                   [counted = std::move(counted)](std::exception_ptr const&) {});
                     continue;
                 }
             }

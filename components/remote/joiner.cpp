@@ -1,5 +1,6 @@
 #include "remote/joiner.hpp"
 
+#include <stdexcept>
 #include <utility>
 
 #include "remote/times.hpp"
@@ -63,8 +64,9 @@ class Joiner::OwnGatewayLink final : public Side {
 public:
     explicit OwnGatewayLink(Joiner& of)
         : Side{of, [&](Listener& listener) {
-                   auto socket = of.joining_.own_gateway();
-                   return client::link_on(of.loop_, std::move(socket), of.settings_, listener);
+                   auto link = client::link_on(of.loop_, of.joining_.own_gateway(), of.settings_, listener);
+                   if (!link) throw std::runtime_error{"the system gives this gateway no connection to itself"};
+                   return link;
                }} {}
 
 private:
@@ -87,8 +89,12 @@ Joiner::Joiner(client::Loop& loop, Joining joining, std::string instance, std::f
 
 void Joiner::attempt() {
     if (is_over_) return;
-    own_gateway_ = std::make_shared<OwnGatewayLink>(*this);
-    own_gateway_->open();
+    try {
+        own_gateway_ = std::make_shared<OwnGatewayLink>(*this);
+        own_gateway_->open();
+    } catch (std::runtime_error const& problem) {
+        return give_up(problem.what());
+    }
     loop_.at(client::from_now(time_for_attempt), [self = shared_from_this(), era = era_] {
         if (self->era_ == era && !self->has_joined_) self->give_up("it did not answer within " + shown(time_for_attempt));
     });

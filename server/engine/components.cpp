@@ -198,6 +198,7 @@ void Engine::Core::enter(SharedComponent const& component) {
 
 // The component is no longer in the registry. The next tick retries a step that fails.
 void Engine::Core::leave(SharedComponent const& component, Instant now) {
+    component->is_member = false;  // a state that it has reported before is not passed on
     Attempts attempts;
     attempts([&] { executor_.part(*component, now); });
     if (auto* session = std::exchange(component->bound_to, nullptr)) {

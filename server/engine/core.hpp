@@ -288,6 +288,7 @@ private:
     void advance_devices(Instant now);
     bool devices_go_on();
     void hold_unproven_motion(Instant now);
+    void begin_stop_of_everything(Instant now);
     void report_stop_of_everything(Instant now);
     void forget_what_is_old(Instant now);
     void unbind(Session&, RegisteredComponent&, Instant now);

@@ -28,6 +28,8 @@ Engine::Core::Core(EngineProfile profile, std::vector<ComponentProfile> known_pr
 Engine::Core::~Core() {
     for (auto const& [ref, component] : registry_.all()) component->hosted().provider().close();
     for (auto const& device : devices_) device->provider->close();
+    for (auto const& [name, provider] : providers_)
+        if (auto const departed = provider.lock()) departed->close();
 }
 
 namespace {
@@ -276,6 +278,14 @@ void Engine::Core::remove(Session& session, Instant now) {
 }
 
 void Engine::Core::stop_everything(Instant now) {
+    Attempts attempts;
+    attempts([&] { begin_stop_of_everything(now); });
+    attempts([&] { settle(now); });
+    attempts.rethrow();
+}
+
+// Does not settle: that may end the session that asks.
+void Engine::Core::begin_stop_of_everything(Instant now) {
     everything_is_stopped_ = true;
     stop_unreported_ = true;
     ended_owners_.clear();
@@ -286,7 +296,6 @@ void Engine::Core::stop_everything(Instant now) {
     attempts([&] { executor_.stop_all("everything was stopped", now); });
     attempts([&] { last_stop_ = std::hash<std::string>{}(fresh_secret_()); });
     attempts([&] { report_stop_of_everything(now); });
-    attempts([&] { settle(now); });
     attempts.rethrow();
 }
 

@@ -155,7 +155,7 @@ Reply Engine::Core::perform(Session& session, StopEverything const&, Instant now
         auto const number = last_stop_;
         auto ended_owners = std::move(ended_owners_);
         Attempts attempts;
-        attempts([&] { stop_everything(now); });
+        attempts([&] { begin_stop_of_everything(now); });
         if (was_stopped) {
             last_stop_ = number;
             ended_owners_ = std::move(ended_owners);

@@ -90,6 +90,11 @@ Gateway::Gateway(Engine& engine, Readers& readers, Telemetry& telemetry, ClientL
     show_limits(limits);
 }
 
+// Components that have a thread of their own may still report.
+Gateway::~Gateway() {
+    engine_.on_report([] {});
+}
+
 void Gateway::show_limits(ClientLimits const& limits) {
     telemetry_.set(Telemetry::Limit::sessions_per_connection, limits.sessions_per_connection);
     telemetry_.set(Telemetry::Limit::sessions_per_address, limits.sessions_per_address);

@@ -167,6 +167,9 @@ public:
     // need none.
     Gateway(Engine&, Readers& readers, Telemetry&, ClientLimits = {}, MemoryBudget& = MemoryBudget::none(),
             Tokens* tokens = nullptr);
+    ~Gateway();
+    Gateway(Gateway const&) = delete;
+    Gateway& operator=(Gateway const&) = delete;
 
     // Reads the request and performs its operation for the session (an empty id: none yet). Locks the engine only for the
     // operation. If the answer comes later, `waits` is woken then. `client` counts its sessions, and its principal limits what it

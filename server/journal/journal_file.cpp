@@ -9,6 +9,7 @@
 #include <boost/crc.hpp>
 #include <cerrno>
 #include <cstring>
+#include <new>
 #include <string_view>
 #include <utility>
 
@@ -237,9 +238,13 @@ bool JournalFile::step(Statement& statement) {
 }
 
 // Returns false.
-bool JournalFile::note_failure() {
+bool JournalFile::note_failure() noexcept {
     failure_ = sqlite3_extended_errcode(database_.get());
-    problem_ = sqlite3_errmsg(database_.get());
+    try {
+        problem_ = sqlite3_errmsg(database_.get());
+    } catch (std::bad_alloc const&) {
+        problem_.clear();
+    }
     return false;
 }
 
@@ -267,11 +272,14 @@ bool JournalFile::write(RecordChanges const& changes) {
     return step(commit_);
 }
 
+void JournalFile::roll_back() {
+    if (sqlite3_get_autocommit(database_.get()) != 0) return;
+    sqlite3_step(rollback_.get());
+    sqlite3_reset(rollback_.get());
+}
+
 JournalFile::Result JournalFile::judged() {
-    if (sqlite3_get_autocommit(database_.get()) == 0) {
-        sqlite3_step(rollback_.get());
-        sqlite3_reset(rollback_.get());
-    }
+    roll_back();
     switch (failure_) {
         case SQLITE_FULL:
         case SQLITE_NOMEM:
@@ -293,8 +301,9 @@ JournalFile::Result JournalFile::store(RecordChanges const& changes) {
     return result;
 }
 
-// Begins no step behind a long log, so that the log stays short.
+// Begins no step behind a long log, so that the log stays short. The step before may have ended for lack of memory.
 JournalFile::Result JournalFile::attempt(RecordChanges const& changes) {
+    roll_back();
     if (auto const tidied = tidy(); tidied != Result::stored) return tidied;
     return write(changes) ? Result::stored : judged();
 }

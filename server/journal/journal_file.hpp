@@ -87,7 +87,8 @@ private:
     void count_pages();
     void open_stop(std::string const& name);
     Result judged();
-    bool note_failure();
+    bool note_failure() noexcept;
+    void roll_back();
     void give_up_reserve();
     [[noreturn]] void refuse(std::string const& why) const;
 

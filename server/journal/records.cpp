@@ -23,6 +23,9 @@ std::string key_of(std::uint64_t number) {
     return std::string(20 - digits.size(), '0') + digits;
 }
 
+// The reason of a component may have bytes that are not UTF-8.
+std::string text_of(json const& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+
 std::string document_of(Operation operation) { return xml::encode(Request{std::move(operation), {}}); }
 
 std::string document_of(Results const& results) {
@@ -38,13 +41,17 @@ std::string document_of(Numbered const& numbered) {
 }
 
 std::string value_of(StoredEngine const& engine) {
-    return json{{"last_session", engine.last_session}, {"last_subscription", engine.last_subscription},
-                {"last_command", engine.last_command}, {"last_handle", engine.last_handle},
-                {"next_event", engine.next_event},     {"next_error", engine.next_error},
-                {"is_stopped", engine.is_stopped},     {"last_stop", engine.last_stop},
-                {"ended_owners", engine.ended_owners}, {"sessions_there", engine.sessions_there},
-                {"stops_there", engine.stops_there}}
-        .dump();
+    return text_of(json{{"last_session", engine.last_session},
+                        {"last_subscription", engine.last_subscription},
+                        {"last_command", engine.last_command},
+                        {"last_handle", engine.last_handle},
+                        {"next_event", engine.next_event},
+                        {"next_error", engine.next_error},
+                        {"is_stopped", engine.is_stopped},
+                        {"last_stop", engine.last_stop},
+                        {"ended_owners", engine.ended_owners},
+                        {"sessions_there", engine.sessions_there},
+                        {"stops_there", engine.stops_there}});
 }
 
 std::string value_of(StoredSession const& session) {
@@ -55,18 +62,17 @@ std::string value_of(StoredSession const& session) {
         if (!each.parameters.empty()) binding["parameters"] = document_of(SetParameter{{.code = each.ref}, each.parameters});
         bindings.push_back(std::move(binding));
     }
-    return json{{"id", session.id.text},
-                {"rights", session.rights},
-                {"window", session.window.count()},
-                {"lease", session.lease.count()},
-                {"lease_http", session.lease_http.count()},
-                {"links_count", session.links_count},
-                {"is_engine", session.is_engine},
-                {"receives_switches", session.receives_switches},
-                {"last_stop", session.last_stop},
-                {"owns_stop", session.owns_stop},
-                {"bindings", std::move(bindings)}}
-        .dump();
+    return text_of(json{{"id", session.id.text},
+                        {"rights", session.rights},
+                        {"window", session.window.count()},
+                        {"lease", session.lease.count()},
+                        {"lease_http", session.lease_http.count()},
+                        {"links_count", session.links_count},
+                        {"is_engine", session.is_engine},
+                        {"receives_switches", session.receives_switches},
+                        {"last_stop", session.last_stop},
+                        {"owns_stop", session.owns_stop},
+                        {"bindings", std::move(bindings)}});
 }
 
 std::string value_of(StoredCommand const& command) {
@@ -77,7 +83,7 @@ std::string value_of(StoredCommand const& command) {
                         {"results", document_of(end->results)},
                         {"at", std::chrono::duration_cast<Milliseconds>(end->at.time_since_epoch()).count()},
                         {"notified", end->notified}};
-    return value.dump();
+    return text_of(value);
 }
 
 // The largest values of the keys max_body, max_depth and so on: each document that the gateway has accepted must be read.

@@ -410,6 +410,8 @@ int serve(CommandLine const& command) {
         spdlog::default_logger_raw()->flush();
         std::_Exit(exit_code);
     }
+    engine.on_stop([](bool) {});
+    remote_engines.reset();  // before the server, which its links use
     spdlog::info("stopped");
     return exit_code;
 }

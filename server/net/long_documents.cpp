@@ -2,6 +2,7 @@
 
 #include <boost/asio/post.hpp>
 #include <exception>
+#include <latch>
 #include <memory>
 #include <utility>
 
@@ -17,16 +18,23 @@ Task<PendingAnswer> LongDocuments::answer(Gateway& gateway, SessionId const& ses
                                           std::weak_ptr<Waker> waits, std::shared_ptr<Client> const& client, Wakes& wakes) {
     Executor const executor = co_await asio::this_coro::executor;
     auto const done = std::make_shared<WakeUp>(executor, wakes);
+    auto const left = std::make_shared<std::latch>(1);
     PendingAnswer answer;
     std::exception_ptr failed;
-    asio::post(thread_, [&] {
+    asio::post(thread_, [&, done, left] {
         try {
             answer = gateway.answer(reader_, session, text, via, waits, client);
         } catch (...) {
             failed = std::current_exception();
         }
-        done->wake();  // never fails; the coroutine may be gone when it returns
+        left->count_down();
+        done->wake();
     });
+    // Also after an exception, this coroutine stays until the other thread uses it no longer.
+    struct End {
+        std::latch& left;
+        ~End() { left.wait(); }
+    } const end{*left};
     co_await done->wait_until(Steady::max());
     if (failed) std::rethrow_exception(failed);
     co_return answer;

@@ -30,7 +30,7 @@ public:
           shared_{std::move(settings), gateway, telemetry, documents, std::move(schemas), troubles_},
           admission_{shared_.settings().max_connections, shared_.settings().max_connections_per_address},
           first_{add_loop()},
-          signals_{first_.executor()},
+          signals_{first_.executor(), SIGTERM, SIGINT},
           hang_ups_{first_.executor()} {
         while (loops_.size() < shared_.settings().threads) add_loop();
         shared_.make_room = [this](bool among_strangers) {
@@ -45,26 +45,22 @@ public:
         show_limits(shared_.settings());
         gateway.begin();  // before the first request
         listen();
-        signals_.add(SIGTERM);
-        signals_.add(SIGINT);
     }
 
     std::string url() const {
         return (shared_.settings().credentials ? "https://" : "http://") + host_and_port(shared_.settings().host, port_);
     }
 
-    std::string url_for_programs() const { return "http://" + host_and_port("127.0.0.1", for_programs_->endpoint().port()); }
+    std::string url_for_programs() const { return "http://" + host_and_port("127.0.0.1", port_for_programs_); }
 
     UniqueDescriptor connect() {
-        auto entered = admission_.enter(read_address("127.0.0.1").value(), Limits::of_connection);
-        auto* const place = std::get_if<Admission::Place>(&entered);
-        if (place == nullptr) throw std::runtime_error{"too many connections are open"};
         LocalSocket inside{first_.executor()}, outside{first_.executor()};
         asio::local::connect_pair(inside, outside);
-        asio::post(first_.executor(), [this, place = std::move(*place), socket = UniqueDescriptor{inside.release()}]() mutable {
-            Socket inner{first_.executor(), asio::ip::tcp::v4(), socket.release()};
-            first_.serve(std::move(inner), std::move(place), Loop::From::this_process);
-        });
+        asio::post(first_.executor(),
+                   [this, place = admission_.enter_from_inside(), socket = UniqueDescriptor{inside.release()}]() mutable {
+                       Socket inner{first_.executor(), asio::ip::tcp::v4(), socket.release()};
+                       first_.serve(std::move(inner), std::move(place), Loop::From::this_process);
+                   });
         return UniqueDescriptor{outside.release()};
     }
 
@@ -125,6 +121,7 @@ private:
             for_programs_.emplace(first_, admission_, Loop::From::programs);
             for_programs_->bind({asio::ip::address_v4::loopback(), 0}, Listener::Port::alone);
             for_programs_->listen();
+            port_for_programs_ = for_programs_->endpoint().port();
         } catch (boost::system::system_error const& error) {
             throw std::runtime_error{"cannot listen on " + host_and_port(settings.host, settings.port) + ": " +
                                      error.code().message()};
@@ -168,7 +165,7 @@ private:
     Signals hang_ups_;
     std::function<void()> on_hang_up_;
     bool signalled_ = false;
-    std::uint16_t port_ = 0;
+    std::uint16_t port_ = 0, port_for_programs_ = 0;
     Steady last_moment_;  // for clients and components, once it shuts down
 };
 
@@ -179,17 +176,11 @@ Server::Server(Settings settings, Gateway& gateway, Telemetry& telemetry, Docume
 Server::~Server() = default;
 
 std::string Server::url() const { return running_->url(); }
-
 std::string Server::url_for_programs() const { return running_->url_for_programs(); }
-
 UniqueDescriptor Server::connect() { return running_->connect(); }
-
 void Server::on_hang_up(std::function<void()> what) { running_->on_hang_up(std::move(what)); }
-
 void Server::use(Settings const& settings) { running_->use(settings); }
-
 void Server::on_too_many_troubles(std::function<void()> what) { running_->on_too_many_troubles(std::move(what)); }
-
 bool Server::run() { return running_->run(); }
 
 }  // namespace rois::net

@@ -247,6 +247,17 @@ TEST_F(TwoEyes, ReportEachNumberOnceAlsoZero) {
     EXPECT_EQ(numbers, "10");
 }
 
+TEST_F(TwoEyes, IgnoreAnEventWithoutANumber) {
+    desk.bind("detection");
+    desk.subscribe("person_detected", {}, true);
+    desk.execute(named("count", start("detection")));
+    desk.received();
+    world["robot1.detection"].fires("person_detected");
+    EXPECT_THAT(desk.received(), IsEmpty());
+    world["robot1.detection"].fires("person_detected", {date_time("timestamp", {}), integer("number", 2)});
+    EXPECT_EQ(desk.received().size(), 1u);
+}
+
 TEST_F(TwoEyes, CountPersonsWithPositionsOnce) {
     watch();
     desk.bind("detection");

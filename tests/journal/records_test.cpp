@@ -36,6 +36,14 @@ Identifier identifier(std::string code) { return {.code = std::move(code), .auth
 
 }  // namespace
 
+// Components may give any bytes.
+TEST(Records, MayHaveAReasonThatIsNotUtf8) {
+    Changes changes;
+    changes.commands = {{.session = 1, .id = {"c-1"}, .type = "start", .ref = "navigation", .end = StoredCommand::End{}}};
+    changes.commands.front().end->reason = "no \xff";
+    EXPECT_EQ(through_records(changes).commands.at(0).end->reason, "no \xef\xbf\xbd");
+}
+
 TEST(Records, ReturnASession) {
     StoredSession session;
     session.session = 7;

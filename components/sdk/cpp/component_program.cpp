@@ -76,15 +76,15 @@ bool serve(remote::Joining const& joining, Make const& make) {
     Telemetry telemetry;
     Gateway gateway{engine, readers, telemetry};
     net::Documents const documents{gateway, telemetry, *schemas(), {}};
+    net::Settings settings;
+    settings.port = 0;
+    net::Server server{settings, gateway, telemetry, documents, schemas()};
     remote::RemoteEngines engines{
         {.name = name,
          .instance = instance,
          .schemas = schemas(),
          .change = [](ComponentChange const&) { return std::vector<std::string>{}; },
          .report = [](std::string const& whose, std::string const& what) { spdlog::info("{}: {}", whose, what); }}};
-    net::Settings settings;
-    settings.port = 0;
-    net::Server server{settings, gateway, telemetry, documents, schemas()};
     auto own = joining;
     own.own_gateway = [&server] { return server.connect(); };
     engines.join(std::move(own));

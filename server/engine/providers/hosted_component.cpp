@@ -5,7 +5,7 @@
 namespace rois {
 
 HostedComponent::HostedComponent(std::unique_ptr<Component> component, std::shared_ptr<Provider> provider)
-    : component_{std::move(component)}, provider_{std::move(provider)} {}
+    : provider_{std::move(provider)}, component_{std::move(component)} {}
 
 void HostedComponent::add(Provider::Awaited awaited, std::function<void(Component*)> what, bool is_question) {
     provider_->add({.to = shared_from_this(), .what = std::move(what), .awaited = awaited, .is_question = is_question});
@@ -75,9 +75,12 @@ void HostedComponent::depart() {
     });
 }
 
+// A component whose own thread reports while the engine is being destroyed reports to nobody.
 void HostedComponent::report(ComponentReport&& report) {
+    auto self = weak_from_this().lock();
+    if (!self) return;
     try {
-        provider_->report(shared_from_this(), std::move(report));
+        provider_->report(std::move(self), std::move(report));
     } catch (...) {
         lose_report();
         throw;

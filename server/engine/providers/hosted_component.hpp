@@ -51,10 +51,10 @@ private:
     void after_call();
     void add(Provider::Awaited, std::function<void(Component*)> what, bool is_question = false);
 
-    std::unique_ptr<Component> component_;  // only the provider uses it, and the next member
-    bool is_attached_ = false;
     std::shared_ptr<Provider> provider_;
     std::atomic<bool> lost_report_ = false;
+    bool is_attached_ = false;              // only the provider uses it, and the next member
+    std::unique_ptr<Component> component_;  // ends first: until then it may report
 };
 
 }  // namespace rois

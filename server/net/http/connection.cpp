@@ -86,7 +86,7 @@ void Connection::sweep(Steady at) {
     auto const waits_since = std::min(idle_due_ - settings.idle_timeout, request_due_ - settings.request_timeout);
     bool const only_waits = (memory.exhausted() && waits_since <= at - longest_wait_without_memory) ||
                             (is_stranger() && waits_since <= at - longest_wait_of_strangers);
-    if (unread || only_waits || unfinished > memory.longest_document()) cut_for_memory();
+    if (unread || (only_waits && waiting_.empty()) || unfinished > memory.longest_document()) cut_for_memory();
 }
 
 void Connection::shut_down() {
@@ -214,8 +214,8 @@ Connection::Then Connection::judge_head() {
     if (!refused) return Then::next;
     auto const code = refused->fault ? refused->fault->code : FaultCode::invalid;
     bool const concerns_rights = code == FaultCode::unauthorized || code == FaultCode::not_allowed || code == FaultCode::too_many;
-    auto const& asker = is_identified ? *client_ : Client{.address = client_->address};
-    if (concerns_rights) loop_.shared().gateway.note_refusal(asker, name_of(route_.endpoint), code);
+    Client const unknown{.address = client_->address};
+    if (concerns_rights) loop_.shared().gateway.note_refusal(is_identified ? *client_ : unknown, name_of(route_.endpoint), code);
     if (head_.content_length > wire_.received().size()) return reply(*refused, Framed::last);
     wire_.use(head_.content_length);
     return reply(*refused);
@@ -257,7 +257,8 @@ Task<Connection::Then> Connection::receive() {
     auto const outcome = co_await wire_.receive(until, expected);
     if (has_head_) loop_.shared().gateway.memory().took(wire_.received().size() - before);
     bool const silent = std::exchange(idle_, false);
-    if (outcome == Wire::Outcome::closed || (outcome == Wire::Outcome::late && silent)) co_return Then::end;
+    if (outcome == Wire::Outcome::closed) co_return Then::end;
+    if (outcome == Wire::Outcome::late && silent) co_return waiting_.empty() ? Then::end : Then::linger;
     if (outcome == Wire::Outcome::late)
         co_return refuse({FaultCode::too_slow, "the request did not arrive within " + in_seconds(settings.request_timeout)});
     co_return Then::next;

@@ -36,8 +36,8 @@ public:
         wire_.cut();
         place_.leave();
     }
-    // When this connection ends if no request begins; `max` if it is not idle.
-    Steady idle_due() const { return idle_ && !place_.is_left() ? idle_due_ : Steady::max(); }
+    // When this connection ends if no request begins; `max` if it is not idle, or an answer is still to come.
+    Steady idle_due() const { return idle_ && waiting_.empty() && !place_.is_left() ? idle_due_ : Steady::max(); }
     std::uint64_t accepted() const { return accepted_; }  // the loop's number of sweeps then
     // Whether the gateway has tokens, and this connection has a place, comes from this address (null: any), and has shown none.
     bool is_stranger(Address const* from = nullptr) const {

@@ -356,6 +356,22 @@ TEST_F(Halting, OfEverythingIsAnOperationToo) {
     EXPECT_FALSE(world.engine->everything_is_stopped());
 }
 
+TEST(AStopOfEverything, MayEndTheSessionThatAsksForIt) {
+    EngineSettings settings;
+    settings.max_waiting_notifications = 3;
+    World world{{navigation}, settings};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.execute(in_sequence({after(10s, go("1")), go("2"), go("3")}));
+    desk.ask(StopEverything{});
+    EXPECT_TRUE(desk.notifications_closed()) << "three completions and an error do not fit";
+    auto other = world.connect();
+    auto const stopped = other.ask(StopEverything{});
+    ASSERT_TRUE(stopped.stop);
+    other.ask(ClearStop{*stopped.stop});
+    EXPECT_FALSE(world.engine->everything_is_stopped()) << "it has taken the place of the one that has ended";
+}
+
 TEST_F(Halting, OfEverythingByTwoSessionsEndsWhenBothHaveClearedIt) {
     auto hall = world.connect();
     auto const first = desk.ask(StopEverything{});

@@ -449,7 +449,11 @@ TEST(Admission, CountsEachAddressForAsLongAsItsConnectionsLive) {
     EXPECT_EQ(enter(there, Limits::all), "in");
     EXPECT_EQ(enter(here, Limits::of_connection), "in");
     EXPECT_EQ(enter(there, Limits::all), "full");
-    places.pop_front();
+    {
+        auto const own = admission.enter_from_inside();
+        places.pop_front();
+        EXPECT_EQ(enter(here, Limits::all), "full") << "it counts";
+    }
     EXPECT_EQ(enter(here, Limits::all), "in");
 }
 

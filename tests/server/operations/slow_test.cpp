@@ -111,6 +111,13 @@ TEST(AQueryWithoutAnAnswer, TimesOut) {
     EXPECT_THAT(desk.call("search", where(equal("status", "ERROR"))).body, HasSubstr("system_information"));
 }
 
+TEST(AnAnswerThatIsLate, ComesAlsoAfterTheIdleTimeout) {
+    SlowGateway gateway{"0.5", {"--idle-timeout", "0.1"}};
+    HttpClient desk{gateway};
+    desk.call("connect");
+    EXPECT_EQ(desk.say(post_in(desk.session, kit::request("query", position_query())), "POST").return_code(), "TIMEOUT");
+}
+
 TEST_F(Slow, AStopBehindASlowQueryActsAtOnce) {
     desk.call(
         "execute",
