@@ -115,7 +115,7 @@ void Loop::sweep_now() noexcept {
     ++sweeps_;
     wakes_.retry_turn();
     sweep_some(std::chrono::steady_clock::now());
-    over_ = draining() && connections_.empty();
+    over_ = draining() && connections_.empty() && shared_.telemetry.connections() == 0;  // of all loops: one waits for signals
     if (over_) io_.stop();
 }
 

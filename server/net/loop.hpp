@@ -65,7 +65,7 @@ public:
     // before `run`.
     void run_forever(Troubles::Where, std::function<Task<>()>);
 
-    // Runs until `shut_down` was called and the last connection has ended. Survives every exception.
+    // Runs until `shut_down` was called and the last connection of all loops has ended. Survives every exception.
     void run();
 
     // Thread-safe. Cuts the remaining connections after `within`.

@@ -43,6 +43,9 @@ public:
         std::atomic<std::uint64_t>& open_;
     };
 
+    // Connections that are open now.
+    std::uint64_t connections() const { return open_[0] + open_[1] + open_[2]; }
+
     void accepted() { ++accepted_; }
     // `spent`: from the request's last byte until the answer's text was ready.
     void answered(Operation const&, ReturnCode, std::chrono::nanoseconds spent);

@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <chrono>
+#include <thread>
 
 #include "kit/profile_folder.hpp"
 #include "kit/vocabulary.hpp"
@@ -124,6 +125,21 @@ TEST(Shutdown, DoesNotWaitForClientsThatNeverRead) {
     EXPECT_EQ(ended.exit_code, 0);
     EXPECT_GE(took, 500ms) << "it waits for a client that may read yet";
     EXPECT_LT(took, 3s) << "the default is 5 s";
+}
+
+// The thread that waits for signals has mostly no connection here.
+TEST(Shutdown, EndsAtOnceAtASecondSignal) {
+    for (int i = 0; i < 5; ++i) {
+        GatewayProcess gateway{{"--threads", "2"}};
+        WebSocketClient silent{gateway};
+        silent.call("connect");
+        silent.keep_session();
+        gateway.signal(SIGTERM);
+        std::this_thread::sleep_for(200ms);
+        Ended ended;
+        EXPECT_LT(time_to_end(gateway, ended), 1s) << "it would wait 2 s for the answer to its close frame";
+        EXPECT_EQ(ended.exit_code, 0);
+    }
 }
 
 // All parts of the end take as long as they may, except the journal (tests/journal/process_test.cpp).
