@@ -72,7 +72,8 @@ Task<Wire::Outcome> Wire::secure(std::shared_ptr<asio::ssl::context> context, St
         use(pauses ? input_.size() - used_ : read);  // with an error, Asio has kept all input
         if (!pauses) break;
         auto const is_open = co_await take_turn(turns);
-        if (!is_open) co_return input_ended(asio::error::operation_aborted);
+        input_late_ = input_late_ || std::chrono::steady_clock::now() >= until;
+        if (!is_open || input_late_) co_return input_ended(asio::error::operation_aborted);
     }
     // Otherwise a client whose system waits for this acknowledgement (Nagle's algorithm) sends its request 40 ms later.
     int const on = 1;
