@@ -352,7 +352,8 @@ std::vector<Key> network_keys() {
             "maximum number of connections of one remote address or token, except loopback and proxies",
             [](GatewaySettings & s) -> auto& { return s.net.max_connections_per_address; }, 1, 1e6),
         whole_number<std::size_t>(
-            "max_sessions_per_address", "maximum number of sessions opened by one remote address, except loopback and proxies",
+            "max_sessions_per_address",
+            "maximum number of sessions of one token, or opened by one remote address, except loopback and proxies",
             [](GatewaySettings & s) -> auto& { return s.net.max_sessions_per_address; }, 1, 1e6),
         whole_number<std::size_t>(
             "max_sessions_per_connection", "maximum number of sessions opened on one connection, except those of proxies",

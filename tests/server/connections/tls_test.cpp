@@ -29,6 +29,14 @@ struct Tls : testing::Test {
         return run_shell("openssl s_client -connect 127.0.0.1:" + std::to_string(gateway.port()) + " " + options + " </dev/null");
     }
     std::string trusted() const { return "--cacert " + certificates.certificate("own"); }
+    // Without TLS.
+    static kit::Address media_address(GatewayProcess& gateway) {
+        std::string const mark = "media are served under https://127.0.0.1:";
+        auto const log = gateway.log_with(mark);
+        auto address = gateway.address();
+        address.port = static_cast<std::uint16_t>(std::stoi(log.substr(log.find(mark) + mark.size())));
+        return address;
+    }
 };
 
 }  // namespace
@@ -86,6 +94,13 @@ TEST_F(Tls, EndsAHandshakeThatTakesTooLong) {
     EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds{3}) << "the default is 5 s";
     kit::HttpClient client{certificates.trusting("own", gateway)};
     EXPECT_THAT(client.get("/metrics").body, HasSubstr("\nrois_handshakes_failed_total 2\n"));
+}
+
+TEST_F(Tls, EndsAHandshakeThatTakesTooLongOnTheMediaPort) {
+    GatewayProcess gateway{with({"--media", "127.0.0.1:0", "--handshake-timeout", "0.2"})};
+    kit::HttpClient silent{media_address(gateway)};
+    silent.line().set_patience(std::chrono::seconds{3});  // the default is 5 s
+    EXPECT_TRUE(silent.line().ends());
 }
 
 TEST_F(Tls, SaysThatNothingFollows) {
@@ -187,16 +202,30 @@ TEST_F(Tls, IsSpokenByEnginesThatJoin) {
     desk.disconnect();
 }
 
+TEST_F(Tls, IsSpokenByProgramsThatJoin) {
+    certificates.put("engines.json", R"({"engines": [{"name": "cpp", "joins": "cpp"}, {"name": "python", "joins": "python"}]})");
+    GatewayProcess main{with({"--robots", "none", "--engines", certificates.folder() + "/engines.json"})};
+    auto const variables = "ROIS_URL=wss://localhost:" + std::to_string(main.port()) +
+                           " ROIS_CA_FILE=" + certificates.certificate("own") + " ROIS_NAME=";
+    auto const begin = [&](std::string const& name, std::string const& program) {
+        return run_shell(variables + name + " " + program + " >" + certificates.folder() + "/" + name + " 2>&1 & echo $!").out;
+    };
+    auto const cpp = begin("cpp", ROIS_BINARY_DIR "/bin/rois-lamp");
+    auto const python = begin("python", "python3 " ROIS_SOURCE_DIR "/components/sdk/python/lamp.py");
+    for (auto const* name : {"cpp", "python"}) {
+        auto const wanted = "sub engine " + std::string{name} + ": present with";
+        EXPECT_THAT(main.log_with(wanted), HasSubstr(wanted)) << run_shell("cat " + certificates.folder() + "/" + name).out;
+    }
+    run_shell("kill $(echo '" + cpp + python + "')");
+}
+
 TEST_F(Tls, IsSpokenByTheMediaServer) {
     GatewayProcess gateway{with({"--media", "127.0.0.1:0"})};
-    auto const log = gateway.log_with("media are served under");
-    auto const begin = log.find("https://127.0.0.1:");
-    ASSERT_NE(begin, log.npos) << log;
+    auto const plain = media_address(gateway);
     auto address = certificates.trusting("own", gateway);
-    address.port = static_cast<std::uint16_t>(std::stoi(log.substr(begin + 18)));
+    address.port = plain.port;
     EXPECT_EQ(kit::HttpClient{address}.get("/unknown").status, 404);
-    address.tls = false;
-    EXPECT_THAT(kit::HttpClient{address}.get("/unknown").body, HasSubstr("this port expects TLS"));
+    EXPECT_THAT(kit::HttpClient{plain}.get("/unknown").body, HasSubstr("this port expects TLS"));
 }
 
 // The receiver neither closes the connection nor reads.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <memory>
@@ -231,6 +232,21 @@ TEST_F(Tokens, EndTheSessionsOfARevokedOneWithinASecond) {
     over_http.session.clear();
     stream.session.clear();
     EXPECT_EQ(bind(colleague, "navigation"), "OK") << "the component is free, and other sessions go on";
+}
+
+TEST_F(Tokens, EndTheSessionsOfAnExpiredOneWithinASecond) {
+    auto const ends = std::chrono::ceil<std::chrono::seconds>(std::chrono::system_clock::now() + std::chrono::milliseconds{500});
+    auto const seconds = std::to_string(std::chrono::system_clock::to_time_t(ends));
+    auto const when = run_shell("printf %s $(date -u -d @" + seconds + " +%FT%TZ)").out;
+    auto const token = file.add("desk", "operator", {"--expires", when});
+    GatewayProcess const gateway{file.of_gateway()};
+    kit::WebSocketClient desk{with_token(token, gateway)};
+    desk.call("connect");
+    desk.keep_session();
+    EXPECT_EQ(desk.await_close(), 1008);
+    EXPECT_GE(std::chrono::system_clock::now(), ends);
+    EXPECT_LT(std::chrono::system_clock::now(), ends + std::chrono::seconds{1});
+    EXPECT_EQ(kit::HttpClient{with_token(token, gateway)}.get("/rois/profile").status, 401);
 }
 
 TEST_F(Tokens, ThatAreWrongGet429AfterTenInAMinute) {

@@ -315,15 +315,36 @@ TEST_F(HangUp, ChangesHostsOriginsAndLimits) {
     EXPECT_EQ(client.get("http://robots.example/healthz").status, 421);
     EXPECT_EQ(from_desk(), 403);
     client.call("connect");
-    put(R"({"max_sessions": 50, "hosts": "robots.example", "allowed_origins": "https://desk.example", "threads": 7})");
+    put(R"({"max_connections": 1, "hosts": "robots.example", "allowed_origins": "https://desk.example", "threads": 7})");
     gateway.signal(SIGHUP);
     auto const log = gateway.log_with("the settings read again");
-    EXPECT_THAT(log, HasSubstr("max_sessions is now 50"));
+    EXPECT_THAT(log, HasSubstr("max_connections is now 1"));
     EXPECT_THAT(log, HasSubstr("a change of threads has no effect before the gateway starts again"));
     EXPECT_EQ(client.get("http://robots.example/healthz").status, 200);
     EXPECT_EQ(from_desk(), 200);
     EXPECT_EQ(client.call("search").return_code(), "OK") << "the session goes on";
     EXPECT_THAT(HttpClient{gateway}.get("/metrics").body, HasSubstr("rois_reloads_total{outcome=\"done\"} 1"));
+    EXPECT_TRUE(client.line().ends()) << "only one connection may be open";
+}
+
+TEST_F(HangUp, ChangesTheLimitsOfTokens) {
+    put("{}");
+    TokenFile const tokens;
+    auto const desk_token = tokens.add("desk", "operator"), hall_token = tokens.add("hall", "operator");
+    GatewayProcess gateway{{"--config", file(), "--tokens", tokens.name()}};
+    kit::HttpClient desk{with_token(desk_token, gateway)}, same{with_token(desk_token, gateway)};
+    kit::HttpClient hall{with_token(hall_token, gateway)};
+    desk.call("connect");
+    desk.call("bind", component_ref("navigation"));
+    put(R"({"max_sessions": 1, "max_sessions_per_address": 1, "max_wrong_tokens": 1})");
+    gateway.signal(SIGHUP);
+    gateway.log_with("the settings read again");
+    EXPECT_THAT(same.call("connect").reason(), HasSubstr("this token has 1 sessions open already"));
+    EXPECT_THAT(hall.call("connect").reason(), HasSubstr("too many sessions are open"));
+    HttpClient stranger{gateway};
+    auto const guess = [&] { return stranger.get("/rois/profile", {{"Authorization", "Bearer guess"}}).status; };
+    EXPECT_EQ(guess(), 401);
+    EXPECT_EQ(guess(), 429);
 }
 
 TEST_F(HangUp, ChangesNothingIfOneFileIsInvalid) {

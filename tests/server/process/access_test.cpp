@@ -105,6 +105,25 @@ TEST(TokenCommand, LosesNoTokenWhenManyAreAddedAtOnce) {
     EXPECT_EQ(std::ranges::count(listed, '\n'), 9) << listed;
 }
 
+TEST(FileOfTokens, HasAtMostAThousand) {
+    TokenFile const file;
+    std::string entries;
+    auto const write = [&](int many) {
+        entries.clear();
+        for (int i = 0; i < many; ++i)
+            entries += std::string{i == 0 ? "" : ","} + R"({"name": "t)" + std::to_string(i) +
+                       R"(", "role": "observer", "sha256": ")" + std::string(64, 'a') + R"("})";
+        std::ofstream{file.name()} << R"({"tokens": [)" << entries << "]}";
+        std::filesystem::permissions(file.name(), std::filesystem::perms{0600});
+    };
+    write(1'001);
+    expect_complaint(run_gateway({"--tokens", file.name(), "--check-config"}), "expected at most 1000 tokens");
+    write(999);
+    EXPECT_EQ(file.run({"add", "last", "--role", "observer"}).exit_code, 0);
+    EXPECT_EQ(run_gateway({"--tokens", file.name(), "--check-config"}).exit_code, 0);
+    expect_complaint(file.run({"add", "more", "--role", "observer"}), "there are 1000 tokens already: revoke one");
+}
+
 TEST(FileOfTokens, MustBeValidAndForItsOwnerOnly) {
     TokenFile const file;
     auto const refused = [&](std::string const& text, std::string const& wanted) {

@@ -13,6 +13,8 @@ function hint(url: string): string {
   return `. If the gateway is running, it may refuse pages of ${mine}: RoIS Gateway allows them with --allowed-origins ${mine}`;
 }
 
+const longest = 64 * 1024 * 1024; // characters of a message
+
 /** A page cannot know why a socket failed to open, so `final` is always false. */
 export const open_browser_socket: OpenSocket = (url, subprotocols, listener) => {
   const socket = new WebSocket(url, subprotocols);
@@ -22,7 +24,8 @@ export const open_browser_socket: OpenSocket = (url, subprotocols, listener) => 
     if (listening) listener.opened();
   };
   socket.onmessage = ({ data }) => {
-    if (listening && typeof data === 'string') listener.received(data);
+    if (typeof data !== 'string' || data.length > longest) socket.close(4000, 'not a text, or too long');
+    else if (listening) listener.received(data);
   };
   socket.onclose = ({ code, reason }) => {
     const why = was_open

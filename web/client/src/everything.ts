@@ -1,5 +1,6 @@
 // Stop for everything: halts all robots of a gateway, also those that other sessions command. Needs no session, and works while a
 // client's link is lost.
+import { answer_text } from './answer_text.js';
 import { stop_state_of } from './answers.js';
 import { RoisError } from './errors.js';
 import type { StopState } from './messages.js';
@@ -33,28 +34,11 @@ async function post(url: string, what: string, { token, deadline = 10_000 }: Eve
   const headers: Record<string, string> = token === undefined ? {} : { Authorization: `Bearer ${token}` };
   try {
     const answer = await fetch(to, { method: 'POST', headers, signal: AbortSignal.timeout(deadline) });
-    if (answer.ok) return read_stop_state(await text_of(answer));
+    if (answer.ok) return read_stop_state(await answer_text(answer));
     throw new RoisError('fault', `${to} answers with HTTP status ${answer.status}`);
   } catch (error) {
     throw error instanceof RoisError ? error : new RoisError('unreachable', `${to}: ${error}`);
   }
-}
-
-const longest = 4_000_000; // bytes of an answer
-
-async function text_of(answer: Response): Promise<string> {
-  const reader = answer.body?.getReader();
-  const decoder = new TextDecoder();
-  let text = '';
-  let length = 0;
-  for (let piece = await reader?.read(); piece?.value !== undefined; piece = await reader?.read()) {
-    text += decoder.decode(piece.value, { stream: true });
-    length += piece.value.length;
-    if (length <= longest) continue;
-    await reader?.cancel();
-    throw new RoisError('protocol', `the answer is longer than ${longest} bytes`);
-  }
-  return text;
 }
 
 /** Parses the answer of /rois/stop and /rois/clear. Throws RoisError `protocol` for any other text. */

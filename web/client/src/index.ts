@@ -1,4 +1,5 @@
 // The API that browser.ts and node.ts share.
+export { answer_text } from './answer_text.js';
 export {
   component_profile_of,
   engine_profile_of,

@@ -10,7 +10,7 @@ const source = `${root}/web/client/src`;
 // From bottom to top. Modules of one layer do not import each other.
 const layers = [
   ['errors', 'times'],
-  ['xml', 'stream', 'listeners', 'socket', 'node_frames'],
+  ['xml', 'stream', 'listeners', 'socket', 'node_frames', 'answer_text'],
   ['browser_socket', 'node_socket', 'values'],
   ['commands', 'conditions', 'profiles', 'messages'],
   ['requests', 'execution'],

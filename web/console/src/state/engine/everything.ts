@@ -1,7 +1,7 @@
 // Stop for everything: whether all robots are stopped, by any session, and the operations to stop and clear. Works without a session
 // and a link.
 import { computed, effect, signal } from '@preact/signals';
-import { read_stop_state } from 'rois-client';
+import { answer_text, read_stop_state } from 'rois-client';
 
 import type { Environment } from '../base/environment';
 import { Poll } from '../base/poll';
@@ -68,7 +68,7 @@ export class EverythingState {
   private async post(path: string): Promise<void> {
     const answer = await this.fetch(path, 'POST');
     if (!answer.ok) throw new Error(`status ${answer.status}`);
-    const { stopped, not_halted } = read_stop_state(await answer.text());
+    const { stopped, not_halted } = read_stop_state(await answer_text(answer));
     this.answered.value = { at: this.environment.now(), stopped, waiting: not_halted };
   }
 
@@ -76,7 +76,7 @@ export class EverythingState {
   private async ask(): Promise<void> {
     const before = this.answered.peek();
     const answer = await this.fetch('/readyz', 'GET');
-    const text = await answer.text();
+    const text = await answer_text(answer);
     const stopped = text.startsWith('stopped');
     const waiting = [...text.matchAll(/^(.*) has not confirmed that it stands still$/gm)].map((one) => one[1]!);
     const is_known = answer.ok || stopped || waiting.length > 0; // else /readyz reports another problem

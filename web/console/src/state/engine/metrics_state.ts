@@ -1,5 +1,6 @@
 // The gateway's metrics (/metrics, Prometheus text format) of the last minutes.
 import { computed, signal } from '@preact/signals';
+import { answer_text } from 'rois-client';
 
 import type { Environment } from '../base/environment';
 import { Poll } from '../base/poll';
@@ -77,7 +78,7 @@ export class MetricsState {
     try {
       const answer = await this.environment.fetch('/metrics', { headers, cache: 'no-store' });
       if (!answer.ok) throw new Error(`status ${answer.status}`);
-      const scrape = new Scrape(this.environment.now(), read_metrics(await answer.text()));
+      const scrape = new Scrape(this.environment.now(), read_metrics(await answer_text(answer)));
       this.history.push(scrape);
       this.latest.value = scrape;
       this.trouble.value = '';

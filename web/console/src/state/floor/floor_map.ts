@@ -1,6 +1,6 @@
 // The engine's floor map (`GET /rois/map`): mm, degrees counter-clockwise, x to the right, y up.
 import { signal } from '@preact/signals';
-import { parse_xml, type XmlElement } from 'rois-client';
+import { answer_text, parse_xml, type XmlElement } from 'rois-client';
 
 import type { Environment } from '../base/environment';
 import { reason_of } from '../base/reason_of';
@@ -62,7 +62,7 @@ export class MapState {
       const answer = await this.environment.fetch('/rois/map', { headers });
       if (answer.status === 404) this.view.value = { state: 'none' };
       else if (!answer.ok) this.view.value = { state: 'trouble', reason: `status ${answer.status}` };
-      else this.view.value = { state: 'there', map: read_floor_map(await answer.text()) };
+      else this.view.value = { state: 'there', map: read_floor_map(await answer_text(answer)) };
     } catch (error) {
       this.view.value = { state: 'trouble', reason: reason_of(error) };
     }

@@ -1,6 +1,6 @@
 // The state of the link as shown to the user.
 import { batch, signal } from '@preact/signals';
-import type { Client, Gap, StateChange } from 'rois-client';
+import { answer_text, type Client, type Gap, type StateChange } from 'rois-client';
 
 import type { Environment } from '../base/environment';
 
@@ -33,7 +33,7 @@ type Outlook = { phase: Phase; reason: string } | 'reachable' | 'unreachable';
 export class LinkState {
   readonly view = signal<LinkView>({ phase: 'connecting', since: 0, reason: '' });
   readonly missed = signal<MissedNote | undefined>(undefined);
-  /** The session's id; empty if there is none. Anyone with the id can act as this console. */
+  /** The session's id; empty if there is none. Its holder can act as this console, with the same token if the gateway asks for tokens. */
   readonly session = signal('');
   /** When the session began, in ms since 1970. Resuming does not change it. */
   session_since = 0;
@@ -121,7 +121,7 @@ export class LinkState {
     const headers: HeadersInit = token === undefined ? {} : { Authorization: `Bearer ${token}` };
     try {
       const answer = await this.environment.fetch('/rois', { headers, cache: 'no-store' });
-      const reason = /<reason>([^<]*)<\/reason>/.exec(await answer.text())?.[1] ?? `status ${answer.status}`;
+      const reason = /<reason>([^<]*)<\/reason>/.exec(await answer_text(answer))?.[1] ?? `status ${answer.status}`;
       if (answer.status === 401) return { phase: 'token', reason: token === undefined ? '' : reason };
       if (answer.status === 503) return { phase: 'draining', reason };
       if (answer.status === 403 || answer.status === 429) return { phase: 'refused', reason };
