@@ -20,6 +20,14 @@ TEST(HttpAnswer, IsAnXmlDocumentThatIsNotCached) {
     EXPECT_THAT(text, EndsWith("\r\nContent-Length: 4\r\n\r\n<a/>"));
 }
 
+TEST(HttpAnswer, IsWhatItSaysAndNotForPagesOfOthers) {
+    auto refused = answer_of({FaultCode::not_found, "nothing"});
+    for (auto const& text : {written(HttpAnswer{}), written(refused), written(HttpAnswer{.content_type = "text/event-stream"})}) {
+        EXPECT_THAT(text, HasSubstr("\r\nX-Content-Type-Options: nosniff\r\n"));
+        EXPECT_THAT(text, Not(HasSubstr("Access-Control")));
+    }
+}
+
 TEST(HttpAnswer, IsWrittenBehindEarlierOnes) {
     std::string out = "before";
     append(out, HttpAnswer{.body = "1"}, {});
