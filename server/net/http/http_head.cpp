@@ -89,7 +89,8 @@ std::optional<Fault> find_fault(std::string_view text, Settings const& settings,
     if (!may_be_authority(head.target_authority))
         return broken("the target's host is not a name or an address with an optional port");
     if (fields.count(http::field::transfer_encoding) > 0) return no_transfer_encoding();
-    if (fields.count(http::field::content_length) > 1) return broken("more than one Content-Length header");
+    if (fields.count(http::field::content_length) > 1 || fields[http::field::content_length].contains(','))
+        return broken("expected one Content-Length header, with one number");
     return {};
 }
 
@@ -185,7 +186,6 @@ std::optional<Fault> read_head(std::string_view text, Settings const& settings, 
     boost::system::error_code error;
     parser.put(boost::asio::buffer(text), error);
     if (error == http::error::bad_transfer_encoding) return no_transfer_encoding();
-    if (error == http::error::bad_content_length) return broken("expected one Content-Length header, with one number");
     if (error && error != http::error::need_more) return broken(error.message());
     if (!parser.is_header_done()) return broken("a line that does not end with CR LF");
     head.content_length = parser.content_length().value_or(0);

@@ -110,9 +110,11 @@ TEST(FileOfTokens, HasAtMostAThousand) {
     std::string entries;
     auto const write = [&](int many) {
         entries.clear();
-        for (int i = 0; i < many; ++i)
-            entries += std::string{i == 0 ? "" : ","} + R"({"name": "t)" + std::to_string(i) +
-                       R"(", "role": "observer", "sha256": ")" + std::string(64, 'a') + R"("})";
+        for (int i = 0; i < many; ++i) {
+            auto const number = std::to_string(i);
+            entries += std::string{i == 0 ? "" : ","} + R"({"name": "t)" + number + R"(", "role": "observer", "sha256": ")" +
+                       std::string(64 - number.size(), 'a') + number + R"("})";
+        }
         std::ofstream{file.name()} << R"({"tokens": [)" << entries << "]}";
         std::filesystem::permissions(file.name(), std::filesystem::perms{0600});
     };
