@@ -26,7 +26,10 @@ Engine::Core::Core(EngineProfile profile, std::vector<ComponentProfile> known_pr
 
 // A call that blocks may outlast the engine: its thread then ends alone.
 Engine::Core::~Core() {
-    for (auto const& [ref, component] : registry_.all()) component->hosted().provider().close();
+    for (auto const& [ref, component] : registry_.all()) {
+        component->hosted().provider().close();
+        component->halting.reset();  // an operation that waits for it holds the component
+    }
     for (auto const& device : devices_) device->provider->close();
     for (auto const& [name, provider] : providers_)
         if (auto const departed = provider.lock()) departed->close();
