@@ -187,12 +187,13 @@ class RightPlacement : public testing::TestWithParam<Hour> {};
 TEST_P(RightPlacement, GivesNoFalseAlarmInAnHour) {
     Hour const& hour = GetParam();
     std::mt19937 random{7};
-    std::normal_distribution<double> normal{0, hour.deviation * hour.bias};
+    std::normal_distribution<double> normal;
+    double const bias = hour.deviation * hour.bias;
     Simulator world{7};
     for (std::string const name : {"robot1", "robot2", "room"}) {
         SimulatedUnit made = unit(name, hour.deviation);
         made.noise *= std::sqrt(1 - hour.bias * hour.bias);
-        made.bias = {normal(random), normal(random)};
+        made.bias = {bias * normal(random), bias * normal(random)};
         made.reports_from = hour.reports_from;
         made.period = 0.24;
         if (name == "robot1") made.sees = between(0, hour.to);
