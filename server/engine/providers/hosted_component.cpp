@@ -75,7 +75,7 @@ void HostedComponent::depart() {
     });
 }
 
-// A component whose own thread reports while the engine is being destroyed reports to nobody.
+// Drops what a thread of the component reports while the engine is being destroyed.
 void HostedComponent::report(ComponentReport&& report) {
     auto self = weak_from_this().lock();
     if (!self) return;
