@@ -134,16 +134,17 @@ private:
         }
     }
 
-    class Counted {
-    public:
-        explicit Counted(std::size_t& all) : all_{all} { ++all_; }
-        ~Counted() { --all_; }
-        Counted(Counted const&) = delete;
-        Counted& operator=(Counted const&) = delete;
-
-    private:
-        std::size_t& all_;
-    };
+    // The handler is not called if `co_spawn` throws.
+    void begin_to_serve(Socket socket) {
+        ++connections_;
+        try {
+            asio::co_spawn(io_, serve_receiver(std::move(socket), *directory_, settings_),
+                           [this](std::exception_ptr const&) { --connections_; });
+        } catch (...) {
+            --connections_;
+            throw;
+        }
+    }
 
     // Connections beyond the limit wait until another one closes.
     Task<> accept() {
@@ -161,9 +162,7 @@ private:
             if (connections_ < settings_.max_connections) {
                 auto socket = co_await acceptor_.async_accept(into(error));
                 if (!error) {
-                    auto counted = std::make_unique<Counted>(connections_);
-                    asio::co_spawn(io_, serve_receiver(std::move(socket), *directory_, settings_),
-                                   [counted = std::move(counted)](std::exception_ptr const&) {});
+                    begin_to_serve(std::move(socket));
                     continue;
                 }
             }

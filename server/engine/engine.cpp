@@ -31,8 +31,8 @@ Engine::Core::~Core() {
         component->halting.reset();  // an operation that waits for it holds the component
     }
     for (auto const& device : devices_) device->provider->close();
-    for (auto const& [name, provider] : providers_)
-        if (auto const departed = provider.lock()) departed->close();
+    for (auto const& [name, provider] : providers_)  // also those whose components have left
+        if (auto const known = provider.lock()) known->close();
 }
 
 namespace {

@@ -51,7 +51,7 @@ void JournalWriter::run(std::stop_token const& stop) {
         auto const changes = std::exchange(next_, nullptr);
         if (changes == nullptr && stop.stop_requested()) break;
         lock.unlock();
-        if (!file_->is_in_place()) note_broken(" was moved or removed");
+        if (!file_->is_in_place()) note_broken("it was moved or removed");
         if (changes != nullptr) write(*changes);
         note_room();
         lock.lock();
@@ -76,18 +76,18 @@ void JournalWriter::write(Changes const& changes) {
     } catch (std::bad_alloc const&) {  // `done` says whether they are stored
         is_failing_ = false;           // the log gets the reason the next time
     }
-    if (result == JournalFile::Result::broken) return note_broken(": ", file_->problem());
+    if (result == JournalFile::Result::broken) return note_broken(file_->problem());
     bool const stored = result == JournalFile::Result::stored;
     if (stored) is_failing_ = false;
     ++(stored ? stored_ : not_stored_);
     calls_.done(stored);
-    if (file_->tidy() == JournalFile::Result::broken) note_broken(": ", file_->problem());
+    if (file_->tidy() == JournalFile::Result::broken) note_broken(file_->problem());
 }
 
-void JournalWriter::note_broken(std::string_view how, std::string const& problem) {
+void JournalWriter::note_broken(std::string_view problem) {
     std::string why;
     try {
-        why = file_->name() + std::string{how} + problem;
+        why = file_->name() + ": " + std::string{problem};
     } catch (std::bad_alloc const&) {
         why = "the journal";  // fits without memory
     }

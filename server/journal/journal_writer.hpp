@@ -52,7 +52,7 @@ public:
 private:
     void run(std::stop_token const& stop);
     void write(Changes const&);
-    void note_broken(std::string_view how, std::string const& problem = {});
+    void note_broken(std::string_view problem);
     void note_room();
 
     std::unique_ptr<JournalFile> file_;  // used only by the thread, which closes it at its end

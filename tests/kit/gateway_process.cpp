@@ -75,6 +75,13 @@ void GatewayProcess::limit_address_space(std::size_t more) const {
     EXPECT_EQ(prlimit(process_, RLIMIT_AS, &limit, nullptr), 0);
 }
 
+Address GatewayProcess::media_address() {
+    std::string const mark = "://127.0.0.1:";
+    auto const log = log_with("media are served under");
+    auto const port = log.find(mark, log.find("media are served under")) + mark.size();
+    return {.port = static_cast<std::uint16_t>(std::stoi(log.substr(port)))};
+}
+
 std::string GatewayProcess::log_with(std::string_view text) {
     std::unique_lock lock{mutex_};
     news_.wait_for(lock, std::chrono::seconds{10}, [&] { return ended_ || log_.find(text) != std::string::npos; });

@@ -32,6 +32,7 @@ public:
     std::uint16_t port() const { return port_; }
     std::string const& url() const { return url_; }
     Address address() const { return {.port = port_}; }
+    Address media_address();  // of the gateway's media server, without TLS
     std::size_t resident_bytes() const;
     // Limits the address space of the process to its present size and this number of bytes.
     void limit_address_space(std::size_t more) const;

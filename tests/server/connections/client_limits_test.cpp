@@ -300,18 +300,10 @@ TEST(EventStreams, OfASessionAreAsManyAsTheKeyAllows) {
     EXPECT_EQ(status_of(third), 429);
 }
 
-kit::Address media_address(GatewayProcess& gateway) {
-    std::string const mark = "media are served under http://127.0.0.1:";
-    auto const log = gateway.log_with(mark);
-    auto address = gateway.address();
-    address.port = static_cast<std::uint16_t>(std::stoi(log.substr(log.find(mark) + mark.size())));
-    return address;
-}
-
 // A connection beyond the limit is not served before another one has closed.
 TEST(MediaConnections, AreAsManyAsTheKeyAllows) {
     GatewayProcess gateway{{"--media", "127.0.0.1:0", "--max-media-connections", "1"}};
-    auto const address = media_address(gateway);
+    auto const address = gateway.media_address();
     auto first = std::make_unique<Line>(address);
     kit::HttpClient second{address};
     second.line().send("GET /unknown HTTP/1.1\r\nHost: localhost\r\n\r\n");
@@ -324,7 +316,7 @@ TEST(MediaConnections, AreAsManyAsTheKeyAllows) {
 
 TEST(MediaConnections, EndWhenARequestDoesNotArriveInTime) {
     GatewayProcess gateway{{"--media", "127.0.0.1:0", "--request-timeout", "0.2"}};
-    Line line{media_address(gateway)};
+    Line line{gateway.media_address()};
     line.send("GET /unknown HTTP/1.1\r\nHo");
     line.set_patience(std::chrono::seconds{5});  // the default is 30 s
     EXPECT_TRUE(line.ends());

@@ -29,14 +29,6 @@ struct Tls : testing::Test {
         return run_shell("openssl s_client -connect 127.0.0.1:" + std::to_string(gateway.port()) + " " + options + " </dev/null");
     }
     std::string trusted() const { return "--cacert " + certificates.certificate("own"); }
-    // Without TLS.
-    static kit::Address media_address(GatewayProcess& gateway) {
-        std::string const mark = "media are served under https://127.0.0.1:";
-        auto const log = gateway.log_with(mark);
-        auto address = gateway.address();
-        address.port = static_cast<std::uint16_t>(std::stoi(log.substr(log.find(mark) + mark.size())));
-        return address;
-    }
 };
 
 }  // namespace
@@ -98,7 +90,7 @@ TEST_F(Tls, EndsAHandshakeThatTakesTooLong) {
 
 TEST_F(Tls, EndsAHandshakeThatTakesTooLongOnTheMediaPort) {
     GatewayProcess gateway{with({"--media", "127.0.0.1:0", "--handshake-timeout", "0.2"})};
-    kit::HttpClient silent{media_address(gateway)};
+    kit::HttpClient silent{gateway.media_address()};
     silent.line().set_patience(std::chrono::seconds{3});  // the default is 5 s
     EXPECT_TRUE(silent.line().ends());
 }
@@ -221,7 +213,7 @@ TEST_F(Tls, IsSpokenByProgramsThatJoin) {
 
 TEST_F(Tls, IsSpokenByTheMediaServer) {
     GatewayProcess gateway{with({"--media", "127.0.0.1:0"})};
-    auto const plain = media_address(gateway);
+    auto const plain = gateway.media_address();
     auto address = certificates.trusting("own", gateway);
     address.port = plain.port;
     EXPECT_EQ(kit::HttpClient{address}.get("/unknown").status, 404);

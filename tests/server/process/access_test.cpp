@@ -108,9 +108,8 @@ TEST(TokenCommand, LosesNoTokenWhenManyAreAddedAtOnce) {
 
 TEST(FileOfTokens, HasAtMostAThousand) {
     TokenFile const file;
-    std::string entries;
     auto const write = [&](int many) {
-        entries.clear();
+        std::string entries;
         for (int i = 0; i < many; ++i) {
             auto const number = std::to_string(i);
             entries += std::string{i == 0 ? "" : ","} + R"({"name": "t)" + number + R"(", "role": "observer", "sha256": ")" +

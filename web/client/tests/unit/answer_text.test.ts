@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { RoisError, answer_text } from 'rois-client';
+import { answer_text, RoisError } from 'rois-client';
 
 test('the text of an answer has 4,000,000 bytes at most', async () => {
   const longest = 'é'.repeat(2_000_000);
