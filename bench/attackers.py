@@ -1,8 +1,10 @@
 """The floods of docs/safety.md, and clients that move the robot, each as a program: `attackers.py KIND PORT`. It runs until it is killed."""
 
 import base64
+import collections
 import itertools
 import os
+import resource
 import socket
 import ssl
 import struct
@@ -143,6 +145,36 @@ def unread(port):
             time.sleep(0.01)
 
     each(port, 300, act)
+
+
+def connections(port):
+    """Connections that send nothing, opened as fast as possible; the last 12,000 stay open."""
+    resource.setrlimit(resource.RLIMIT_NOFILE, (resource.getrlimit(resource.RLIMIT_NOFILE)[1],) * 2)
+    opened = collections.deque()
+    while True:
+        try:
+            opened.append(socket.create_connection((HOST, port)))
+        except OSError:
+            time.sleep(0.001)
+        if len(opened) > 12_000:
+            opened.popleft().close()
+
+
+def headers(port):
+    """800 heads of 16 kB that are never finished, each sent again as soon as it is refused."""
+    unfinished = f"GET /rois/profile HTTP/1.1\r\nHost: {HOST}\r\nX: ".encode() + b"x" * 16_000
+
+    def act(one, turn):
+        try:
+            one.open()
+            one.socket.sendall(unfinished)
+            if turn % 2:
+                one.socket.sendall(b"x" * 1_000)
+            one.socket.recv(1)
+        except OSError:
+            time.sleep(0.01)
+
+    each(port, 800, act)
 
 
 def predicates(port):
@@ -351,6 +383,8 @@ FLOODS = {
     for one in (
         requests,
         unread,
+        connections,
+        headers,
         predicates,
         literals,
         bodies,

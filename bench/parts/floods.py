@@ -9,7 +9,7 @@ import time
 import attackers
 from processes import BIN, CORES, ROOT, WORK, BenchError, Server, running
 
-WAYS = ("stop", "release", "disconnect", "stop-all")
+WAYS = ("stop", "release", "disconnect", "stop-all", "stop-all-anew")  # the last one on a connection that is opened for it
 STOPS = [f"{way}_p99_ms" for way in WAYS]
 
 
@@ -38,7 +38,7 @@ def round(keep, settings):
     with gateway("no-memory", settings) as (server,):
         most = server.address_space() + 1024 * 1024
         resource.prlimit(server.pid, resource.RLIMIT_AS, (most, resource.RLIM_INFINITY))
-        keep("fault: no memory from the system", measured(server, "bodies", settings.seconds * 10, WAYS[3:]))  # no new sessions then
+        keep("fault: no memory from the system", measured(server, "bodies", settings.seconds * 10, WAYS[3:4]))  # no new sessions or connections then
 
 
 def needs(kind):
@@ -75,7 +75,7 @@ def measured(server, kind, seconds, ways=WAYS, client=None):
         if "disconnect" in ways:  # sessions that were idle meanwhile may have been replaced
             open_session(neighbour)
             open_session(stopper)
-        return probe(server, seconds, neighbour, stopper, ways)
+        return probe(server, seconds, neighbour, stopper, ways, lambda: Client(server.port, **(client or {})))
     finally:
         if attack:
             attack.kill()
@@ -94,7 +94,7 @@ class Client(attackers.Line):
         return ""
 
 
-def probe(server, seconds, neighbour, stopper, ways):
+def probe(server, seconds, neighbour, stopper, ways, new_client):
     """Alternates between a neighbour that sends queries and a client that stops, on separate connections."""
     clock = (~server.pid << 3) | 2
     begun, used, most = time.perf_counter(), time.clock_gettime(clock), 0
@@ -104,7 +104,7 @@ def probe(server, seconds, neighbour, stopper, ways):
         if name not in times:
             return
         sent = time.perf_counter()
-        answer = line.post(*request)
+        answer = (line or new_client()).post(*request)
         times[name].append(time.perf_counter() - sent)
         if "200 OK" not in answer or ("return_code" in answer and '"OK"' not in answer):
             raise BenchError(f"{name}: {answer or 'the connection was closed'}")
@@ -120,6 +120,7 @@ def probe(server, seconds, neighbour, stopper, ways):
             timed("disconnect", stopper, f'<disconnect xmlns="{attackers.MESSAGE}"/>')
             stopper.session = ""
         timed("stop-all", stopper, "", "/rois/stop")
+        timed("stop-all-anew", None, "", "/rois/stop")
         stopper.post("", "/rois/clear")
         most = max(most, server.resident_bytes())
         time.sleep(0.005)

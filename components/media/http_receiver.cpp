@@ -218,8 +218,10 @@ Task<> answer(SharedConnection connection, http::request<http::empty_body> reque
 }
 
 // Returns the response to an invalid request; empty if the connection is unusable.
-std::string parse_refusal(Error const& error) {
-    if (error == http::error::header_limit) return refusal("431 Request Header Fields Too Large", "the header is too large");
+std::string parse_refusal(Error const& error, std::size_t max_header) {
+    if (error == http::error::header_limit)
+        return refusal("431 Request Header Fields Too Large",
+                       "the header has more than " + std::to_string(max_header) + " bytes (max_header)");
     bool const of_http = error.category() == http::make_error_code(http::error::bad_method).category();
     if (!of_http || error == http::error::end_of_stream || error == http::error::partial_message) return {};
     return refusal("400 Bad Request", "invalid HTTP request: " + error.message());
@@ -276,7 +278,7 @@ Task<> serve_request(SharedConnection connection) {
         co_await http::async_read_header(connection->stream, connection->received, parser, into(error));
     if (!error) {
         co_await answer(connection, parser.release());
-    } else if (auto const text = parse_refusal(error); !text.empty()) {
+    } else if (auto const text = parse_refusal(error, connection->settings.max_header); !text.empty()) {
         co_await write(*connection, text);
     }
 }

@@ -156,6 +156,7 @@ void make_room_for_connections(net::Settings& net, media::Settings const& media)
 std::shared_ptr<media::Server> make_media(media::Settings settings, net::Settings const& net, Sites const& sites) {
     if (settings.host.empty()) return nullptr;
     settings.credentials = net.credentials;
+    settings.max_header = net.max_header;
     settings.handshake_timeout = net.handshake_timeout;
     settings.request_timeout = net.request_timeout;
     settings.write_timeout = net.write_timeout;

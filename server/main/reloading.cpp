@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <exception>
+#include <span>
 #include <utility>
 
 #include "types/text/listing.hpp"
@@ -36,7 +37,7 @@ void Reloading::run(std::stop_token const& stop) {
         try {
             auto const problems = reload();
             telemetry_.reloaded(problems.empty());
-            for (auto const& problem : problems) spdlog::warn("SIGHUP: nothing is changed: {}", problem);
+            for (auto const& problem : problems) spdlog::warn("SIGHUP: {}", problem);
             if (problems.empty()) spdlog::info("SIGHUP: {} read again", listed(parts_, &Part::name));
         } catch (std::bad_alloc const&) {
             telemetry_.reloaded(false);
@@ -48,19 +49,23 @@ void Reloading::run(std::stop_token const& stop) {
     }
 }
 
-// Returns why nothing is changed: every part that is not valid, not only the first one.
+// Returns every part that is not valid, not only the first one. Then nothing is changed. Without memory, the last parts may be
+// left unchanged.
 std::vector<std::string> Reloading::reload() const {
     std::vector<std::string> problems;
-    auto const attempt = [&](Part const& part, auto const& what) {
+    auto const attempt = [&](std::string const& outcome, Part const& part, auto const& what) {
         try {
             what();
         } catch (std::exception const& problem) {
-            problems.push_back(part.name + ": " + problem.what());
+            problems.push_back(outcome + ": " + part.name + ": " + problem.what());
         }
     };
     std::vector<std::function<void()>> changes;
-    for (auto const& part : parts_) attempt(part, [&] { changes.push_back(part.prepare()); });
-    for (std::size_t i = 0; i < changes.size() && problems.empty(); ++i) attempt(parts_[i], changes[i]);
+    for (auto const& part : parts_) attempt("nothing is changed", part, [&] { changes.push_back(part.prepare()); });
+    for (std::size_t i = 0; i < changes.size() && problems.empty(); ++i) {
+        auto const changed = listed(std::span{parts_}.first(i), &Part::name);
+        attempt(i == 0 ? "nothing is changed" : "only " + changed + " changed", parts_[i], changes[i]);
+    }
     return problems;
 }
 

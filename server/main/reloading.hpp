@@ -1,4 +1,4 @@
-// Reads the files again after SIGHUP, and makes all changes or none.
+// Reads the files again after SIGHUP, and makes all changes, or none if a file is not valid.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,8 @@ namespace rois {
 class Reloading {
 public:
     // Some of the files: "certificate". `prepare` reads and checks them, and throws if they are not valid. It returns the
-    // function that makes the change. Only that of the first part may throw, if it changes nothing then.
+    // function that makes the change. Only that of the first part may throw, if it changes nothing then; the others only for lack
+    // of memory, which the log reports.
     struct Part {
         std::string name;
         std::function<std::function<void()>()> prepare;

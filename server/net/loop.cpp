@@ -5,7 +5,6 @@
 #include <boost/asio/detached.hpp>
 #include <boost/asio/post.hpp>
 #include <exception>
-#include <ranges>
 #include <thread>
 #include <utility>
 
@@ -137,18 +136,20 @@ void Loop::sweep_some(Steady now) {
 
 bool Loop::cut_longest_idle() {
     auto const latest = std::chrono::steady_clock::now() - shortest_idle + shared_.settings().idle_timeout;
-    auto const idlest = std::ranges::min_element(connections_, {}, &Connection::idle_due);
-    if (idlest == connections_.end() || (*idlest)->idle_due() > latest) return false;
-    (*idlest)->give_way();
+    auto* const idlest = idlest_(connections_, [](Connection const& each) { return each.idle_due().time_since_epoch().count(); });
+    if (idlest == nullptr || idlest->idle_due() > latest) return false;
+    idlest->give_way();
     return true;
 }
 
 Loop::Stranger Loop::cut_stranger(Address const* from) {
-    auto strangers = connections_ | std::views::filter([&](auto const* each) { return each->is_stranger(from); });
-    auto const oldest = std::ranges::min_element(strangers, {}, &Connection::accepted);
-    if (oldest == strangers.end()) return Stranger::none;
-    if ((*oldest)->accepted() + (from != nullptr ? 0 : sweeps_of_grace) > sweeps_) return Stranger::stays;
-    (*oldest)->give_way();
+    FirstOf<Connection> of_address;
+    auto* const oldest = (from != nullptr ? of_address : oldest_stranger_)(connections_, [from](Connection const& each) {
+        return each.is_stranger(from) ? static_cast<std::int64_t>(each.accepted()) : FirstOf<Connection>::none;
+    });
+    if (oldest == nullptr) return Stranger::none;
+    if (oldest->accepted() + (from != nullptr ? 0 : sweeps_of_grace) > sweeps_) return Stranger::stays;
+    oldest->give_way();
     return Stranger::cut;
 }
 
@@ -159,6 +160,8 @@ void Loop::add(Connection& connection) {
 
 // Moves the last connection to the free index.
 void Loop::remove(Connection const& connection) {
+    idlest_.forget(connection);
+    oldest_stranger_.forget(connection);
     auto* const last = connections_.back();
     connections_[connection.index_] = last;
     last->index_ = connection.index_;

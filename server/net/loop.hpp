@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gateway/access/admission.hpp"
+#include "gateway/access/first_of.hpp"
 #include "gateway/gateway.hpp"
 #include "gateway/process/telemetry.hpp"
 #include "gateway/process/troubles.hpp"
@@ -107,6 +108,7 @@ private:
     Shared& shared_;
     xml::RequestReader reader_;
     std::vector<Connection*> connections_;
+    FirstOf<Connection> idlest_, oldest_stranger_;
     std::size_t swept_ = 0;     // index of the next connection to check
     std::uint64_t sweeps_ = 0;  // none while this loop stands still
     std::deque<Background> background_;

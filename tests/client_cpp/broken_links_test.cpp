@@ -61,6 +61,22 @@ TEST_P(TheLink, NoticesASilentGateway) {
     EXPECT_THAT(history.states(), Contains("resumed"));
 }
 
+TEST_P(TheLink, TakesDocumentsAsLongAsTheSettingAllows) {
+    auto const why_not = [&](std::size_t longest) {
+        auto bounded = settings(shared_gateway().url());
+        bounded.longest_document = longest;
+        bounded.attempts = 1;
+        Blocking robot{bounded};
+        try {
+            return std::string{robot.call(GetProfile{}).return_code == ReturnCode::ok ? "" : "it was refused"};
+        } catch (Error const& error) {
+            return std::string{error.what()};
+        }
+    };
+    EXPECT_EQ(why_not(200'000), "");
+    EXPECT_NE(why_not(5'000), "") << "the profile is longer";
+}
+
 TEST_P(TheLink, AcceptsDelayedAndSplitBytes) {
     Proxy proxy{shared_gateway().port()};
     proxy.drip(7, 0ms);

@@ -74,13 +74,18 @@ asio::awaitable<void> pump(std::shared_ptr<From> from, std::shared_ptr<To> to) {
 
 class TlsProxy::Inside {
 public:
-    explicit Inside(std::uint16_t gateway)
+    Inside(std::uint16_t gateway, Version version)
         : gateway_{asio::ip::address_v4::loopback(), gateway},
           file_{std::filesystem::temp_directory_path() / ("rois-" + std::to_string(getpid()) + "-certificate.pem")} {
         auto const identity = fresh_identity();
         std::ofstream{file_} << identity.certificate;
         context_.use_certificate_chain(asio::buffer(identity.certificate));
         context_.use_private_key(asio::buffer(identity.key), asio::ssl::context::pem);
+        if (version == Version::tls_1_1) {
+            SSL_CTX_set_max_proto_version(context_.native_handle(), TLS1_1_VERSION);
+            SSL_CTX_set_min_proto_version(context_.native_handle(), TLS1_1_VERSION);
+            SSL_CTX_set_security_level(context_.native_handle(), 0);
+        }
         asio::co_spawn(io_, accept(), asio::detached);
         thread_ = std::thread{[this] { io_.run(); }};
     }
@@ -121,7 +126,7 @@ private:
     std::thread thread_;
 };
 
-TlsProxy::TlsProxy(std::uint16_t gateway) : inside_{std::make_unique<Inside>(gateway)} {}
+TlsProxy::TlsProxy(std::uint16_t gateway, Version version) : inside_{std::make_unique<Inside>(gateway, version)} {}
 
 TlsProxy::~TlsProxy() = default;
 

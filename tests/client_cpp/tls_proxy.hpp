@@ -10,7 +10,8 @@ namespace rois::test {
 // Has its own key and a self-signed certificate for "localhost" and 127.0.0.1.
 class TlsProxy {
 public:
-    explicit TlsProxy(std::uint16_t gateway);
+    enum class Version : std::uint8_t { current, tls_1_1 };
+    explicit TlsProxy(std::uint16_t gateway, Version = Version::current);
     ~TlsProxy();
 
     std::uint16_t port() const;

@@ -51,6 +51,13 @@ TEST_P(Tls, RejectsOtherCertificates) {
     EXPECT_THAT(why_not(no_file), HasSubstr("No such file"));
 }
 
+TEST_P(Tls, RejectsTls11) {
+    TlsProxy const proxy{shared_gateway().port(), TlsProxy::Version::tls_1_1};
+    auto trusting = settings(url(proxy, "localhost"));
+    trusting.ca_file = proxy.certificate();
+    EXPECT_THAT(why_not(trusting), HasSubstr("unsupported protocol"));
+}
+
 TEST_P(Tls, ReportsAPortWithoutTls) {
     auto url = "https://127.0.0.1:" + std::to_string(shared_gateway().port());
     EXPECT_THAT(why_not(settings(url)), HasSubstr("no TLS"));

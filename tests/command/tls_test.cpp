@@ -46,6 +46,16 @@ TEST_F(RoisOverTls, ExplainsAPortThatSpeaksPlainHttp) {
     }
 }
 
+TEST_F(RoisOverTls, DoesNotUseTls11) {
+    TlsProxy const old{shared_gateway().port(), TlsProxy::Version::tls_1_1};
+    for (std::string const command : {"health", "search"}) {
+        auto const refused =
+            run_rois({command, "--url", "https://localhost:" + std::to_string(old.port()), "--ca-file", old.certificate()});
+        EXPECT_NE(refused.exit_code, 0);
+        EXPECT_THAT(refused.error, HasSubstr("unsupported protocol")) << command;
+    }
+}
+
 TEST_F(RoisOverTls, SharesASession) {
     RoisProcess holding{{"bind", "speech_synthesis"}, trusting};
     auto const id = holding.line_with("session ").substr(8);

@@ -10,6 +10,8 @@
 #include <fstream>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "journal/state_folder.hpp"
@@ -29,6 +31,11 @@ using testing::HasSubstr;
 Xml list(Command const& command) { return sequence(unit(command)); }
 
 Command const long_speech{.component = "speech_synthesis", .id = "long", .arguments = {speech_text(std::string(2'000, 'a'))}};
+
+Command set_volume(std::string id) {
+    return {
+        .component = "speech_synthesis", .type = "set_parameter", .id = std::move(id), .arguments = {{"volume", "int", {"50"}}}};
+}
 
 // The first notifications of the session, without changes of the profile: "completed long ABORT".
 std::vector<std::string> notifications_of(HttpClient& client, std::size_t most) {
@@ -250,6 +257,42 @@ TEST_F(GatewayWithJournal, HaltsAndEndsWhenTheDiskDoesNotWrite) {
     EXPECT_THAT(ended.error, HasSubstr("all components were halted"));
     gateway.reset();
 }
+
+// One call of the system fails, the n-th of its kind: a write ("full 3") or an fdatasync ("broken 3").
+struct GatewayWithFailingCall : GatewayWithJournal, testing::WithParamInterface<std::tuple<char const*, int>> {};
+
+TEST_P(GatewayWithFailingCall, CompletesEachAcknowledgedCommandOnce) {
+    start();
+    auto& desk = connected();
+    auto const session = desk.session;
+    desk.call("bind", component_ref("speech_synthesis"));
+    auto const [word, call] = GetParam();
+    let_disk_be(word + std::string{" "} + std::to_string(call));
+    std::vector<std::string> expected;
+    try {
+        for (int i = 0; i < 12; ++i) {
+            auto const id = "c" + std::to_string(i);
+            auto const answer = desk.call("execute", list(set_volume(id)));
+            EXPECT_THAT(answer.return_code(), testing::AnyOf("OK", "OUT_OF_RESOURCES")) << answer.body;
+            if (answer.return_code() == "OK") expected.push_back("completed " + id + " OK");
+        }
+        EXPECT_STREQ(word, "full") << "with a file that may not be stored, the gateway ends";
+        kill();
+    } catch (LineEnded const&) {
+        EXPECT_STREQ(word, "broken") << "without one of its writes, the gateway goes on";
+        EXPECT_EQ(gateway->wait().exit_code, 70);
+    }
+    let_disk_be("fine");
+    start();
+    EXPECT_EQ(again(session).call("execute", list(set_volume("last"))).return_code(), "OK");
+    expected.emplace_back("completed last OK");
+    EXPECT_THAT(notifications_of(again(session), expected.size()), testing::ElementsAreArray(expected));
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, GatewayWithFailingCall, testing::Combine(testing::Values("full", "broken"), testing::Range(1, 9)),
+                         [](auto const& each) {
+                             return std::get<0>(each.param) + ("_" + std::to_string(std::get<1>(each.param)));
+                         });
 
 TEST_F(GatewayWithJournal, DoesNotStartWithAJournalThatIsNotItsOwn) {
     start();

@@ -8,6 +8,7 @@
 namespace rois::media {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -49,7 +50,12 @@ TEST_F(MediaServer, AcceptsOnlyGetAndHead) {
 TEST_F(MediaServer, RefusesInvalidRequests) {
     EXPECT_THAT(answer("hello\r\n\r\n"), StartsWith("HTTP/1.1 400 "));
     EXPECT_THAT(answer("GET / HTTP/9.9\r\n\r\n"), StartsWith("HTTP/1.1 400 "));
-    EXPECT_THAT(answer("GET / HTTP/1.1\r\nX: " + std::string(9'000, 'x') + "\r\n\r\n"), StartsWith("HTTP/1.1 431 "));
+    auto const with_header = [&](std::size_t bytes) {
+        return answer("GET / HTTP/1.1\r\nX: " + std::string(bytes, 'x') + "\r\n\r\n");
+    };
+    EXPECT_THAT(with_header(16'300), StartsWith("HTTP/1.1 404 "));
+    EXPECT_THAT(with_header(16'400),
+                AllOf(StartsWith("HTTP/1.1 431 "), HasSubstr("the header has more than 16384 bytes (max_header)")));
 }
 
 TEST_F(MediaServer, ReportsStartAndEndOfReception) {

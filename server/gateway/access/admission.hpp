@@ -69,7 +69,7 @@ public:
         if (taken_ >= most_) return Refused::full;
         if (limits == Limits::all) ++of_address_[address];
         ++taken_;
-        full_ = false;
+        if (taken_ <= most_ / 10 * 9) full_ = false;
         return Place{*this, address, limits};
     }
 
@@ -94,7 +94,7 @@ public:
                     " connections open already: close one; the key max_connections_per_address sets the limit"};
     }
 
-    // Returns true at the first call since the last connection entered: for a log line.
+    // Returns true at the first call, and again after a tenth of the places was free: for a log line.
     bool is_news() { return !full_.exchange(true); }
 
 private:

@@ -1,25 +1,33 @@
-// A test preloads this library into the gateway to make its disk fail. The word in the file that ROIS_DISK names decides how:
-// "full": nothing can be written to files. "slow": fdatasync takes 3 s. "broken": fdatasync fails.
+// A test preloads this library into the gateway to make its disk fail. The text in the file that ROIS_DISK names decides how:
+// "full": nothing can be written to files. "slow": fdatasync takes 3 s. "broken": fdatasync fails. "full 3": only the third write
+// from then on fails. "broken 3": only the third fdatasync.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
 namespace {
+
+std::atomic<unsigned> calls = 0;  // that could have failed as the text says
 
 bool is(char const* word) {
     auto const* const name = std::getenv("ROIS_DISK");
     if (name == nullptr) return false;
     int const file = ::open(name, O_RDONLY | O_CLOEXEC);
     if (file < 0) return false;
-    char text[16] = {};
+    char text[16] = {}, found[16] = {};
     auto const size = ::read(file, text, sizeof text - 1);
     ::close(file);
-    return size > 0 && std::strncmp(text, word, std::strlen(word)) == 0;
+    unsigned call = 0;
+    auto const parts = size > 0 ? std::sscanf(text, "%15s %u", found, &call) : 0;
+    if (parts < 1 || std::strcmp(found, word) != 0) return false;
+    return parts == 1 || ++calls == call;
 }
 
 template <class Function>

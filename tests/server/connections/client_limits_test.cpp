@@ -314,6 +314,12 @@ TEST(MediaConnections, AreAsManyAsTheKeyAllows) {
     EXPECT_EQ(second.read().status, 404);
 }
 
+TEST(MediaConnections, TakeHeadersAsLongAsTheKeyAllows) {
+    GatewayProcess gateway{{"--media", "127.0.0.1:0", "--max-header", "1024"}};
+    for (auto const& [size, status] : {std::pair{900, 404}, {1'100, 431}})
+        EXPECT_EQ(kit::HttpClient{gateway.media_address()}.get("/unknown", {{"X", std::string(size, 'x')}}).status, status);
+}
+
 TEST(MediaConnections, EndWhenARequestDoesNotArriveInTime) {
     GatewayProcess gateway{{"--media", "127.0.0.1:0", "--request-timeout", "0.2"}};
     Line line{gateway.media_address()};

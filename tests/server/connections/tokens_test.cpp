@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "kit/received_media.hpp"
 #include "server/application.hpp"
 #include "server/token_file.hpp"
 #include "server/websocket_client.hpp"
@@ -210,6 +211,18 @@ TEST_F(Tokens, OwnTheirSessions) {
                  "OK");
 }
 
+TEST_F(Tokens, AreNeededToLearnWhyTheGatewayIsNotReady) {
+    auto const token = file.add("desk", "operator");
+    GatewayProcess const gateway{file.of_gateway()};
+    kit::HttpClient desk{with_token(token, gateway)};
+    EXPECT_EQ(desk.say(post("/rois/stop", "Authorization: Bearer " + token + "\r\n")).status, 200);
+    auto const known = desk.get("/readyz"), unknown = HttpClient{gateway}.get("/readyz");
+    EXPECT_EQ(known.status, 503);
+    EXPECT_THAT(known.body, HasSubstr("stopped"));
+    EXPECT_EQ(unknown.status, 503);
+    EXPECT_EQ(unknown.body, "not ready\n");
+}
+
 TEST_F(Tokens, EndTheSessionsOfARevokedOneWithinASecond) {
     auto const token = file.add("desk", "operator"), other = file.add("other", "operator");
     GatewayProcess const gateway{file.of_gateway()};
@@ -232,6 +245,25 @@ TEST_F(Tokens, EndTheSessionsOfARevokedOneWithinASecond) {
     over_http.session.clear();
     stream.session.clear();
     EXPECT_EQ(bind(colleague, "navigation"), "OK") << "the component is free, and other sessions go on";
+}
+
+TEST_F(Tokens, EndTheStreamsOfARevokedOneWithinASecond) {
+    auto const token = file.add("desk", "operator");
+    GatewayProcess const gateway{file.of_gateway({"--media", "127.0.0.1:0"})};
+    Application desk{Transport::http, with_token(token, gateway)};
+    desk.connect();
+    desk.bind("audio_streaming");
+    auto const command = command_ids(desk.execute(Command{.component = "audio_streaming", .type = "connect_stream"})).front();
+    EXPECT_EQ(desk.status_of(command), "OK");
+    auto const url = desk.get_command_result(command).values().at("transport_parameters").front();
+    MediaReceiver receiving{url};
+    EXPECT_THAT(receiving.head(), testing::StartsWith("HTTP/1.1 200 "));
+
+    EXPECT_EQ(file.run({"revoke", "desk"}).exit_code, 0);
+    auto const revoked_at = std::chrono::steady_clock::now();
+    receiving.line().rest();
+    EXPECT_LT(std::chrono::steady_clock::now() - revoked_at, std::chrono::seconds{1});
+    EXPECT_THAT(MediaReceiver{url}.head(), testing::StartsWith("HTTP/1.1 404 "));
 }
 
 TEST_F(Tokens, EndTheSessionsOfAnExpiredOneWithinASecond) {

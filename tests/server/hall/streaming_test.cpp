@@ -17,6 +17,14 @@ struct Agreed {
     std::string id, encoding, transport;
 };
 
+// Connects a stream and returns its address.
+std::string address_of_stream(Application& guest, std::string const& component) {
+    guest.bind(component);
+    auto const command = command_ids(guest.execute(Command{.component = component, .type = "connect_stream"})).front();
+    EXPECT_EQ(guest.status_of(command), "OK");
+    return one(guest.get_command_result(command).values(), "transport_parameters");
+}
+
 // An empty hall whose robot streams.
 GatewayProcess& streaming_hall() {
     static GatewayProcess hall{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--media", "127.0.0.1:0"}};
@@ -185,11 +193,7 @@ TEST_P(Streaming, EndsWithTheSession) {
     {
         Application guest{GetParam(), streaming_hall()};
         guest.connect();
-        guest.bind("video_streaming");
-        auto const command =
-            command_ids(guest.execute(Command{.component = "video_streaming", .type = "connect_stream"})).front();
-        EXPECT_EQ(guest.status_of(command), "OK");
-        receiving.emplace(one(guest.get_command_result(command).values(), "transport_parameters"));
+        receiving.emplace(address_of_stream(guest, "video_streaming"));
         receiving->next_picture();
     }
     receiving->line().rest();
@@ -199,10 +203,7 @@ TEST(StreamingAddress, IsThePublicAddress) {
     GatewayProcess const gateway{{"--media", "127.0.0.1:0", "--media-url", "https://robots.example/media"}};
     Application desk{Transport::http, gateway};
     desk.connect();
-    desk.bind("video_streaming");
-    auto const command = command_ids(desk.execute(Command{.component = "video_streaming", .type = "connect_stream"})).front();
-    EXPECT_EQ(desk.status_of(command), "OK");
-    auto const address = one(desk.get_command_result(command).values(), "transport_parameters");
+    auto const address = address_of_stream(desk, "video_streaming");
     EXPECT_THAT(address, StartsWith("https://robots.example/media/"));
     EXPECT_GE(address.size(), std::string{"https://robots.example/media/"}.size() + 22) << "128 bits or more";
 }
@@ -226,6 +227,19 @@ TEST_P(Streaming, IsNotForPagesOfOtherSites) {
         EXPECT_EQ(status(target, "Host: localhost\r\nOrigin: null\r\n"), "403");
         EXPECT_EQ(status(target, "Host: localhost\r\nHost: evil.example\r\n"), "400");
     }
+}
+
+TEST(MediaReceiverThatNeverReads, IsCutAfterTheWriteTimeout) {
+    GatewayProcess const gateway{{"--media", "127.0.0.1:0", "--write-timeout", "0.2"}};
+    Application desk{Transport::http, gateway};
+    desk.connect();
+    desk.bind("video_streaming");
+    desk.set_parameter("video_streaming",
+                       {{"encoding_parameters", "string", {"multipart/x-mixed-replace;size=1280;framerate=25"}}});
+    MediaReceiver idle{address_of_stream(desk, "video_streaming")};
+    desk.subscribe("notify_stream_status", {}, true);
+    std::string last;
+    while (last != "STREAMING_NOT_RUNNING") last = one(desk.receive().values(), "status");
 }
 
 TEST(StreamingAddress, MustBeFree) {
