@@ -177,6 +177,20 @@ def headers(port):
     each(port, 800, act)
 
 
+def garbage(port):
+    """800 connections that send what is no request, again and again."""
+
+    def act(one, _):
+        try:
+            one.open()
+            one.socket.sendall(b"garbage\r\n\r\n")
+            one.socket.recv(1_000)
+        except OSError:
+            time.sleep(0.01)
+
+    each(port, 800, act)
+
+
 def predicates(port):
     """30 sessions that subscribe with conditions of 1,000 predicates, beyond their limit."""
     every = [
@@ -385,6 +399,7 @@ FLOODS = {
         unread,
         connections,
         headers,
+        garbage,
         predicates,
         literals,
         bodies,
