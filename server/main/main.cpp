@@ -28,12 +28,13 @@
 #include "main/choosing_section.hpp"
 #include "main/command_line.hpp"
 #include "main/configuration_file.hpp"
+#include "main/engine_profile.hpp"
 #include "main/engines_file.hpp"
 #include "main/exposure.hpp"
 #include "main/gateway_journal.hpp"
 #include "main/health_check.hpp"
-#include "main/keys.hpp"
 #include "main/logging.hpp"
+#include "main/places.hpp"
 #include "main/profile_folder.hpp"
 #include "main/program_tokens.hpp"
 #include "main/reloading.hpp"
@@ -186,32 +187,6 @@ std::vector<std::string> own_refs(GatewaySettings const& settings, simulation::F
     return refs;
 }
 
-// The value of a configuration key, as a text.
-std::string shown(std::string_view name, GatewaySettings const& settings) {
-    return std::ranges::find(keys(), name, &Key::name)->show(settings);
-}
-
-// A parameter of the engine. Its present value is its default value.
-ParameterProfile engine_parameter(std::string name, std::string type, std::string value, std::string description) {
-    return {.name = std::move(name),
-            .data_type_ref = {.code = std::move(type), .authority = {}, .codebook_ref = {}, .version = {}},
-            .default_value = std::move(value),
-            .description = std::move(description)};
-}
-
-EngineProfile engine_profile(GatewaySettings const& settings, simulation::FloorPlan const& plan, std::string const& instance) {
-    EngineProfile profile;
-    profile.object.identifier = "urn:x-rois:def:HRIEngine:RoISGateway::" + settings.engine_name;
-    profile.object.code_space = "urn:ietf:rfc:2141";
-    profile.object.name = settings.engine_name;
-    profile.parameters = {
-        engine_parameter("sim_speed", "double", shown("sim_speed", settings),
-                         "Simulated seconds per second; 0: simulated time stands still."),
-        engine_parameter("instance", "string", instance, "Distinguishes this start of the engine from all others."),
-        engine_parameter("crs", "string", plan.crs, "The frame of the positions that the engine reports. It may accept others.")};
-    return profile;
-}
-
 // Returns the names of this engine and its robots: a profile with two engines of the same name is invalid.
 TakenNames names_of_engines(GatewaySettings const& settings, simulation::FloorPlan const& plan) {
     TakenNames taken{{settings.engine_name, "this engine (engine_name); choose another name"}};
@@ -258,6 +233,7 @@ int serve(CommandLine const& command) {
     std::ranges::copy(check_exposure(settings), std::back_inserter(warnings));
     if (command.wish == CommandLine::Wish::check_config) {
         if (!settings.tokens.empty()) read_tokens(settings.tokens);
+        check_places(settings);
         for (auto const& warning : warnings) std::fprintf(stderr, "rois-gateway: warning: %s\n", warning.c_str());
         std::puts("configuration ok");
         return done;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr auto between_sweeps = std::chrono::milliseconds{50};
 constexpr auto shortest_idle = std::chrono::milliseconds{100};  // a connection that waits for less is not cut: a request may come
-constexpr std::uint64_t sweeps_of_grace = 3;                    // for a client to show its token: 0.1 s
+constexpr std::int64_t sweeps_of_grace = 3;                     // for a client to show its token: 0.1 s
 constexpr auto between_tries = std::chrono::milliseconds{10};
 
 // Returns the number of sweeps that check all connections: 1 if a deadline is short, 5 by default. So a deadline is missed by at
@@ -143,10 +143,9 @@ bool Loop::cut_longest_idle() {
 }
 
 Loop::Stranger Loop::cut_stranger(Address const* from) {
+    auto const rank = [from](auto const& each) { return each.is_stranger(from) ? each.accepted() : FirstOf<Connection>::none; };
     FirstOf<Connection> of_address;
-    auto* const oldest = (from != nullptr ? of_address : oldest_stranger_)(connections_, [from](Connection const& each) {
-        return each.is_stranger(from) ? static_cast<std::int64_t>(each.accepted()) : FirstOf<Connection>::none;
-    });
+    auto* const oldest = (from != nullptr ? of_address : oldest_stranger_)(connections_, rank);
     if (oldest == nullptr) return Stranger::none;
     if (oldest->accepted() + (from != nullptr ? 0 : sweeps_of_grace) > sweeps_) return Stranger::stays;
     oldest->give_way();

@@ -109,8 +109,8 @@ private:
     xml::RequestReader reader_;
     std::vector<Connection*> connections_;
     FirstOf<Connection> idlest_, oldest_stranger_;
-    std::size_t swept_ = 0;     // index of the next connection to check
-    std::uint64_t sweeps_ = 0;  // none while this loop stands still
+    std::size_t swept_ = 0;    // index of the next connection to check
+    std::int64_t sweeps_ = 0;  // none while this loop stands still
     std::deque<Background> background_;
     bool over_ = false;
     Steady last_moment_ = Steady::max();  // set by shut_down: the remaining connections are cut then

@@ -173,6 +173,14 @@ TEST_F(GatewayWithJournal, RefusesCommandsOnAFullDiskAndRecovers) {
                 ElementsAre("completed long ABORT", "completed s OK", "receive_error", "completed next ABORT"));
 }
 
+TEST_F(GatewayWithJournal, DoesNotStartOnAFullDisk) {
+    let_disk_be("full");
+    auto const ended = run_gateway({"--listen", "127.0.0.1:0", "--state", folder.name()},
+                                   kit::preloading(ROIS_BINARY_DIR "/tests/libfailing_disk.so", {{"ROIS_DISK", disk()}}));
+    EXPECT_EQ(ended.exit_code, 2);
+    EXPECT_THAT(ended.error, HasSubstr("cannot be read or written: No space left on device"));
+}
+
 TEST_F(GatewayWithJournal, TakesAtMostStateBytesAndThenRefusesCommands) {
     constexpr std::uintmax_t most = 10'000'000;
     start({"--state-bytes", std::to_string(most)});

@@ -38,7 +38,7 @@ public:
     }
     // When this connection ends if no request begins; `max` if it is not idle, or an answer is still to come.
     Steady idle_due() const { return idle_ && waiting_.empty() && !place_.is_left() ? idle_due_ : Steady::max(); }
-    std::uint64_t accepted() const { return accepted_; }  // the loop's number of sweeps then
+    std::int64_t accepted() const { return accepted_; }  // the loop's number of sweeps then
     // Whether the gateway has tokens, and this connection has a place, comes from this address (null: any), and has shown none.
     bool is_stranger(Address const* from = nullptr) const {
         bool const is_from = from == nullptr || place_.address() == *from;
@@ -97,7 +97,7 @@ private:
     RequestHead head_;
     Route route_;
     SessionId session_;  // that the request names; empty if it names none
-    std::uint64_t const accepted_ = loop_.sweeps_;
+    std::int64_t const accepted_ = loop_.sweeps_;
     Steady request_due_ = Steady::max();
     Steady idle_due_ = Steady::max();  // when the next request must have begun; empty lines do not begin one
     bool idle_ = false;                // no byte of the next request has arrived

@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 #include "server/websocket_client.hpp"
@@ -58,6 +59,11 @@ TEST(ConfigurationFile, OfAFloorPlanIsCheckedToo) {
     std::string const no_plan = ROIS_SOURCE_DIR "/tests/server/data/three_visitors.txt";
     expect_complaint(run_gateway({"--floor-plan", no_plan, "--check-config"}), no_plan + ":1:");
     expect_complaint(run_gateway({"--scenario", "/nowhere/at.all", "--check-config"}), "/nowhere/at.all: cannot be read");
+    for (std::string const key : {"--state", "--audit-log"})
+        expect_complaint(run_gateway({key, "/nowhere/at.all", "--check-config"}), "cannot write '/nowhere': No such file");
+    EXPECT_EQ(run_gateway({"--state", "/tmp/rois-not-made", "--audit-log", "/tmp/rois-not-made.log", "--check-config"}).exit_code,
+              0);
+    EXPECT_FALSE(std::filesystem::exists("/tmp/rois-not-made")) << "a check makes nothing";
 }
 
 TEST(ConfigurationFile, DoesNotNameTheEngineLikeItsRobot) {
