@@ -32,7 +32,7 @@ struct TheFirstOf : testing::Test {
 TEST_F(TheFirstOf, IsTheOneWithTheLeastRankAlsoAfterRanksHaveChanged) {
     std::mt19937 random{1};
     std::int64_t now = 0;
-    for (int i = 0; i < 500; ++i) guests.push_back({now += random() % 3});
+    for (int i = 0; i < 500; ++i) guests.push_back({now += static_cast<int>(random() % 3)});
     for (int turn = 0; turn < 2'000; ++turn) {
         auto* const found = find();
         ASSERT_NE(found, nullptr);
