@@ -56,10 +56,14 @@ void Listener::bind(Endpoint const& endpoint, Port port) {
     acceptor_.open(endpoint.protocol());
     acceptor_.set_option(asio::socket_base::reuse_address{true});
     acceptor_.set_option(asio::socket_base::enable_connection_aborted{true});
-    int const on = 1;
-    if (port == Port::shared && ::setsockopt(acceptor_.native_handle(), SOL_SOCKET, SO_REUSEPORT, &on, sizeof on) != 0)
-        throw boost::system::system_error{errno, boost::system::system_category()};
+    if (port == Port::shared) share_port();
     acceptor_.bind(endpoint);
+}
+
+void Listener::share_port() {
+    int const on = 1;
+    if (::setsockopt(acceptor_.native_handle(), SOL_SOCKET, SO_REUSEPORT, &on, sizeof on) != 0)
+        throw boost::system::system_error{errno, boost::system::system_category()};
 }
 
 void Listener::listen() {

@@ -22,6 +22,7 @@ public:
     // listeners can bind it too. Both throw boost::system::system_error.
     enum class Port : unsigned char { alone, shared };
     void bind(Endpoint const&, Port);
+    void share_port();
 
     void listen();
     Executor executor() { return acceptor_.get_executor(); }

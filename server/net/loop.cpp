@@ -106,16 +106,12 @@ Task<> Loop::sweep() {
     while (!over_) {
         timer.expires_after(between_sweeps);
         co_await timer.async_wait(asio::use_awaitable_t<Executor>{});
-        sweep_now();
+        ++sweeps_;
+        wakes_.retry_turn();
+        sweep_some(std::chrono::steady_clock::now());
+        over_ =
+            draining() && connections_.empty() && shared_.telemetry.connections() == 0;  // of all loops: one waits for signals
     }
-}
-
-void Loop::sweep_now() noexcept {
-    ++sweeps_;
-    wakes_.retry_turn();
-    sweep_some(std::chrono::steady_clock::now());
-    over_ = draining() && connections_.empty() && shared_.telemetry.connections() == 0;  // of all loops: one waits for signals
-    if (over_) io_.stop();
 }
 
 void Loop::sweep_some(Steady now) {

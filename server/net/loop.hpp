@@ -100,7 +100,6 @@ private:
     Task<> run(Background&);
     void start_background();
     Task<> sweep();
-    void sweep_now() noexcept;
     void sweep_some(Steady now);
     void add(Connection&);
     void remove(Connection const&);
