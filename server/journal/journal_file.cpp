@@ -168,7 +168,7 @@ void JournalFile::check_header(bool is_new) {
         if ((code & 0xff) == SQLITE_READONLY)
             refuse(std::string{"or its folder cannot be written: "} + sqlite3_errmsg(database_.get()));
         if ((code & 0xff) == SQLITE_FULL || (code & 0xff) == SQLITE_IOERR)
-            refuse(std::string{"cannot be read or written: "} + std::strerror(sqlite3_system_errno(database_.get())));
+            refuse(std::string{"cannot be read or written: "} + sqlite3_errmsg(database_.get()));
         if ((code & 0xff) == SQLITE_NOTADB) refuse("is not a journal of rois-gateway, or it is damaged");
         refuse(std::string{"cannot be read, it may be damaged: "} + sqlite3_errmsg(database_.get()));
     };
