@@ -115,6 +115,7 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
     : name_{folder + "/journal.db"},
       log_{name_ + "-wal"},
       reserve_{folder + "/reserve"},
+      in_use_{folder + "/in_use"},
       longest_log_{longest_log(most_bytes)},
       log_pages_{longest_log_},  // an earlier process may have left a long log
       most_pages_{most_pages(most_bytes)} {
@@ -141,19 +142,27 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
     pages_ = prepared("PRAGMA page_count");
     free_pages_ = prepared("PRAGMA freelist_count");
     count_pages();
+    if (::lstat(reserve_.c_str(), &found) == 0 && !S_ISREG(found.st_mode))
+        throw BadJournal{"state: " + rois::quoted(reserve_) + " is not a file"};
     keep_reserve(Steady::clock::now());
     open_stop(folder + "/stop");
+    sqlite3_db_config(database_.get(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, nullptr);
 }
 
-JournalFile::~JournalFile() = default;
+// SQLite then moves its log into the database, and removes it.
+JournalFile::~JournalFile() { ::unlink(in_use_.c_str()); }
 
 void JournalFile::refuse(std::string const& why) const { throw BadJournal{"state: " + rois::quoted(name_) + " " + why}; }
 
-// SQLite itself drops all steps behind a damaged place in its log, as after a write that was cut short.
+// SQLite itself drops all steps behind a damaged place in its log, as after a write that was cut short, and does not miss a log
+// that was removed.
 void JournalFile::check_log(bool is_new) const {
     UniqueDescriptor const file{::open(log_.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
-    if (file.get() < 0 && errno == ENOENT) return;
     struct stat found {};
+    bool const is_missing = file.get() < 0 ? errno == ENOENT : ::fstat(file.get(), &found) == 0 && found.st_size == 0;
+    if (is_missing && !is_new && ::access(in_use_.c_str(), F_OK) == 0)
+        refuse("is incomplete: the gateway did not end in order, and the log " + rois::quoted(log_) + " was removed or emptied");
+    if (is_missing) return;
     if (file.get() < 0 || ::fstat(file.get(), &found) != 0 || !S_ISREG(found.st_mode))
         throw BadJournal{"state: cannot read " + rois::quoted(log_)};
     if (is_new && found.st_size > 0) refuse("is missing or empty, and its log " + rois::quoted(log_) + " is not");
@@ -167,6 +176,7 @@ void JournalFile::open() {
     if (result != SQLITE_OK) refuse(std::string{"cannot be opened: "} + sqlite3_errstr(result));
     sqlite3_extended_result_codes(opened, 1);
     sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+    sqlite3_db_config(opened, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);  // a file that is refused stays as it is
 }
 
 // Looks who made the file before it changes anything.
@@ -308,7 +318,13 @@ JournalFile::Result JournalFile::store(RecordChanges const& changes) {
         result = attempt(changes);
     }
     if (result == Result::stored) count_pages();
+    if (result == Result::stored && !std::exchange(is_marked_, true)) mark_as_used();
     return result;
+}
+
+// From the first step on, SQLite's log is not empty.
+void JournalFile::mark_as_used() const {
+    UniqueDescriptor const file{::open(in_use_.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR)};
 }
 
 // Begins no step behind a long log, so that the log stays short. The step before may have ended for lack of memory.

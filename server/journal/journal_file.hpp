@@ -89,12 +89,15 @@ private:
     Result judged();
     bool note_failure() noexcept;
     void roll_back();
+    void mark_as_used() const;
     void give_up_reserve();
     [[noreturn]] void refuse(std::string const& why) const;
 
     std::string const name_;
     std::string const log_;  // of SQLite
     std::string const reserve_;
+    std::string const in_use_;  // exists while SQLite's log is needed
+    bool is_marked_ = false;    // `in_use_` was made
     UniqueDescriptor stop_;
     bool is_stopped_ = false;  // as kept
     ::ino_t inode_ = 0;        // of the database

@@ -1,6 +1,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdlib>
@@ -52,11 +53,15 @@ std::string_view next(std::string_view& line) {
 
 }  // namespace
 
-// The input is the file of a journal. What is read must be what was written: each record has its checksum.
+// The input is the file of a journal; behind a mark, SQLite's log. What is read must be what was written: each record has its
+// checksum.
 void journals(std::string_view input) {
     static Folder const folder;
+    constexpr std::string_view mark = "\n-wal-\n";
+    auto const end = std::min(input.find(mark), input.size());
     for (auto const* rest : {"-wal", "-journal"}) std::filesystem::remove(folder.name() + "/journal.db" + rest);
-    std::ofstream{folder.name() + "/journal.db", std::ios::binary} << input;
+    std::ofstream{folder.name() + "/journal.db", std::ios::binary} << input.substr(0, end);
+    if (end < input.size()) std::ofstream{folder.name() + "/journal.db-wal", std::ios::binary} << input.substr(end + mark.size());
     try {
         journal::JournalFile file{folder.name(), std::size_t{64} << 20};
         static_cast<void>(file.read());

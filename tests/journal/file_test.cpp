@@ -131,6 +131,11 @@ TEST_F(JournalsFile, BelongsToOneGatewayAtATime) {
     EXPECT_THAT(why_refused(folder.name()), HasSubstr("is in use by another gateway"));
 }
 
+TEST_F(JournalsFile, NeedsAFileForItsReserve) {
+    std::filesystem::create_directory(folder.name() + "/reserve");
+    EXPECT_THAT(why_refused(folder.name()), HasSubstr("/reserve' is not a file"));
+}
+
 TEST_F(JournalsFile, WithATriggerIsRefused) {
     store({.set = {record(1, "a", "x")}});
     run_sql(folder.file(), "CREATE TRIGGER t AFTER INSERT ON record BEGIN DELETE FROM record; END");
@@ -162,6 +167,30 @@ struct JournalsLog : JournalsFile {
 };
 
 TEST_F(JournalsLog, IsRead) { EXPECT_EQ(keys_in(crashed.name()).size(), 20U); }
+
+TEST_F(JournalsLog, ThatWasRemovedOrEmptiedIsMissed) {
+    std::filesystem::resize_file(log(), 0);
+    EXPECT_THAT(why_refused(crashed.name()), HasSubstr("is incomplete"));
+    std::filesystem::remove(log());
+    EXPECT_THAT(why_refused(crashed.name()), HasSubstr("is incomplete"));
+    std::filesystem::remove(crashed.file());
+    EXPECT_EQ(why_refused(crashed.name()), "") << "without the database, the journal begins anew";
+}
+
+TEST_F(JournalsLog, IsNotMissedAfterAnOrderlyEnd) {
+    static_cast<void>(keys_in(crashed.name()));
+    EXPECT_FALSE(std::filesystem::exists(log()));
+    EXPECT_EQ(keys_in(crashed.name()).size(), 20U);
+}
+
+TEST_F(JournalsLog, IsLeftAloneIfTheJournalIsRefused) {
+    std::filesystem::remove(crashed.name() + "/stop");
+    std::filesystem::create_directory(crashed.name() + "/stop");
+    EXPECT_THAT(why_refused(crashed.name()), HasSubstr("/stop'"));
+    EXPECT_GT(std::filesystem::file_size(log()), 0U);
+    std::filesystem::remove(crashed.name() + "/stop");
+    EXPECT_EQ(keys_in(crashed.name()).size(), 20U);
+}
 
 TEST_F(JournalsLog, MayEndInTheMiddleOfAStep) {
     std::filesystem::resize_file(log(), std::filesystem::file_size(log()) - 100);
