@@ -15,7 +15,7 @@ namespace rois::command {
 namespace {
 
 // The configuration keys of rois-gateway (server/main/keys.cpp) as variables.
-constexpr std::array<std::string_view, 80> keys{"ROIS_ALLOWED_ORIGINS",
+constexpr std::array<std::string_view, 81> keys{"ROIS_ALLOWED_ORIGINS",
                                                 "ROIS_ALLOW_ANYONE",
                                                 "ROIS_AUDIT_LOG",
                                                 "ROIS_AUDIT_LOG_BYTES",
@@ -33,6 +33,7 @@ constexpr std::array<std::string_view, 80> keys{"ROIS_ALLOWED_ORIGINS",
                                                 "ROIS_JOIN",
                                                 "ROIS_JOIN_AS",
                                                 "ROIS_JOIN_CA_FILE",
+                                                "ROIS_JOIN_CERTIFICATE_FILE",
                                                 "ROIS_JOIN_TOKEN_FILE",
                                                 "ROIS_LISTEN",
                                                 "ROIS_LOG_FORMAT",

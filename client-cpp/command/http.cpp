@@ -29,9 +29,10 @@ std::string path_of(client::Target const& at) { return at.path.substr(0, at.path
 
 // Null without TLS.
 std::unique_ptr<asio::ssl::context> trust_of(client::Target const& at, HttpServer const& server) {
-    if (at.security == client::Security::plain && server.ca_file.empty()) return nullptr;
+    if (at.security == client::Security::plain && server.ca_file.empty() && server.certificate_file.empty()) return nullptr;
     Settings settings;
     settings.ca_file = server.ca_file;
+    settings.certificate_file = server.certificate_file;
     try {
         return client::trust(settings);
     } catch (std::runtime_error const& problem) {

@@ -16,8 +16,9 @@ struct HttpAnswer {
 // The server of a request: a URL as in the client library.
 struct HttpServer {
     std::string url;
-    std::string token{};    // empty: none
-    std::string ca_file{};  // empty: only the system's certificates
+    std::string token{};             // empty: none
+    std::string ca_file{};           // empty: only the system's certificates
+    std::string certificate_file{};  // empty: none
 };
 
 // Gets `target`, for example "/readyz", after the path of the URL; in this session, unless it is empty. Throws Trouble: no_answer

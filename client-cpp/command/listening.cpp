@@ -125,7 +125,7 @@ std::uint64_t last_sequence(Context& context) {
     auto const& options = context.options();
     for (std::uint64_t last = 0;;) {
         auto const answer =
-            http_get({options.url, options.token, options.ca_file},
+            http_get({options.url, options.token, options.ca_file, options.certificate_file},
                      "/rois/notifications?after=" + std::to_string(last) + "&wait=0", options.deadline, options.session);
         pugi::xml_document notifications;
         if (answer.status != 200 || !notifications.load_string(answer.body.c_str()))

@@ -83,6 +83,10 @@ private:
         app_.add_option("--ca-file", options_.ca_file, "trusted certificates, PEM (ROIS_CA_FILE)")
             ->envname("ROIS_CA_FILE")
             ->option_text("FILE");
+        app_.add_option("--certificate-file", options_.certificate_file,
+                        "own certificate and its key, PEM (ROIS_CERTIFICATE_FILE)")
+            ->envname("ROIS_CERTIFICATE_FILE")
+            ->option_text("FILE");
         app_.add_option("--session", options_.session, "use this session, which rois bind holds (ROIS_SESSION)")
             ->option_text("ID");
         app_.add_option("--session-file", options_.session_file,

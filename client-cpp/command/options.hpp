@@ -24,6 +24,7 @@ struct Options {
     bool url_is_given = false;  // by --url or ROIS_URL
     std::string token;
     std::string ca_file;
+    std::string certificate_file;
     std::string session;              // session to join; empty: opens one
     std::string session_file;         // names the session that a process in the background holds; empty: none
     std::optional<HeldSession> held;  // the content of the session file, if `session` comes from it

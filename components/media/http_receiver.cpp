@@ -156,12 +156,25 @@ std::string single_picture(Channel& channel, bool with_content) {
     return whole("200 OK", "image/jpeg", *picture, with_content);
 }
 
+// Returns the response to a request beyond the limits, or without exactly one Host; else nothing.
+std::optional<std::string> invalid_refusal(http::request<http::empty_body> const& request, Settings const& settings) {
+    bool const with_content = request.method() != http::verb::head;
+    if (static_cast<std::size_t>(std::distance(request.begin(), request.end())) > settings.max_header_fields)
+        return refusal("431 Request Header Fields Too Large",
+                       "more than " + std::to_string(settings.max_header_fields) + " header fields (max_header_fields)",
+                       with_content);
+    if (request.target().size() > settings.max_target)
+        return refusal("414 URI Too Long",
+                       "the target has more than " + std::to_string(settings.max_target) + " bytes (max_target)", with_content);
+    if (request.count(http::field::host) > 1 || (request.count(http::field::host) == 0 && request.version() > 10))
+        return refusal("400 Bad Request", "expected exactly one Host header", with_content);
+    return {};
+}
+
 // Rejects requests from web pages of other sites. Returns the rejecting response, or nothing.
 std::optional<std::string> foreign_refusal(http::request<http::empty_body> const& request, Settings const& settings) {
     auto const view = [](beast::string_view text) { return std::string_view{text.data(), text.size()}; };
     bool const with_content = request.method() != http::verb::head;
-    if (request.count(http::field::host) > 1)
-        return refusal("400 Bad Request", "more than one Host header: expected exactly one", with_content);
     auto const host = view(request[http::field::host]);
     if (settings.is_own_host && request.count(http::field::host) == 1 && !settings.is_own_host(host))
         return refusal("421 Misdirected Request",
@@ -200,9 +213,11 @@ std::shared_ptr<Channel> channel_of(http::request<http::empty_body> const& reque
 }
 
 Task<> answer(SharedConnection connection, http::request<http::empty_body> request) {
-    if (auto const text = foreign_refusal(request, connection->settings)) {
-        co_await write(*connection, *text);
-        co_return;
+    for (auto* judge : {&invalid_refusal, &foreign_refusal}) {
+        if (auto const text = judge(request, connection->settings)) {
+            co_await write(*connection, *text);
+            co_return;
+        }
     }
     auto const channel = channel_of(request, connection->directory);
     if (auto const text = short_answer(request, channel, *connection)) {

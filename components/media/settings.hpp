@@ -28,7 +28,9 @@ struct Settings {
     RtpTargets rtp_targets = RtpTargets::loopback;
     std::shared_ptr<tls::Credentials> credentials{};  // null: no TLS
     std::size_t max_connections = 64;
-    std::size_t max_header = 16 * 1024;                                     // bytes of a request line and its header fields
+    std::size_t max_header = 16 * 1024;  // bytes of a request line and its header fields
+    std::size_t max_header_fields = 100;
+    std::size_t max_target = 4 * 1024;                                      // bytes
     std::chrono::milliseconds handshake_timeout = std::chrono::seconds{5};  // of TLS
     std::chrono::milliseconds request_timeout = std::chrono::seconds{10};
     std::chrono::milliseconds write_timeout = std::chrono::seconds{10};  // of one piece to a receiver

@@ -85,6 +85,7 @@ Joiner::Joiner(client::Loop& loop, Joining joining, std::string instance, std::f
     settings_.ping_interval = ping_interval;
     settings_.token = joining_.token;
     settings_.ca_file = joining_.ca_file;
+    settings_.certificate_file = joining_.certificate_file;
 }
 
 void Joiner::attempt() {

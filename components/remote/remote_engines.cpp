@@ -115,6 +115,7 @@ private:
         settings.url = to.url;
         settings.token = to.token;
         settings.ca_file = to.ca_file;
+        settings.certificate_file = to.certificate_file;
         settings.ping_interval = ping_interval;
         settings.longest_document = largest_document;
         return client::websocket_link(loop_, client::read_url(to.url, to.token), settings, listener);

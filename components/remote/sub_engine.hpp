@@ -46,8 +46,9 @@ struct SubEngine {
     std::size_t most_components = 1'000;
     std::size_t longest_document = 4'000'000;  // bytes, at most largest_document
 
-    std::string token{};    // sent to the sub engine; empty: none
-    std::string ca_file{};  // certificates that it may have, besides those of the system; empty: none
+    std::string token{};             // sent to the sub engine; empty: none
+    std::string ca_file{};           // certificates that it may have, besides those of the system; empty: none
+    std::string certificate_file{};  // the own certificate and its key, shown to it; empty: none
 
     bool operator==(SubEngine const&) const = default;
 };
@@ -58,9 +59,10 @@ bool is_in_the_clear(std::string const& url);
 // Another engine, which this engine joins as a sub engine.
 struct Joining {
     std::string url;
-    std::string name;       // of this engine in the other one
-    std::string token{};    // sent to the other engine; empty: none
-    std::string ca_file{};  // certificates that it may have, besides those of the system; empty: none
+    std::string name;                // of this engine in the other one
+    std::string token{};             // sent to the other engine; empty: none
+    std::string ca_file{};           // certificates that it may have, besides those of the system; empty: none
+    std::string certificate_file{};  // the own certificate and its key, shown to it; empty: none
     // Returns a socket that is connected to this engine's own gateway. Called on the thread of the links.
     std::function<UniqueDescriptor()> own_gateway;
 };

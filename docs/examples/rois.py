@@ -147,13 +147,16 @@ class Engine:
         headers = {"Content-Type": "application/xml", "RoIS-Session": self.session}
         end = None  # of the attempts
         for pause in itertools.chain((0.01, 0.1), itertools.repeat(1)):
-            came = b""
+            came = bytearray()
+            latest = time.monotonic() + patience
             try:
                 with urllib.request.urlopen(urllib.request.Request(self.url + path, body, headers), timeout=patience) as answer:
                     while piece := answer.read1():
                         came += piece
                         if len(came) > LONGEST:
                             raise NoAnswer(f"the answer of {self.url} is longer than {LONGEST} bytes")
+                        if time.monotonic() > latest:
+                            raise NoAnswer(f"the answer of {self.url} does not end within {patience} s")
                     return ElementTree.fromstring(came)
             except urllib.error.HTTPError as fault:
                 raise Refused(reason_of(fault)) from None

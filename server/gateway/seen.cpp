@@ -21,6 +21,8 @@ EngineStatistics Gateway::statistics(Rights const* rights) const {
     if (may_see_everything(rights)) return all;
     all.each_session.clear();
     all.components = engine_.components(rights).size();
+    auto const sees = [rights](std::string const& ref) { return may_see(rights, ref); };
+    all.not_halted = static_cast<std::size_t>(std::ranges::count_if(engine_.not_halted(), sees));
     return all;
 }
 

@@ -157,6 +157,8 @@ std::vector<Property> const& properties() {
          }},
         {"token_file", [](SubEngine& engine, json const& value) { engine.token = token_in(file_of(value, engine.folder)); }},
         {"ca_file", [](SubEngine& engine, json const& value) { engine.ca_file = file_of(value, engine.folder); }},
+        {"certificate_file",
+         [](SubEngine& engine, json const& value) { engine.certificate_file = file_of(value, engine.folder); }},
         // A gateway with default settings refuses other windows and leases.
         {"window", [](SubEngine& engine, json const& value) { engine.window = seconds_of(value, 1, 30); }},
         {"resume_window", [](SubEngine& engine, json const& value) { engine.resume_window = seconds_of(value, 1, 86'400); }},
@@ -192,19 +194,21 @@ SubEngine read(json const& entry, std::filesystem::path const& folder,
     };
     set("name", entry["name"]);
     for (auto const& [name, value] : entry.items()) set(name, value);
-    for (auto const* key : {"token_file", "ca_file"})
+    for (auto const* key : {"token_file", "ca_file", "certificate_file"})
         if (engine.url.empty() && entry.contains(key))
             throw BadSettings{where(key) + named() + key + " needs 'url': an engine that joins is not asked"};
     if (!engine.token.empty() && remote::is_in_the_clear(engine.url))
         throw BadSettings{where("token_file") + named() + "others could read the token on its way to " +
                           rois::quoted(engine.url) + ": expected a URL with https:// or wss://"};
-    if (!engine.ca_file.empty()) {
+    auto const require = [&](std::string const& key, std::string const& file, auto const& what) {
         try {
-            tls::require_certificates("ca_file", engine.ca_file);
+            if (!file.empty()) what(key, file);
         } catch (std::runtime_error const& problem) {
-            throw BadSettings{where("ca_file") + named() + problem.what()};
+            throw BadSettings{where(key) + named() + problem.what()};
         }
-    }
+    };
+    require("ca_file", engine.ca_file, tls::require_certificates);
+    require("certificate_file", engine.certificate_file, tls::require_identity);
     if (!engine.command.empty()) {
         if (engine.url.empty() && engine.joins.empty()) engine.joins = engine.name;
         if (!is_found(engine.command.front(), folder))

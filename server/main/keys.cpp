@@ -211,6 +211,9 @@ std::vector<Key> general_keys() {
         file(
             "join_ca_file", "certificates that the gateway to join may have, besides those of the system; empty: none",
             [](GatewaySettings & s) -> auto& { return s.join_ca_file; }),
+        file(
+            "join_certificate_file", "own certificate and its key, shown to the gateway to join; empty: none",
+            [](GatewaySettings & s) -> auto& { return s.join_certificate_file; }),
         {"hosts", "further host names of the gateway, besides localhost, IP addresses and the name of its machine", "NAMES",
          "host names such as gateway or robots.example, without a port, separated by spaces", Key::Kind::text, set_hosts,
          [](GatewaySettings const& s) { return joined(s.net.hosts); }},

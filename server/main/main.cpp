@@ -158,6 +158,8 @@ std::shared_ptr<media::Server> make_media(media::Settings settings, net::Setting
     if (settings.host.empty()) return nullptr;
     settings.credentials = net.credentials;
     settings.max_header = net.max_header;
+    settings.max_header_fields = net.max_header_fields;
+    settings.max_target = net.max_target;
     settings.handshake_timeout = net.handshake_timeout;
     settings.request_timeout = net.request_timeout;
     settings.write_timeout = net.write_timeout;
@@ -199,6 +201,7 @@ TakenNames names_of_engines(GatewaySettings const& settings, simulation::FloorPl
 // Reads the certificates that the settings name. Returns null without TLS.
 std::shared_ptr<tls::Credentials> credentials_of(GatewaySettings const& settings) try {
     if (!settings.join_ca_file.empty()) tls::require_certificates("join_ca_file", settings.join_ca_file);
+    if (!settings.join_certificate_file.empty()) tls::require_identity("join_certificate_file", settings.join_certificate_file);
     return settings.tls.certificate.empty() ? nullptr : std::make_shared<tls::Credentials>(settings.tls);
 } catch (std::runtime_error const& problem) {
     throw BadSettings{problem.what()};
@@ -372,10 +375,12 @@ int serve(CommandLine const& command) {
     if (!settings.engines.empty()) remote_engines->set(sub_engines, server.url_for_programs());
     if (!settings.join.empty()) {
         auto const& name = settings.join_as.empty() ? settings.engine_name : settings.join_as;
-        remote_engines->join(
-            {.url = settings.join, .name = name, .token = join_token, .ca_file = settings.join_ca_file, .own_gateway = [&server] {
-                 return server.connect();
-             }});
+        remote_engines->join({.url = settings.join,
+                              .name = name,
+                              .token = join_token,
+                              .ca_file = settings.join_ca_file,
+                              .certificate_file = settings.join_certificate_file,
+                              .own_gateway = [&server] { return server.connect(); }});
     }
     if (media) spdlog::info("media are served under {}", media->url());
     spdlog::info("listening on {}", server.url());

@@ -41,12 +41,13 @@ struct GatewaySettings {
     std::uint64_t seed = 1;
     std::string floor_plan;  // a file; empty: the built-in reception hall
     std::string scenario;
-    std::string profiles;         // a folder of component profiles; empty: none
-    std::string engines;          // a file of sub engines; empty: none
-    std::string join;             // URL of the gateway to join as a sub engine; empty: none
-    std::string join_as;          // name used to join; empty: engine_name
-    std::string join_token_file;  // holds the token that is sent to that gateway; empty: none
-    std::string join_ca_file;     // certificates that it may have; empty: those of the system
+    std::string profiles;               // a folder of component profiles; empty: none
+    std::string engines;                // a file of sub engines; empty: none
+    std::string join;                   // URL of the gateway to join as a sub engine; empty: none
+    std::string join_as;                // name used to join; empty: engine_name
+    std::string join_token_file;        // holds the token that is sent to that gateway; empty: none
+    std::string join_ca_file;           // certificates that it may have; empty: those of the system
+    std::string join_certificate_file;  // the own certificate and its key, shown to it; empty: none
     LogFormat log_format = LogFormat::text;
     LogLevel log_level = LogLevel::info;
 

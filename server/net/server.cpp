@@ -108,6 +108,7 @@ private:
 
     void listen() {
         auto const& settings = shared_.settings();
+        if (settings.host.empty()) return;
         auto& first = listeners_.front();
         try {
             asio::ip::basic_resolver<asio::ip::tcp, Executor> resolver{first.executor()};

@@ -26,7 +26,7 @@ class Credentials;
 namespace rois::net {
 
 struct Settings {
-    std::string host = "127.0.0.1";  // a name or an address; an IPv6 address without brackets
+    std::string host = "127.0.0.1";  // a name or an address, IPv6 without brackets; empty: no port, only Server::connect
     std::uint16_t port = 8080;       // 0: any free port
     std::size_t threads = 1;
     std::size_t max_connections = 10'000;

@@ -64,6 +64,22 @@ void trust(ssl::context& context, std::string const& key, std::string const& fil
     require(error, key, file, "certificates");
 }
 
+// A key of the configuration, and the file that it names.
+using Named = std::pair<std::string, std::string>;
+
+void identify(ssl::context& context, Named const& certificate, Named const& key) {
+    for (auto const& [name, file] : {certificate, key}) require_file(name, file);
+    boost::system::error_code error;
+    context.use_certificate_chain_file(certificate.second, error);
+    require(error, certificate.first, certificate.second, "a certificate, and those between it and its root,");
+    // OpenSSL would ask for the password at the terminal.
+    context.set_password_callback([](std::size_t, ssl::context::password_purpose) { return std::string{}; }, error);
+    context.use_private_key_file(key.second, ssl::context::pem, error);
+    bool const fits = !error && ::SSL_CTX_check_private_key(context.native_handle()) == 1;  // also if it is of another type
+    if (!error && !fits) error = {static_cast<int>(::ERR_get_error()), boost::asio::error::get_ssl_category()};
+    require(error, key.first, key.second, "the private key of the certificate, without a password,");
+}
+
 // No session is resumed: each connection is checked with the present files.
 std::shared_ptr<ssl::context> read(Files const& files) {
     auto context = std::make_shared<ssl::context>(ssl::context::tls_server);
@@ -77,17 +93,8 @@ std::shared_ptr<ssl::context> read(Files const& files) {
     ::SSL_CTX_set_num_tickets(native, 0);
     ::SSL_CTX_set_session_cache_mode(native, SSL_SESS_CACHE_OFF);
     ::SSL_CTX_set_mode(native, SSL_MODE_RELEASE_BUFFERS);
-    require_file("tls_certificate", files.certificate);
-    require_file("tls_key", files.key);
+    identify(*context, {"tls_certificate", files.certificate}, {"tls_key", files.key});
     boost::system::error_code error;
-    context->use_certificate_chain_file(files.certificate, error);
-    require(error, "tls_certificate", files.certificate, "a certificate, and those between it and its root,");
-    // OpenSSL would ask for the password at the terminal.
-    context->set_password_callback([](std::size_t, ssl::context::password_purpose) { return std::string{}; }, error);
-    context->use_private_key_file(files.key, ssl::context::pem, error);
-    bool const fits = !error && ::SSL_CTX_check_private_key(native) == 1;  // also if it is of another type
-    if (!error && !fits) error = {static_cast<int>(::ERR_get_error()), boost::asio::error::get_ssl_category()};
-    require(error, "tls_key", files.key, "the private key of the certificate, without a password,");
     if (files.client_ca.empty()) return context;
     trust(*context, "tls_client_ca", files.client_ca);
     auto const mode = files.client_must ? ssl::verify_peer | ssl::verify_fail_if_no_peer_cert : ssl::verify_peer;
@@ -109,6 +116,11 @@ void Credentials::use(std::shared_ptr<ssl::context> fresh) {
 void require_certificates(std::string const& key, std::string const& file) {
     ssl::context context{ssl::context::tls_client};
     trust(context, key, file);
+}
+
+void require_identity(std::string const& key, std::string const& file) {
+    ssl::context context{ssl::context::tls_client};
+    identify(context, {key, file}, {key, file});
 }
 
 }  // namespace rois::tls

@@ -55,5 +55,7 @@ private:
 
 // Throws std::runtime_error that names the key, the file and the problem, unless the file holds certificates.
 void require_certificates(std::string const& key, std::string const& file);
+// The same, unless the file holds a certificate and its key.
+void require_identity(std::string const& key, std::string const& file);
 
 }  // namespace rois::tls

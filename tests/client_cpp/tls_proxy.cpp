@@ -74,14 +74,19 @@ asio::awaitable<void> pump(std::shared_ptr<From> from, std::shared_ptr<To> to) {
 
 class TlsProxy::Inside {
 public:
-    Inside(std::uint16_t gateway, Version version)
+    Inside(std::uint16_t gateway, Kind kind)
         : gateway_{asio::ip::address_v4::loopback(), gateway},
           file_{std::filesystem::temp_directory_path() / ("rois-" + std::to_string(getpid()) + "-certificate.pem")} {
         auto const identity = fresh_identity();
         std::ofstream{file_} << identity.certificate;
+        std::ofstream{identity_file()} << identity.certificate << identity.key;
         context_.use_certificate_chain(asio::buffer(identity.certificate));
         context_.use_private_key(asio::buffer(identity.key), asio::ssl::context::pem);
-        if (version == Version::tls_1_1) {
+        if (kind == Kind::asks) {
+            context_.set_verify_mode(asio::ssl::verify_peer | asio::ssl::verify_fail_if_no_peer_cert);
+            context_.add_certificate_authority(asio::buffer(identity.certificate));
+        }
+        if (kind == Kind::tls_1_1) {
             SSL_CTX_set_max_proto_version(context_.native_handle(), TLS1_1_VERSION);
             SSL_CTX_set_min_proto_version(context_.native_handle(), TLS1_1_VERSION);
             SSL_CTX_set_security_level(context_.native_handle(), 0);
@@ -93,10 +98,12 @@ public:
         io_.stop();
         thread_.join();
         std::filesystem::remove(file_);
+        std::filesystem::remove(identity_file());
     }
 
     std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
     std::filesystem::path const& file() const { return file_; }
+    std::string identity_file() const { return file_.string() + ".identity"; }
 
 private:
     asio::awaitable<void> accept() {
@@ -126,12 +133,14 @@ private:
     std::thread thread_;
 };
 
-TlsProxy::TlsProxy(std::uint16_t gateway, Version version) : inside_{std::make_unique<Inside>(gateway, version)} {}
+TlsProxy::TlsProxy(std::uint16_t gateway, Kind kind) : inside_{std::make_unique<Inside>(gateway, kind)} {}
 
 TlsProxy::~TlsProxy() = default;
 
 std::uint16_t TlsProxy::port() const { return inside_->port(); }
 
 std::string TlsProxy::certificate() const { return inside_->file(); }
+
+std::string TlsProxy::identity() const { return inside_->identity_file(); }
 
 }  // namespace rois::test

@@ -10,12 +10,15 @@ namespace rois::test {
 // Has its own key and a self-signed certificate for "localhost" and 127.0.0.1.
 class TlsProxy {
 public:
-    enum class Version : std::uint8_t { current, tls_1_1 };
-    explicit TlsProxy(std::uint16_t gateway, Version = Version::current);
+    // `tls_1_1`: knows no other version. `asks`: clients must show its own certificate.
+    enum class Kind : std::uint8_t { usual, tls_1_1, asks };
+    explicit TlsProxy(std::uint16_t gateway, Kind = Kind::usual);
     ~TlsProxy();
 
     std::uint16_t port() const;
-    std::string certificate() const;  // a PEM file, removed with the proxy
+    // PEM files, removed with the proxy.
+    std::string certificate() const;
+    std::string identity() const;  // the certificate and its key
 
 private:
     class Inside;

@@ -51,8 +51,19 @@ TEST_P(Tls, RejectsOtherCertificates) {
     EXPECT_THAT(why_not(no_file), HasSubstr("No such file"));
 }
 
+TEST_P(Tls, ShowsItsOwnCertificate) {
+    TlsProxy const proxy{shared_gateway().port(), TlsProxy::Kind::asks};
+    auto known = settings(url(proxy, "localhost"));
+    known.ca_file = proxy.certificate();
+    EXPECT_NE(why_not(known), "it is open");
+    known.certificate_file = proxy.identity();
+    EXPECT_EQ(why_not(known), "it is open");
+    known.certificate_file = proxy.certificate();
+    EXPECT_THAT(why_not(known), HasSubstr("the file of the certificate and its key")) << "there is no key";
+}
+
 TEST_P(Tls, RejectsTls11) {
-    TlsProxy const proxy{shared_gateway().port(), TlsProxy::Version::tls_1_1};
+    TlsProxy const proxy{shared_gateway().port(), TlsProxy::Kind::tls_1_1};
     auto trusting = settings(url(proxy, "localhost"));
     trusting.ca_file = proxy.certificate();
     EXPECT_THAT(why_not(trusting), HasSubstr("unsupported protocol"));

@@ -46,8 +46,20 @@ TEST_F(RoisOverTls, ExplainsAPortThatSpeaksPlainHttp) {
     }
 }
 
+TEST_F(RoisOverTls, ShowsItsOwnCertificate) {
+    TlsProxy const asking{shared_gateway().port(), TlsProxy::Kind::asks};
+    for (std::string const command : {"health", "search"}) {
+        std::vector<std::string> arguments{command, "--url", "https://localhost:" + std::to_string(asking.port()), "--ca-file",
+                                           asking.certificate()};
+        EXPECT_NE(run_rois(arguments).exit_code, 0) << command;
+        EXPECT_EQ(run_rois(arguments, {}, {{"ROIS_CERTIFICATE_FILE", asking.identity()}}).exit_code, 0) << command;
+        arguments.insert(arguments.end(), {"--certificate-file", "/no/such.pem"});
+        EXPECT_EQ(run_rois(arguments).exit_code, 2) << command;
+    }
+}
+
 TEST_F(RoisOverTls, DoesNotUseTls11) {
-    TlsProxy const old{shared_gateway().port(), TlsProxy::Version::tls_1_1};
+    TlsProxy const old{shared_gateway().port(), TlsProxy::Kind::tls_1_1};
     for (std::string const command : {"health", "search"}) {
         auto const refused =
             run_rois({command, "--url", "https://localhost:" + std::to_string(old.port()), "--ca-file", old.certificate()});

@@ -93,8 +93,8 @@ TEST(EnginesFile, NamesThePlaceOfEachMistake) {
     EXPECT_EQ(
         with(R"("colour": 1)"),
         "4:2: sub engine 'b': 'colour' is not a key of a sub engine: expected one of name, url, joins, command, components, "
-        "engine, position, orientation, covariance, token_file, ca_file, window, resume_window, motion_lease, most_components, "
-        "longest_document");
+        "engine, position, orientation, covariance, token_file, ca_file, certificate_file, window, resume_window, motion_lease, "
+        "most_components, longest_document");
     EXPECT_EQ(
         with(R"("command": "lamp")"),
         R"(4:2: sub engine 'b': command must be a program and its arguments, such as ["python3", "lamp.py"], not '"lamp"')");

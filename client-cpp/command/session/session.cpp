@@ -19,7 +19,7 @@ bool lasts(Options const& options) {
 
 // Limits the attempts of commands that end by themselves.
 Settings settings_for(Options const& options) {
-    check({options.url, options.token, options.ca_file});
+    check({options.url, options.token, options.ca_file, options.certificate_file});
     auto settings = settings_of(options);
     if (!lasts(options)) settings.attempts = 3;
     // On a WebSocket the engine closes the link for a text that is not UTF-8 or too long, without a document.
@@ -119,6 +119,7 @@ Settings settings_of(Options const& options) {
     settings.way = options.over_http ? Way::http : Way::websocket;
     settings.token = options.token;
     settings.ca_file = options.ca_file;
+    settings.certificate_file = options.certificate_file;
     settings.session = options.session;
     settings.switches = watches_switches(options);
     settings.deadline = options.deadline;

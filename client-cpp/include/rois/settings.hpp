@@ -19,8 +19,9 @@ struct Settings {
     // The gateway: "http://host:port" or "ws://..."; with TLS "https://..." or "wss://...". A path is put before /rois.
     std::string url = default_url();
     Way way = Way::websocket;
-    std::string token{};    // sent as Authorization: Bearer; empty: none
-    std::string ca_file{};  // PEM file of certificates to trust beside the system's; empty: none
+    std::string token{};             // sent as Authorization: Bearer; empty: none
+    std::string ca_file{};           // PEM file of certificates to trust beside the system's; empty: none
+    std::string certificate_file{};  // PEM file with the client's own certificate and its key; empty: none
     // The session of another program, to share it; empty: an own session. Uses HTTP, because a WebSocket would take over the
     // session. The connection first receives the notifications that the engine still keeps. It does not end the session, and
     // closes when the session ends.

@@ -33,20 +33,31 @@ Layered make_stream(Executor const& executor, asio::ssl::context* context) {
     }
 }
 
-// Returns a TLS context that trusts the system's certificates and those of the settings' file. Throws std::runtime_error, naming
-// the file, if it cannot be read.
+// Calls `use` with a file, unless its name is empty. Throws std::runtime_error, naming the file, if it cannot be used.
+void with_file(std::string const& what, std::string const& file, auto const& use) {
+    if (file.empty()) return;
+    std::error_code ignored;
+    bool const is_pipe = std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored);
+    error_code error = is_pipe ? asio::error::invalid_argument : error_code{};
+    if (!is_pipe) use(error);
+    if (error)
+        throw std::runtime_error{what + " " + rois::quoted(file) + " cannot be read: " + error.message() +
+                                 "; it must be a readable file in PEM format"};
+}
+
+// Returns a TLS context that trusts the system's certificates and those of the settings' file, and has the client's own one.
+// Throws std::runtime_error, naming the file, if one cannot be read.
 inline std::unique_ptr<asio::ssl::context> trust(Settings const& settings) {
     auto context = std::make_unique<asio::ssl::context>(asio::ssl::context::tls_client);
     SSL_CTX_set_min_proto_version(context->native_handle(), TLS1_2_VERSION);
     context->set_default_verify_paths();
-    std::error_code ignored;
-    bool const is_pipe =
-        std::filesystem::exists(settings.ca_file, ignored) && !std::filesystem::is_regular_file(settings.ca_file, ignored);
-    error_code error = is_pipe ? asio::error::invalid_argument : error_code{};
-    if (!is_pipe && !settings.ca_file.empty()) context->load_verify_file(settings.ca_file, error);
-    if (error)
-        throw std::runtime_error{"the file of trusted certificates " + rois::quoted(settings.ca_file) +
-                                 " cannot be read: " + error.message() + "; it must be a readable file in PEM format"};
+    with_file("the file of trusted certificates", settings.ca_file,
+              [&](error_code& error) { context->load_verify_file(settings.ca_file, error); });
+    with_file("the file of the certificate and its key", settings.certificate_file, [&](error_code& error) {
+        context->set_password_callback([](std::size_t, asio::ssl::context::password_purpose) { return std::string{}; });
+        context->use_certificate_chain_file(settings.certificate_file, error);
+        if (!error) context->use_private_key_file(settings.certificate_file, asio::ssl::context::pem, error);
+    });
     context->set_verify_mode(asio::ssl::verify_peer);
     return context;
 }

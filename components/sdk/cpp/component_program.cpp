@@ -60,7 +60,7 @@ EngineProfile profile_of_program(std::string const& name, std::string const& ins
     return profile;
 }
 
-// The program is a small engine with a gateway on the loopback, which joins as a robot's gateway does.
+// The program is a small engine with a gateway that listens nowhere, and joins as a robot's gateway does.
 bool serve(remote::Joining const& joining, Make const& make) {
     auto const& name = joining.name;
     Readers readers;
@@ -77,7 +77,7 @@ bool serve(remote::Joining const& joining, Make const& make) {
     Gateway gateway{engine, readers, telemetry};
     net::Documents const documents{gateway, telemetry, *schemas(), {}};
     net::Settings settings;
-    settings.port = 0;
+    settings.host.clear();
     net::Server server{settings, gateway, telemetry, documents, schemas()};
     remote::RemoteEngines engines{
         {.name = name,
@@ -101,6 +101,8 @@ int serve(int argc, char const* const* argv, std::string name, Make const& make)
     program.add_option("--token", joining.token, "the token that the gateway expects")->envname("ROIS_TOKEN");
     program.add_option("--ca-file", joining.ca_file, "certificates that the gateway may have, besides those of the system")
         ->envname("ROIS_CA_FILE");
+    program.add_option("--certificate-file", joining.certificate_file, "the program's own certificate and its key")
+        ->envname("ROIS_CERTIFICATE_FILE");
     CLI11_PARSE(program, argc, argv);
     try {
         return serve(joining, make) ? 0 : not_halted;

@@ -273,11 +273,13 @@ def in_thread(function):
 
 
 def trusted():
-    """TLS that trusts the certificates of the system, and those of the file ROIS_CA_FILE."""
+    """TLS that trusts the certificates of the system, and those of the file ROIS_CA_FILE, and shows the certificate in ROIS_CERTIFICATE_FILE."""
     context = ssl.create_default_context()
     context.minimum_version = ssl.TLSVersion.TLSv1_2
     if os.environ.get("ROIS_CA_FILE"):
         context.load_verify_locations(os.environ["ROIS_CA_FILE"])
+    if os.environ.get("ROIS_CERTIFICATE_FILE"):
+        context.load_cert_chain(os.environ["ROIS_CERTIFICATE_FILE"])
     return context
 
 

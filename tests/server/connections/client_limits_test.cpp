@@ -300,34 +300,6 @@ TEST(EventStreams, OfASessionAreAsManyAsTheKeyAllows) {
     EXPECT_EQ(status_of(third), 429);
 }
 
-// A connection beyond the limit is not served before another one has closed.
-TEST(MediaConnections, AreAsManyAsTheKeyAllows) {
-    GatewayProcess gateway{{"--media", "127.0.0.1:0", "--max-media-connections", "1"}};
-    auto const address = gateway.media_address();
-    auto first = std::make_unique<Line>(address);
-    kit::HttpClient second{address};
-    second.line().send("GET /unknown HTTP/1.1\r\nHost: localhost\r\n\r\n");
-    second.line().set_patience(std::chrono::milliseconds{500});
-    EXPECT_THROW(second.read(), LineEnded) << "the first connection is open";
-    first.reset();
-    second.line().set_patience(address.patience);
-    EXPECT_EQ(second.read().status, 404);
-}
-
-TEST(MediaConnections, TakeHeadersAsLongAsTheKeyAllows) {
-    GatewayProcess gateway{{"--media", "127.0.0.1:0", "--max-header", "1024"}};
-    for (auto const& [size, status] : {std::pair{900, 404}, {1'100, 431}})
-        EXPECT_EQ(kit::HttpClient{gateway.media_address()}.get("/unknown", {{"X", std::string(size, 'x')}}).status, status);
-}
-
-TEST(MediaConnections, EndWhenARequestDoesNotArriveInTime) {
-    GatewayProcess gateway{{"--media", "127.0.0.1:0", "--request-timeout", "0.2"}};
-    Line line{gateway.media_address()};
-    line.send("GET /unknown HTTP/1.1\r\nHo");
-    line.set_patience(std::chrono::seconds{5});  // the default is 30 s
-    EXPECT_TRUE(line.ends());
-}
-
 TEST(WebSocketWithoutASession, ClosesAfterAWhile) {
     GatewayProcess const gateway{{"--connect-timeout", "0.3", "--ping-interval", "5"}};
     WebSocketClient mute{gateway}, speaks{gateway}, left{gateway};

@@ -64,6 +64,35 @@ TEST_F(TrustedEngines, AreNotAskedWithATokenThatOthersCouldRead) {
         HasSubstr("engines.json:1:61: sub engine 'hall': others could read the token on its way to 'ws://192.0.2.1:8080'"));
 }
 
+// The links show the certificate that the other side asks for.
+TEST_F(TrustedEngines, MayAskEachOtherForCertificates) {
+    Certificates const certificates;
+    for (auto const* name : {"own", "link"}) certificates.make(name);
+    auto const identity = certificates.folder() + "/identity.pem";
+    std::ofstream{identity} << std::ifstream{certificates.certificate("link")}.rdbuf()
+                            << std::ifstream{certificates.key("link")}.rdbuf();
+    std::vector<std::string> const asks{"--tls-client-ca", certificates.certificate("link"), "--tls-clients", "required"};
+    GatewayProcess const robot{certificates.of_gateway("own", asks)};
+    auto const url = "wss://localhost:" + std::to_string(robot.port());
+    auto const entry = R"({"name": "robot", "url": ")" + url + R"(", "ca_file": ")" + certificates.certificate("own") + "\"";
+    put("engines.json", "{\"engines\": [" + entry + "}]}");
+    {
+        GatewayProcess refused{{"--engines", path("engines.json"), "--robots", "none"}};
+        EXPECT_THAT(refused.log_with("certificate required"), HasSubstr("certificate required"));
+    }
+    put("engines.json", "{\"engines\": [" + entry + R"(, "certificate_file": ")" + identity + "\"}]}");
+    GatewayProcess main{{"--engines", path("engines.json"), "--robots", "none"}};
+    EXPECT_THAT(main.log_with("present with"), HasSubstr("sub engine robot: present with"));
+
+    put("joins.json", R"({"engines": [{"name": "hall", "joins": "hall"}]})");
+    auto more = asks;
+    more.insert(more.end(), {"--engines", path("joins.json"), "--robots", "none"});
+    GatewayProcess joined{certificates.of_gateway("own", more)};
+    GatewayProcess const joining{{"--join", "wss://localhost:" + std::to_string(joined.port()), "--join-as", "hall",
+                                  "--join-ca-file", certificates.certificate("own"), "--join-certificate-file", identity}};
+    EXPECT_THAT(joined.log_with("present with"), HasSubstr("sub engine hall: present with"));
+}
+
 TEST_F(TrustedEngines, DoNotJoinWithATokenThatOthersCouldRead) {
     put("engine.token", engine);
     for (std::vector<std::string> flags : {std::vector<std::string>{"--check-config"}, {}}) {
@@ -127,6 +156,7 @@ TEST_F(TrustedEngines, AreProgramsOfTheGatewayWithoutAnyConfiguration) {
     GatewayProcess gateway{certificates.of_gateway("own", main())};
     gateway.log_with("sub engine lamps: present with");
     gateway.log_with("sub engine lamp: present with");
+    EXPECT_EQ(run_shell("ss -ltnp | grep rois-lamp").out, "") << "nobody else can reach its engine";
     auto address = certificates.trusting("own", gateway);
     address.token = desk;
     Application application{Transport::websocket, address};
