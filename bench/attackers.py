@@ -161,7 +161,7 @@ def connections(port):
 
 
 def headers(port):
-    """800 heads of 16 kB that are never finished, each sent again as soon as it is refused."""
+    """800 unfinished heads of 16 kB. Those that are refused are sent again."""
     unfinished = f"GET /rois/profile HTTP/1.1\r\nHost: {HOST}\r\nX: ".encode() + b"x" * 16_000
 
     def act(one, turn):
@@ -178,7 +178,7 @@ def headers(port):
 
 
 def garbage(port):
-    """800 connections that send what is no request, again and again."""
+    """800 connections that send an invalid request, again and again."""
 
     def act(one, _):
         try:

@@ -176,7 +176,7 @@ void JournalFile::open() {
     if (result != SQLITE_OK) refuse(std::string{"cannot be opened: "} + sqlite3_errstr(result));
     sqlite3_extended_result_codes(opened, 1);
     sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
-    sqlite3_db_config(opened, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);  // a file that is refused stays as it is
+    sqlite3_db_config(opened, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);  // a refused file is not changed
 }
 
 // Looks who made the file before it changes anything.

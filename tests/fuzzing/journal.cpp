@@ -53,7 +53,7 @@ std::string_view next(std::string_view& line) {
 
 }  // namespace
 
-// The input is the file of a journal; behind a mark, SQLite's log. What is read must be what was written: each record has its
+// The input is the file of a journal; behind a mark, SQLite's log. A record that is read was written so: each has its
 // checksum.
 void journals(std::string_view input) {
     static Folder const folder;

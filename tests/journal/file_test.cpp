@@ -174,7 +174,7 @@ TEST_F(JournalsLog, ThatWasRemovedOrEmptiedIsMissed) {
     std::filesystem::remove(log());
     EXPECT_THAT(why_refused(crashed.name()), HasSubstr("is incomplete"));
     std::filesystem::remove(crashed.file());
-    EXPECT_EQ(why_refused(crashed.name()), "") << "without the database, the journal begins anew";
+    EXPECT_EQ(why_refused(crashed.name()), "") << "without the database, a new journal begins";
 }
 
 TEST_F(JournalsLog, IsNotMissedAfterAnOrderlyEnd) {

@@ -71,7 +71,7 @@ public:
     virtual ~Dialogue() = default;
 
     virtual Answer call(std::string const& operation, Xml const& children = {}) = 0;
-    // Reads what has come, or waits a second for more.
+    // Reads the notifications that have arrived, or waits a second for more.
     virtual void read(Received&, bool waits) = 0;
     virtual std::string connect() = 0;  // returns the session
 };

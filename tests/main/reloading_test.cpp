@@ -21,7 +21,7 @@ using testing::ElementsAre;
 
 class ReloadingTest : public testing::Test {
 protected:
-    // A part that notes what is called.
+    // A part that notes its calls.
     Reloading::Part part(
         std::string const& name, std::function<void()> prepare = [] {}, std::function<void()> change = [] {}) {
         return {name, [this, name, prepare, change]() -> std::function<void()> {
