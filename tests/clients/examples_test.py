@@ -7,6 +7,7 @@ import socket
 import subprocess
 import sys
 import threading
+import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -37,6 +38,48 @@ def answer_once(server):
     with came:
         came.recv(4096)
         came.sendall(b"HTTP/1.1 200 OK\r\nContent-Length: %d\r\nConnection: close\r\n\r\n%s" % (len(body), body))
+
+
+class EndlessAnswer:
+    """A server whose answers to connections after the first one never end."""
+
+    def __init__(self, piece, pause):
+        self.server = socket.create_server(("127.0.0.1", 0))
+        self.url = f"http://127.0.0.1:{self.server.getsockname()[1]}"
+        self.piece, self.pause = piece, pause
+        threading.Thread(target=self.serve, daemon=True).start()
+
+    def serve(self):
+        answer_once(self.server)
+        while True:
+            came, _ = self.server.accept()
+            try:
+                with came:
+                    came.recv(4096)
+                    came.sendall(b"HTTP/1.1 200 OK\r\n\r\n<")
+                    while True:
+                        came.sendall(self.piece)
+                        time.sleep(self.pause)
+            except OSError:
+                pass
+
+
+class WithAnEndlessAnswer(unittest.TestCase):
+    def refusal(self, piece, pause, deadline):
+        engine = rois.Engine(EndlessAnswer(piece, pause).url, deadline=deadline)
+        begun = time.monotonic()
+        with self.assertRaises(rois.NoAnswer) as refused:
+            engine.request("get_profile")
+        self.assertLess(time.monotonic() - begun, 10)
+        return str(refused.exception)
+
+    def test_it_is_not_read_for_longer_than_the_deadline(self):
+        self.assertIn("does not end within 1 s", self.refusal(b" ", 0.05, 1))
+
+    def test_it_is_not_kept_beyond_the_limit(self):
+        rois.LONGEST, usual = 1_000_000, rois.LONGEST
+        self.addCleanup(setattr, rois, "LONGEST", usual)
+        self.assertIn("is longer than 1000000 bytes", self.refusal(b" " * 100_000, 0, 10))
 
 
 class GatewayTest(unittest.TestCase):
