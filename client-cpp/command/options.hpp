@@ -69,8 +69,8 @@ struct Printout {
     std::string text;
 };
 
-// Reads the command line, the variables ROIS_URL, ROIS_TOKEN, ROIS_CA_FILE, ROIS_SESSION and ROIS_SESSION_FILE, and the session
-// file, whose session becomes `session` (`bind` reads the file later). Throws Trouble.
+// Reads the command line, the variables ROIS_URL, ROIS_TOKEN, ROIS_CA_FILE, ROIS_CERTIFICATE_FILE, ROIS_SESSION and
+// ROIS_SESSION_FILE, and the session file, whose session becomes `session` (`bind` reads the file later). Throws Trouble.
 std::variant<Options, Printout> read_options(int argc, char const* const* argv);
 
 // Sets the session and its gateway. Throws Trouble (usage) if --url or ROIS_URL names another gateway.

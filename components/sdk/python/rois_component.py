@@ -273,7 +273,7 @@ def in_thread(function):
 
 
 def trusted():
-    """TLS that trusts the certificates of the system, and those of the file ROIS_CA_FILE, and shows the certificate in ROIS_CERTIFICATE_FILE."""
+    """TLS that trusts the certificates of the system and of the file ROIS_CA_FILE, and shows the one in ROIS_CERTIFICATE_FILE."""
     context = ssl.create_default_context()
     context.minimum_version = ssl.TLSVersion.TLSv1_2
     if os.environ.get("ROIS_CA_FILE"):
@@ -749,7 +749,8 @@ def is_safe(url):
 
 def run(url, name, components):
     """Serves the components until SIGTERM or SIGINT. --url and --name, or ROIS_URL and ROIS_NAME, replace the given ones.
-    ROIS_TOKEN is the token that the gateway expects, if it expects one; ROIS_CA_FILE has certificates that it may have."""
+    ROIS_TOKEN is the token that the gateway expects, if it expects one; ROIS_CA_FILE has certificates that it may have,
+    ROIS_CERTIFICATE_FILE the certificate and the key that the program shows."""
     parser = argparse.ArgumentParser(description="Components of a RoIS engine.")
     parser.add_argument("--url", default=os.environ.get("ROIS_URL", url), help="the gateway to join")
     parser.add_argument("--name", default=os.environ.get("ROIS_NAME", name), help="the name by which the program joins")

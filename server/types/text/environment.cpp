@@ -9,9 +9,9 @@ namespace {
 
 // Includes variables of the project's tests, and those that Kubernetes sets for a service called rois-gateway.
 bool is_known(std::string_view name) {
-    constexpr std::array<std::string_view, 9> names{"ROIS_CONFIG",  "ROIS_NAME",         "ROIS_URL",
-                                                    "ROIS_SESSION", "ROIS_SESSION_FILE", "ROIS_TOKEN",
-                                                    "ROIS_CA_FILE", "ROIS_JOBS",         "ROIS_ENDURANCE"};
+    constexpr std::array<std::string_view, 10> names{
+        "ROIS_CONFIG",           "ROIS_NAME", "ROIS_URL",      "ROIS_SESSION", "ROIS_SESSION_FILE", "ROIS_TOKEN", "ROIS_CA_FILE",
+        "ROIS_CERTIFICATE_FILE", "ROIS_JOBS", "ROIS_ENDURANCE"};
     constexpr std::array<std::string_view, 4> beginnings{"ROIS_GATEWAY_", "ROIS_TEST_", "ROIS_BINARY_", "ROIS_PICTURES"};
     return std::ranges::find(names, name) != names.end() ||
            std::ranges::any_of(beginnings, [&](auto each) { return name.starts_with(each); });

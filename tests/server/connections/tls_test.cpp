@@ -194,11 +194,16 @@ TEST_F(Tls, IsSpokenByEnginesThatJoin) {
     desk.disconnect();
 }
 
-TEST_F(Tls, IsSpokenByProgramsThatJoin) {
+TEST_F(Tls, IsSpokenByProgramsThatJoinWithACertificate) {
+    certificates.make("program");
+    certificates.put("program.identity",
+                     run_shell("cat " + certificates.certificate("program") + " " + certificates.key("program")).out);
     certificates.put("engines.json", R"({"engines": [{"name": "cpp", "joins": "cpp"}, {"name": "python", "joins": "python"}]})");
-    GatewayProcess main{with({"--robots", "none", "--engines", certificates.folder() + "/engines.json"})};
+    GatewayProcess main{with({"--robots", "none", "--engines", certificates.folder() + "/engines.json", "--tls-client-ca",
+                              certificates.certificate("program"), "--tls-clients", "required"})};
     auto const variables = "ROIS_URL=wss://localhost:" + std::to_string(main.port()) +
-                           " ROIS_CA_FILE=" + certificates.certificate("own") + " ROIS_NAME=";
+                           " ROIS_CA_FILE=" + certificates.certificate("own") +
+                           " ROIS_CERTIFICATE_FILE=" + certificates.folder() + "/program.identity ROIS_NAME=";
     auto const begin = [&](std::string const& name, std::string const& program) {
         return run_shell(variables + name + " " + program + " >" + certificates.folder() + "/" + name + " 2>&1 & echo $!").out;
     };
