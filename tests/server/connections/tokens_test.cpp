@@ -250,12 +250,14 @@ TEST_F(Tokens, EndTheSessionsOfARevokedOneWithinASecond) {
 TEST_F(Tokens, EndTheStreamsOfARevokedOneWithinASecond) {
     auto const token = file.add("desk", "operator");
     GatewayProcess const gateway{file.of_gateway({"--media", "127.0.0.1:0"})};
-    Application desk{Transport::http, with_token(token, gateway)};
-    desk.connect();
-    desk.bind("audio_streaming");
-    auto const command = command_ids(desk.execute(Command{.component = "audio_streaming", .type = "connect_stream"})).front();
-    EXPECT_EQ(desk.status_of(command), "OK");
-    auto const url = desk.get_command_result(command).values().at("transport_parameters").front();
+    kit::HttpClient desk{with_token(token, gateway)};
+    desk.call("connect");
+    EXPECT_EQ(bind(desk, "audio_streaming"), "OK");
+    Command const connecting{.component = "audio_streaming", .type = "connect_stream", .id = "stream"};
+    EXPECT_EQ(outcome(desk, "execute", sequence(unit(connecting))), "OK");
+    EXPECT_THAT(desk.notifications(0).body, HasSubstr("completed"));
+    Document const result{desk.call("get_command_result", text_element("command_id", "stream")).body};
+    auto const url = result.values().at("transport_parameters").front();
     MediaReceiver receiving{url};
     EXPECT_THAT(receiving.head(), testing::StartsWith("HTTP/1.1 200 "));
 
@@ -264,6 +266,7 @@ TEST_F(Tokens, EndTheStreamsOfARevokedOneWithinASecond) {
     receiving.line().rest();
     EXPECT_LT(std::chrono::steady_clock::now() - revoked_at, std::chrono::seconds{1});
     EXPECT_THAT(MediaReceiver{url}.head(), testing::StartsWith("HTTP/1.1 404 "));
+    desk.session.clear();
 }
 
 TEST_F(Tokens, EndTheSessionsOfAnExpiredOneWithinASecond) {
