@@ -66,7 +66,7 @@ TEST_P(Tls, RejectsTls11) {
     TlsProxy const proxy{shared_gateway().port(), TlsProxy::Kind::tls_1_1};
     auto trusting = settings(url(proxy, "localhost"));
     trusting.ca_file = proxy.certificate();
-    EXPECT_THAT(why_not(trusting), HasSubstr("unsupported protocol"));
+    EXPECT_THAT(why_not(trusting), HasSubstr("alert protocol version"));
 }
 
 TEST_P(Tls, ReportsAPortWithoutTls) {
