@@ -2,12 +2,13 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <fstream>
 
 namespace rois::kit {
 
 ProfileFolder::ProfileFolder() {
-    static int made = 0;
+    static std::atomic<int> made = 0;
     path_ = std::filesystem::temp_directory_path() / ("rois-profiles-" + std::to_string(getpid()) + "-" + std::to_string(++made));
     std::filesystem::create_directory(path_);
 }
