@@ -50,8 +50,9 @@ TEST_F(MediaServer, AcceptsOnlyGetAndHead) {
 TEST_F(MediaServer, RefusesInvalidRequests) {
     EXPECT_THAT(answer("hello\r\n\r\n"), StartsWith("HTTP/1.1 400 "));
     EXPECT_THAT(answer("GET / HTTP/9.9\r\n\r\n"), StartsWith("HTTP/1.1 400 "));
+    EXPECT_THAT(answer("GET / HTTP/1.1\r\n\r\n"), StartsWith("HTTP/1.1 400 ")) << "without Host";
     auto const with_header = [&](std::size_t bytes) {
-        return answer("GET / HTTP/1.1\r\nX: " + std::string(bytes, 'x') + "\r\n\r\n");
+        return answer("GET / HTTP/1.1\r\nHost: x\r\nX: " + std::string(bytes, 'x') + "\r\n\r\n");
     };
     EXPECT_THAT(with_header(16'300), StartsWith("HTTP/1.1 404 "));
     EXPECT_THAT(with_header(16'400),
