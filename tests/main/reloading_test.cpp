@@ -3,12 +3,17 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 
 #include <future>
+#include <memory>
 #include <mutex>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gateway/process/telemetry.hpp"
@@ -21,6 +26,11 @@ using testing::ElementsAre;
 
 class ReloadingTest : public testing::Test {
 protected:
+    ReloadingTest() {
+        spdlog::set_default_logger(std::make_shared<spdlog::logger>("", std::make_shared<spdlog::sinks::ostream_sink_mt>(log)));
+    }
+    ~ReloadingTest() override { spdlog::set_default_logger(std::move(before_)); }
+
     // A part that notes its calls.
     Reloading::Part part(
         std::string const& name, std::function<void()> prepare = [] {}, std::function<void()> change = [] {}) {
@@ -57,8 +67,10 @@ protected:
     }
 
     Telemetry telemetry;
+    std::ostringstream log;
 
 private:
+    std::shared_ptr<spdlog::logger> before_ = spdlog::default_logger();
     std::mutex mutex_;
     std::vector<std::string> noted_;
 };
