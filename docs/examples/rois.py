@@ -143,9 +143,8 @@ class Engine:
                 else:
                     self.news.append(one)
 
-    def _fetch(self, path, body=None, patience=None):
+    def _fetch(self, path, body=None, patience=10):
         headers = {"Content-Type": "application/xml", "RoIS-Session": self.session}
-        patience = patience or self.deadline
         end = None  # of the attempts
         for pause in itertools.chain((0.01, 0.1), itertools.repeat(1)):
             came = bytearray()
