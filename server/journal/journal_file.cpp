@@ -25,27 +25,21 @@ constexpr std::int64_t application = 0x526f4953;  // "RoIS"
 constexpr std::int64_t version = 1;
 constexpr std::size_t page = 4'096;
 constexpr std::size_t page_in_log = page + 24;  // SQLite's log has a head before each page
+constexpr int longest_log = 256;                // pages; no step begins behind more
 constexpr std::size_t reserve_bytes = std::size_t{4} << 20;
 
-// Returns how many pages SQLite's log may have before a step. To move them into the database, the disk needs the time of several
-// steps: so that happens rarely.
-int longest_log(std::size_t most_bytes) {
-    constexpr std::size_t least = 256, most = 4'096;
-    return static_cast<int>(std::clamp(most_bytes / 32 / page_in_log, least, most));
-}
-
 // Returns the largest number of pages of the database, so that all files together take at most `most_bytes`: the reserve, the
-// database and its log. A step writes each page that it changes once into the log. So the log has at most longest_log() pages,
+// database and its log. A step writes each page that it changes once into the log. So the log has at most `longest_log` pages,
 // and those of one step, which may be all pages of the database. A few more pages are for the head of the log and the last page
 // of a step, which SQLite may write twice.
 std::int64_t most_pages(std::size_t most_bytes) {
-    auto const fixed = reserve_bytes + static_cast<std::size_t>(longest_log(most_bytes) + 16) * page_in_log;
+    auto const fixed = reserve_bytes + (longest_log + 16) * page_in_log;
     return static_cast<std::int64_t>((most_bytes - fixed) / (page + page_in_log));
 }
 
 constexpr auto settings =
     "PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA wal_autocheckpoint = 0;"
-    "PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON";
+    "PRAGMA journal_size_limit = 1048576; PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON";
 constexpr auto table =
     "CREATE TABLE record (kind TEXT NOT NULL, session INTEGER NOT NULL, key TEXT NOT NULL, value TEXT NOT NULL,"
     " sum INTEGER NOT NULL, PRIMARY KEY (kind, session, key)) STRICT, WITHOUT ROWID";
@@ -116,8 +110,7 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
       log_{name_ + "-wal"},
       reserve_{folder + "/reserve"},
       in_use_{folder + "/in_use"},
-      longest_log_{longest_log(most_bytes)},
-      log_pages_{longest_log_},  // an earlier process may have left a long log
+      log_pages_{longest_log},  // an earlier process may have left a long log
       most_pages_{most_pages(most_bytes)} {
     make_folder(folder);
     bool const is_new = make_file(name_);
@@ -131,7 +124,6 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
     device_ = found.st_dev;
     spare_pages_ = std::min<std::int64_t>(reserve_bytes / page, most_pages_ / 4);
     number(("PRAGMA max_page_count = " + std::to_string(most_pages_)).c_str());
-    number(("PRAGMA journal_size_limit = " + std::to_string(static_cast<std::size_t>(longest_log_) * page_in_log)).c_str());
     begin_ = prepared("BEGIN IMMEDIATE");
     commit_ = prepared("COMMIT");
     rollback_ = prepared("ROLLBACK");
@@ -347,7 +339,7 @@ void JournalFile::count_pages() {
 }
 
 JournalFile::Result JournalFile::tidy() {
-    if (log_pages_ < longest_log_) return Result::stored;
+    if (log_pages_ < longest_log) return Result::stored;
     if (sqlite3_wal_checkpoint_v2(database_.get(), nullptr, SQLITE_CHECKPOINT_PASSIVE, nullptr, nullptr) == SQLITE_OK) {
         log_pages_ = 0;
         return Result::stored;

@@ -104,7 +104,6 @@ private:
     ::ino_t log_inode_ = 0;    // of SQLite's log; 0: not seen yet
     ::dev_t device_ = 0;
     std::unique_ptr<sqlite3, Close> database_;
-    int const longest_log_;  // pages; no step begins behind more
     int log_pages_ = 0;
     std::int64_t most_pages_ = 0;   // of the database
     std::int64_t spare_pages_ = 0;  // of them: kept for the ends of commands
