@@ -230,7 +230,8 @@ TEST_F(Queue, ShowsWhatWaitedForAnAnswerThatIsDelayed) {
     EXPECT_THAT(read(1), ElementsAre("2 c"));
 }
 
-// A robot's events, some of which were handled beside a query that is answered later: otherwise the next ones would overtake them.
+// A robot's events, some of which were handled beside a query that is answered later: otherwise the next ones would overtake
+// them.
 TEST_F(Queue, ShowsWhatHappenedBesideAnOperationWhenItsAnswerIsDelayed) {
     auto const answer = queue.hold();
     EXPECT_EQ(push(ReceiveEvent{}, 0, ForCurrent::unless_delayed), Pushed::held);
