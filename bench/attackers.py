@@ -161,7 +161,7 @@ def connections(port):
 
 
 def headers(port):
-    """800 unfinished heads of 16 kB. Those that are refused are sent again."""
+    """800 unfinished heads of 16 kB; refused ones are sent again."""
     unfinished = f"GET /rois/profile HTTP/1.1\r\nHost: {HOST}\r\nX: ".encode() + b"x" * 16_000
 
     def act(one, turn):
