@@ -160,35 +160,29 @@ def connections(port):
             opened.popleft().close()
 
 
-def headers(port):
-    """800 unfinished heads of 16 kB; refused ones are sent again."""
-    unfinished = f"GET /rois/profile HTTP/1.1\r\nHost: {HOST}\r\nX: ".encode() + b"x" * 16_000
+def send_on_new_connections(port, count, request):
+    """`count` clients that each connect, send `request(turn)`, and wait until the gateway answers or cuts; again and again."""
 
     def act(one, turn):
         try:
             one.open()
-            one.socket.sendall(unfinished)
-            if turn % 2:
-                one.socket.sendall(b"x" * 1_000)
-            one.socket.recv(1)
-        except OSError:
-            time.sleep(0.01)
-
-    each(port, 800, act)
-
-
-def garbage(port):
-    """800 connections that send an invalid request, again and again."""
-
-    def act(one, _):
-        try:
-            one.open()
-            one.socket.sendall(b"garbage\r\n\r\n")
+            one.socket.sendall(request(turn))
             one.socket.recv(1_000)
         except OSError:
             time.sleep(0.01)
 
-    each(port, 800, act)
+    each(port, count, act)
+
+
+def headers(port):
+    """800 heads of 16 kB: half of them are unfinished, half are too long."""
+    unfinished = f"GET /rois/profile HTTP/1.1\r\nHost: {HOST}\r\nX: ".encode() + b"x" * 16_000
+    send_on_new_connections(port, 800, lambda turn: unfinished + b"x" * 1_000 * (turn % 2))
+
+
+def garbage(port):
+    """800 connections that send an invalid request, again and again."""
+    send_on_new_connections(port, 800, lambda _: b"garbage\r\n\r\n")
 
 
 def predicates(port):
@@ -213,16 +207,8 @@ def literals(port):
 
 def bodies(port):
     """200 bodies of 0.9 MB that are never finished."""
-
-    def act(one, _):
-        try:
-            one.open()
-            one.socket.sendall((one.head(BIG + 1) + "<" + " " * (BIG - 1)).encode())
-            one.socket.recv(1)
-        except OSError:
-            time.sleep(0.01)
-
-    each(port, 200, act)
+    head = Line(port).head(BIG + 1)
+    send_on_new_connections(port, 200, lambda _: (head + "<" + " " * (BIG - 1)).encode())
 
 
 def commands(port):

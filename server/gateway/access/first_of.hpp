@@ -11,7 +11,8 @@
 
 namespace rois {
 
-// For ranks that grow with time: a rank changes only to one that is not less than all ranks so far, or to `none`.
+// For ranks that grow with time: usually, a rank changes only to one that is not less than all ranks so far, or to `none`. An
+// element whose rank has become less is found after at most 64 others.
 template <class Element>
 class FirstOf {
 public:
