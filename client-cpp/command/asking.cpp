@@ -98,7 +98,7 @@ void get(Context& context) {
 void health(Options const& options, Printer& printer) {
     auto const answer = [&] {
         try {
-            return http_get({options.url, options.token, options.ca_file, options.certificate_file}, "/readyz", options.deadline);
+            return http_get(server_of(options), "/readyz", options.deadline);
         } catch (Trouble const& trouble) {
             if (trouble.exit() == Exit::usage) throw;
             throw Trouble{Exit::error, std::string{"not healthy: "} + trouble.what()};

@@ -44,7 +44,7 @@ Json json_of(EngineState const& engine) {
 }  // namespace
 
 void engines(Options const& options, Printer& printer) {
-    HttpServer const server{options.url, options.token, options.ca_file, options.certificate_file};
+    auto const server = server_of(options);
     auto const answer = http_get(server, "/rois/engines", options.deadline);
     auto const all = answer.status == 200 ? xml::AnswerReader{}.read_engines(answer.body) : std::nullopt;
     if (!all) throw unexpected(options.command, server, answer);

@@ -51,7 +51,7 @@ std::vector<std::string> not_confirmed(std::string_view readiness) {
 }
 
 void stop_all(Options const& options, Printer& printer) {
-    HttpServer const server{options.url, options.token, options.ca_file, options.certificate_file};
+    auto const server = server_of(options);
     auto const state = posted(options, server, "/rois/stop");
     auto const refs = [&] {
         try {
@@ -70,7 +70,7 @@ void stop_all(Options const& options, Printer& printer) {
 }
 
 void clear(Options const& options, Printer& printer) {
-    posted(options, {options.url, options.token, options.ca_file, options.certificate_file}, "/rois/clear");
+    posted(options, server_of(options), "/rois/clear");
     printer.line(painted("cleared", Colour::good, printer.coloured()) + ": commands may start again at " + options.url, "clear",
                  Json{{"operation", "clear"}, {"url", options.url}, {"stopped", false}});
 }

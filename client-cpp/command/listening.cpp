@@ -124,9 +124,8 @@ void end_in_time(Options const& options, std::size_t events) {
 std::uint64_t last_sequence(Context& context) {
     auto const& options = context.options();
     for (std::uint64_t last = 0;;) {
-        auto const answer =
-            http_get({options.url, options.token, options.ca_file, options.certificate_file},
-                     "/rois/notifications?after=" + std::to_string(last) + "&wait=0", options.deadline, options.session);
+        auto const answer = http_get(server_of(options), "/rois/notifications?after=" + std::to_string(last) + "&wait=0",
+                                     options.deadline, options.session);
         pugi::xml_document notifications;
         if (answer.status != 200 || !notifications.load_string(answer.body.c_str()))
             throw Trouble{Exit::no_answer, options.url + ": the notifications of the session cannot be read (HTTP status " +

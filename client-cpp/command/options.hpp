@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "command/http.hpp"
 #include "command/output/printer.hpp"
 #include "command/session/session_file.hpp"
 
@@ -56,6 +57,11 @@ struct Options {
     std::optional<Switching> switching;  // of bindings; empty: that of the present binding, or none
     bool quiet = false;
 };
+
+// The gateway, for requests without a session.
+inline HttpServer server_of(Options const& options) {
+    return {options.url, options.token, options.ca_file, options.certificate_file};
+}
 
 // The word that watch takes for the notification `switched` beside event types.
 constexpr std::string_view switches = "switched";

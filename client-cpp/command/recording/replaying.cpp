@@ -42,7 +42,7 @@ void replay(Context& context) {
 
 void record_others(Context& context) {
     auto const& options = context.options();
-    check({options.url, options.token, options.ca_file, options.certificate_file});
+    check(server_of(options));
     asio::io_context io{1};
     std::size_t sessions = 0;
     Host host{io, [&](HostedSession& session, Connect const& connect) {

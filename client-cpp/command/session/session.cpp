@@ -19,7 +19,7 @@ bool lasts(Options const& options) {
 
 // Limits the attempts of commands that end by themselves.
 Settings settings_for(Options const& options) {
-    check({options.url, options.token, options.ca_file, options.certificate_file});
+    check(server_of(options));
     auto settings = settings_of(options);
     if (!lasts(options)) settings.attempts = 3;
     // On a WebSocket the engine closes the link for a text that is not UTF-8 or too long, without a document.
