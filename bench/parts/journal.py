@@ -1,14 +1,17 @@
 """The cost of the journal: the same requests to a gateway with one and to a gateway without."""
 
+import os
 import pathlib
 import sqlite3
 import tempfile
+import time
 import zlib
 
 from processes import document, gateway, load, running
 
 QUERY, QUERY_WITHOUT = "query 0.6 kB, with a journal", "query 0.6 kB, without a journal"
 EXECUTE, EXECUTE_WITHOUT = "execute, with a journal", "execute, without a journal"
+DISK = "the disk alone: 12 kB and fdatasync"
 START = "start with 100,000 records"
 AGAINST = {QUERY: QUERY_WITHOUT}
 
@@ -23,15 +26,38 @@ def round(keep, settings):
             for _ in range(settings.turns * TURNS):
                 for row, server in ((QUERY_WITHOUT, without), (QUERY, kept)):
                     keep(row, load("requests", server, via="http", connections=CONNECTIONS, seconds=settings.seconds, **ok("query-0.6kB")))
-            for row, server in ((EXECUTE_WITHOUT, without), (EXECUTE, kept)):
-                speaking = {"setup": document("bind-speech"), "rate": COMMANDS, "connections": 1}
-                keep(row, load("requests", server, via="http", seconds=settings.seconds * 3, **speaking, **ok("execute-speech")))
+            for _ in range(settings.turns):
+                for row, server in ((EXECUTE_WITHOUT, without), (EXECUTE, kept)):
+                    speaking = {"setup": document("bind-speech"), "rate": COMMANDS, "connections": 1}
+                    keep(row, load("requests", server, via="http", seconds=settings.seconds * 3, **speaking, **ok("execute-speech")))
+                keep(DISK, write_alone(pathlib.Path(folder) / "alone", settings.seconds * 3))
     with tempfile.TemporaryDirectory(prefix="rois-bench-") as folder:
         with running(gateway(1, "--state", folder, name="gateway-new")):
             pass
         fill(pathlib.Path(folder) / "journal.db")
         with running(gateway(1, "--state", folder, name="gateway-full")) as (server,):
             keep(START, {"ready_ms": 1_000 * server.seconds_to_ready})
+
+
+def write_alone(name, seconds):
+    """Writes to a file of 1 MB at the rate of the commands, with three writes for each, as the journal does; measures the first of the
+    three, which is the one that the answer waits for."""
+    part, parts = b"x" * 4_096 * 3, 85
+    times = []
+    with open(name, "wb", buffering=0) as file:
+        file.write(part * parts)
+        os.fsync(file)
+        begun = time.perf_counter()
+        for number in range(int(seconds * COMMANDS)):
+            time.sleep(max(0, begun + number / COMMANDS - time.perf_counter()))
+            for nth in range(3):
+                before = time.perf_counter()
+                os.pwrite(file.fileno(), part, len(part) * ((3 * number + nth) % parts))
+                os.fdatasync(file)
+                if nth == 0:
+                    times.append(1e6 * (time.perf_counter() - before))
+    times.sort()
+    return {"p50_us": times[len(times) // 2], "p99_us": times[len(times) * 99 // 100]}
 
 
 def fill(file):

@@ -207,6 +207,13 @@ std::shared_ptr<tls::Credentials> credentials_of(GatewaySettings const& settings
     throw BadSettings{problem.what()};
 }
 
+// Returns a warning if the certificate has expired. Clients refuse it then.
+std::vector<std::string> check_expiry(tls::Credentials const& credentials) {
+    auto const expiry = tls::expiry_of(*credentials.context());
+    if (expiry > std::chrono::system_clock::now()) return {};
+    return {"tls_certificate: the certificate has expired at " + to_text(expiry) + ": clients refuse it"};
+}
+
 constexpr std::chrono::milliseconds longest_reading{300};  // of files after SIGHUP, at the end (docs/safety.md#the-end)
 constexpr std::chrono::milliseconds longest_end{4'800};    // after the sessions have ended
 
@@ -234,6 +241,7 @@ int serve(CommandLine const& command) {
     auto const join_token = settings.join_token_file.empty() ? std::string{} : token_in(settings.join_token_file);
     auto warnings = command.warnings;
     std::ranges::copy(check_exposure(settings), std::back_inserter(warnings));
+    if (credentials) std::ranges::copy(check_expiry(*credentials), std::back_inserter(warnings));
     if (command.wish == CommandLine::Wish::check_config) {
         if (!settings.tokens.empty()) read_tokens(settings.tokens);
         check_places(settings);
@@ -264,6 +272,7 @@ int serve(CommandLine const& command) {
     SpeechLog const speech_log{simulation};
     Telemetry telemetry;
     telemetry.show(log);
+    if (credentials) telemetry.certificate_expires(tls::expiry_of(*credentials->context()));
     MemoryBudget memory{settings.net.memory_budget, memory_in_use};
     MemoryReserve const reserve{memory};
     Tokens tokens{settings.max_wrong_tokens};
@@ -362,8 +371,13 @@ int serve(CommandLine const& command) {
         tokens_file->read();
         return [&] { tokens_file->look(); };
     });
-    read_again(credentials != nullptr, "the certificate",
-               [&] { return [&, context = credentials->read_again()] { credentials->use(context); }; });
+    read_again(credentials != nullptr, "the certificate", [&] {
+        return [&, context = credentials->read_again()] {
+            credentials->use(context);
+            telemetry.certificate_expires(tls::expiry_of(*context));
+            for (auto const& warning : check_expiry(*credentials)) spdlog::warn("{}", warning);
+        };
+    });
     read_again(!settings.engines.empty(), "the file of engines", [&] {
         auto const wanted = read_engines_file(settings.engines, taken);
         if (read_choosing(settings.engines, wanted) != choosing_settings)

@@ -2,6 +2,7 @@
 
 #include <openssl/ssl.h>
 
+#include <ctime>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
@@ -111,6 +112,12 @@ std::shared_ptr<ssl::context> Credentials::read_again() const { return read(file
 void Credentials::use(std::shared_ptr<ssl::context> fresh) {
     std::lock_guard const lock{mutex_};
     context_ = std::move(fresh);
+}
+
+std::chrono::system_clock::time_point expiry_of(ssl::context& context) {
+    std::tm time{};
+    ::ASN1_TIME_to_tm(::X509_get0_notAfter(::SSL_CTX_get0_certificate(context.native_handle())), &time);
+    return std::chrono::system_clock::from_time_t(::timegm(&time));
 }
 
 void require_certificates(std::string const& key, std::string const& file) {

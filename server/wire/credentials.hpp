@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boost/asio/ssl/context.hpp>
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -52,6 +53,9 @@ private:
     SSL* const ssl_;
     bool may_go_on_ = false;
 };
+
+// When the certificate of the gateway expires that the context shows to clients.
+std::chrono::system_clock::time_point expiry_of(boost::asio::ssl::context&);
 
 // Throws std::runtime_error that names the key, the file and the problem, unless the file holds certificates.
 void require_certificates(std::string const& key, std::string const& file);

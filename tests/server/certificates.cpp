@@ -11,6 +11,12 @@ void Certificates::make(std::string const& name, std::string const& more) const 
     if (made.exit_code != 0) throw std::runtime_error{"openssl: " + made.error};
 }
 
+void Certificates::expire(std::string const& name) const {
+    auto const made = kit::run_shell("openssl req -new -subj /CN=" + name + " -key " + key(name) +
+                                     " | openssl x509 -req -days -1 -signkey " + key(name) + " -out " + certificate(name));
+    if (made.exit_code != 0) throw std::runtime_error{"openssl: " + made.error};
+}
+
 std::vector<std::string> Certificates::of_gateway(std::string const& name, std::vector<std::string> const& more) const {
     std::vector<std::string> all{"--tls-certificate", certificate(name), "--tls-key", key(name)};
     all.insert(all.end(), more.begin(), more.end());

@@ -12,6 +12,8 @@ class Certificates {
 public:
     // Makes NAME.pem and NAME.key, for localhost and 127.0.0.1. Each certificate signs itself.
     void make(std::string const& name, std::string const& more = "-nodes") const;
+    // Replaces NAME.pem by a certificate that expired a day ago.
+    void expire(std::string const& name) const;
     std::string folder() const { return folder_.name(); }
     void put(std::string const& file, std::string const& text) const { folder_.put(file, text); }
     std::string certificate(std::string const& name) const { return folder_.name() + "/" + name + ".pem"; }

@@ -80,6 +80,9 @@ public:
     // The gateway has read its files again after SIGHUP: with success, or one of them was not valid.
     void reloaded(bool all) { ++(all ? reloads_ : refused_reloads_); }
 
+    // Shows when the gateway's certificate expires.
+    void certificate_expires(std::chrono::system_clock::time_point at) { certificate_expires_ = at; }
+
     // Shows what the journal has done. Call it before the first `text`.
     struct JournalNumbers {
         std::uint64_t stored = 0;      // how often changes were stored
@@ -118,8 +121,9 @@ private:
     std::shared_ptr<LogQueue const> log_;  // null: none is shown
     std::atomic<std::uint64_t> reloads_ = 0;
     std::atomic<std::uint64_t> refused_reloads_ = 0;
-    std::function<JournalNumbers()> journal_;       // empty: there is no journal
-    std::function<std::uint64_t()> lost_of_audit_;  // empty: there is no audit log
+    std::atomic<std::chrono::system_clock::time_point> certificate_expires_{};  // the epoch: there is no certificate
+    std::function<JournalNumbers()> journal_;                                   // empty: there is no journal
+    std::function<std::uint64_t()> lost_of_audit_;                              // empty: there is no audit log
     struct Reached {
         std::atomic<std::size_t> most = 0;
         std::atomic<std::uint64_t> reached = 0;

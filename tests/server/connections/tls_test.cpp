@@ -136,6 +136,26 @@ TEST_F(Tls, KeepsItsCertificateIfTheNextOneIsUnusable) {
     EXPECT_EQ(after.get("/healthz").status, 200);
 }
 
+TEST_F(Tls, WarnsOfAnExpiredCertificate) {
+    GatewayProcess gateway{with({})};
+    kit::HttpClient client{certificates.trusting("own", gateway)};
+    auto const expires = [&] {
+        auto const metrics = client.get("/metrics").body;
+        std::string const name = "\nrois_certificate_expiry_timestamp_seconds ";
+        auto const place = metrics.find(name);
+        return place == std::string::npos ? 0 : std::stod(metrics.substr(place + name.size()));
+    };
+    auto const now = static_cast<double>(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()));
+    constexpr double day = 86'400;
+    EXPECT_NEAR(expires(), now + 2 * day, 60);
+    EXPECT_EQ(run_gateway(with({"--check-config"})).error, "");
+    certificates.expire("own");
+    gateway.signal(SIGHUP);
+    EXPECT_THAT(gateway.log_with("clients refuse it"), HasSubstr("tls_certificate: the certificate has expired at "));
+    EXPECT_NEAR(expires(), now - day, 60);
+    EXPECT_THAT(run_gateway(with({"--check-config"})).error, HasSubstr("the certificate has expired at "));
+}
+
 TEST_F(Tls, AsksClientsForTheirCertificates) {
     certificates.make("client");
     certificates.make("stranger");
