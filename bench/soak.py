@@ -5,6 +5,7 @@ import os
 import random
 import signal
 import statistics
+import subprocess
 import sys
 import tempfile
 import threading
@@ -17,7 +18,7 @@ from processes import BIN, CORES, ROOT, Server, running
 WORKERS = 12
 PROBES = 20  # queries a second whose latency is measured
 BETWEEN_HANGUPS = 20  # seconds
-COMPONENTS = ("navigation", "speech_synthesis", "move", "reaction", "system_information")
+COMPONENTS = ("navigation", "speech_synthesis", "move", "reaction", "system_information", "lamps.lamp")
 GARBAGE = (b"\0" * 64, b"GET / HTTP/1.1\r\n\r\n", b"POST /rois HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n\r\n<connect ", b"\x16\x03\x01")
 
 # Measure -> its unit, and how much the last quarter may exceed the second one: a factor, and an absolute allowance.
@@ -48,6 +49,8 @@ def use(line, chance):
         if component == "speech_synthesis":
             text = attackers.parameter("rois:parameter", "speech_text", "string", "Good morning.")
             line.post(attackers.execute([attackers.unit(component, "start", text)]))
+        if component == "lamps.lamp":
+            line.post(attackers.execute([attackers.unit(component, "start")]))
         line.get("/rois/notifications?after=0&wait=0")
         time.sleep(0.01)
 
@@ -66,6 +69,19 @@ def fail(line, chance):
         line.post("<" * chance.randrange(1, 2_000))
 
 
+def lose_programs(port, over):
+    """A component program that is killed again and again, and that hangs before every second time."""
+    chance = random.Random(1)
+    while not over.is_set():
+        command = [BIN / "rois-lamp", "--url", f"ws://127.0.0.1:{port}", "--name", "lamps"]
+        with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as program:
+            over.wait(chance.uniform(0.5, 4))
+            if chance.randrange(2):
+                program.send_signal(signal.SIGSTOP)
+                over.wait(chance.uniform(0.5, 4))
+            program.kill()
+
+
 def sample(server, line):
     times = []
     for _ in range(PROBES):
@@ -81,6 +97,7 @@ def soak(server, minutes):
     values = {name: [] for name in MEASURES}
     over = threading.Event()
     workers = [threading.Thread(target=work, args=(server.port, seed, over)) for seed in range(WORKERS)]
+    workers.append(threading.Thread(target=lose_programs, args=(server.port, over)))
     for worker in workers:
         worker.start()
     probe = attackers.Line(server.port)
