@@ -2,6 +2,7 @@
 second quarter of the time with the last one, and draws build/soak.svg."""
 
 import os
+import pathlib
 import random
 import signal
 import statistics
@@ -129,8 +130,10 @@ def verdicts(values):
 
 def main(minutes):
     with tempfile.TemporaryDirectory(prefix="rois-soak-") as folder:
-        command = [BIN / "rois-gateway", "--listen", "127.0.0.1:{port}", "--state", folder, "--log-level", "error"]
-        command += ["--resume-window", "2", "--session-timeout", "2"]
+        engines = pathlib.Path(folder) / "engines.json"
+        engines.write_text('{"engines": [{"name": "lamps", "joins": "lamps"}]}')
+        command = [BIN / "rois-gateway", "--listen", "127.0.0.1:{port}", "--state", folder, "--engines", engines]
+        command += ["--log-level", "error", "--resume-window", "2", "--session-timeout", "2"]
         with running(Server("gateway-soak", command, "/readyz", len(CORES))) as (server,):
             values = soak(server, minutes)
     found = verdicts(values)
