@@ -245,13 +245,23 @@ void Engine::Core::end_marked_sessions(Instant now, Attempts& attempts) {
     }
 }
 
-// Decision 3. Halts the components first, because they may move. Closes the notification queue last, so that it contains the ends
-// of the commands.
+namespace {
+
+// Also with OnSessionEnd::continue_: what moves, and streams, whose addresses only this session may have.
+bool ends_with_its_session(RegisteredComponent const& component) {
+    return component.moves() || arguments_of(component, "connect_stream") != nullptr;
+}
+
+}  // namespace
+
+// Decision 3. With rights that were withdrawn, nothing goes on. Halts the components first, because they may move. Closes the
+// notification queue last, so that it contains the ends of the commands.
 void Engine::Core::remove(Session& session, Instant now) {
     Attempts attempts;
-    if (settings_.on_session_end == OnSessionEnd::continue_) {
+    bool const may_go_on = session.rights == nullptr || !session.rights->is_withdrawn();
+    if (settings_.on_session_end == OnSessionEnd::continue_ && may_go_on) {
         for (auto* component : session.bound)
-            if (component->moves())
+            if (ends_with_its_session(*component))
                 attempts([&] { executor_.halt(*component, CompletedStatus::abort, "its session has ended", now); });
         attempts([&] { executor_.detach_commands(session); });
     } else {

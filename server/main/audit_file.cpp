@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -67,9 +68,11 @@ std::size_t size_of(UniqueDescriptor const& file) {
 
 }  // namespace
 
-AuditFile::AuditFile(std::string file, Limits const& limits) : limits_{limits}, name_{std::move(file)} {
+AuditFile::AuditFile(std::string file, Limits const& limits) try : limits_{limits}, name_{std::move(file)} {
     open();
     thread_ = std::jthread{[this](std::stop_token const& stop) { run(stop); }};
+} catch (BadSettings const& problem) {
+    throw BadSettings{std::string{"audit_log: "} + problem.what()};
 }
 
 AuditFile::~AuditFile() = default;
@@ -104,14 +107,33 @@ bool AuditFile::may_say(AuditEntry const& entry, std::uint64_t& left_out) {
     return false;
 }
 
+// Lines that were left out are counted after a quiet second, and at the end, if no later line has done so.
 void AuditFile::run(std::stop_token const& stop) {
     std::unique_lock lock{mutex_};
-    while (news_.wait(lock, stop, [this] { return !lines_.empty(); })) {
+    while (true) {
+        news_.wait_for(lock, stop, std::chrono::seconds{1}, [this] { return !lines_.empty(); });
+        if (lines_.empty()) sum_up();
+        if (lines_.empty() && stop.stop_requested()) return;
+        if (lines_.empty()) continue;
         auto const line = std::move(lines_.front());
         lines_.pop_front();
         lock.unlock();
         write(line);
         lock.lock();
+    }
+}
+
+void AuditFile::sum_up() {
+    try {
+        for (auto& [of, second] : seconds_) {
+            auto const& [token, is_refusal] = of;
+            if (second.left_out == 0) continue;
+            lines_.push_back(
+                line_of({.what = "left out", .token = token, .outcome = is_refusal ? "refusals" : "sessions"}, second.left_out));
+            second.left_out = 0;
+        }
+    } catch (std::bad_alloc const&) {
+        return;  // the next line counts them
     }
 }
 
@@ -121,14 +143,13 @@ void AuditFile::open() {
         ::open(name_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, S_IRUSR | S_IWUSR)};
     struct stat found {};
     if (file.get() < 0 || ::fstat(file.get(), &found) != 0)
-        throw BadSettings{"audit_log: cannot write " + rois::quoted(name_) + ": " + std::strerror(errno)};
-    if (!S_ISREG(found.st_mode)) throw BadSettings{"audit_log: " + rois::quoted(name_) + " is not a file"};
-    if (!is_audit_log(file))
-        throw BadSettings{"audit_log: " + rois::quoted(name_) + " is another file: expected an audit log, or no file"};
+        throw BadSettings{"cannot write " + rois::quoted(name_) + ": " + std::strerror(errno)};
+    if (!S_ISREG(found.st_mode)) throw BadSettings{rois::quoted(name_) + " is not a file"};
+    if (!is_audit_log(file)) throw BadSettings{rois::quoted(name_) + " is another file: expected an audit log, or no file"};
     if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0)
-        throw BadSettings{"audit_log: " + rois::quoted(name_) +
-                          (errno == EWOULDBLOCK ? " is in use by another gateway: each needs its own"
-                                                : std::string{" cannot be locked: "} + std::strerror(errno))};
+        throw BadSettings{rois::quoted(name_) + (errno == EWOULDBLOCK
+                                                     ? " is in use by another gateway: each needs its own"
+                                                     : std::string{" cannot be locked: "} + std::strerror(errno))};
     ::fchmod(file.get(), S_IRUSR | S_IWUSR);
     try {
         end_last_line(file);
@@ -169,13 +190,24 @@ void AuditFile::begin_again() {
         open();
         cannot_begin_ = false;
     } catch (std::exception const& problem) {
-        if (!std::exchange(cannot_begin_, true)) spdlog::error("audit_log: {}; lines go into the earlier file", problem.what());
+        if (!std::exchange(cannot_begin_, true))
+            spdlog::error("audit_log: {}; {}", problem.what(),
+                          is_removed() ? "lines are lost until it can be written" : "lines go into the earlier file");
     }
+}
+
+bool AuditFile::is_removed() const {
+    struct stat ours {};
+    return ::fstat(file_.get(), &ours) == 0 && ours.st_nlink == 0;
 }
 
 // A line that was written in part is removed.
 void AuditFile::write(std::string const& line) {
     if (!is_in_place()) begin_again();
+    if (is_removed()) {
+        ++lost_;
+        return;
+    }
     if (auto const size = size_of(file_); size > 0 && size + line.size() > limits_.bytes) begin_another();
     auto const whole = size_of(file_);
     try {

@@ -25,7 +25,7 @@ public:
         std::size_t files = 10;                     // that are kept besides the present one
         std::size_t waiting = 10'000;               // lines
         // Lines about refusals of one token, or of all clients without one, in a second, and as many about the beginning and end
-        // of its sessions. Further ones are counted in the next such line, so that they do not drive out bindings and commands.
+        // of its sessions. Further ones are only counted, so that they do not drive out bindings and commands.
         std::size_t most_a_second = 10;
         Steady (*now)() = std::chrono::steady_clock::now;
     };
@@ -49,10 +49,12 @@ private:
     };
 
     bool may_say(AuditEntry const&, std::uint64_t& left_out);
+    void sum_up();
     void run(std::stop_token const&);
     void write(std::string const& line);
     void open();
     bool is_in_place() const;
+    bool is_removed() const;
     void begin_again();
     void begin_another();
 

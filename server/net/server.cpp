@@ -89,6 +89,8 @@ public:
         for (std::size_t i = 1; i < loops_.size(); ++i) threads.emplace_back([this, i] { loops_[i].run(); });
         first_.run();
         threads.clear();
+        hang_ups_.clear();
+        std::signal(SIGHUP, SIG_IGN);  // which clear() has given back to the system
         return await_halts(shared_.gateway, last_moment_, shared_.settings().tick);
     }
 
@@ -130,10 +132,7 @@ private:
     }
 
     Task<> wait_for_hang_ups() {
-        while (true) {
-            co_await hang_ups_.async_wait(asio::use_awaitable_t<Executor>{});
-            on_hang_up_();
-        }
+        for (;; on_hang_up_()) co_await hang_ups_.async_wait(asio::use_awaitable_t<Executor>{});
     }
 
     // When it is started again after an exception, it continues to handle the first signal.

@@ -211,4 +211,17 @@ TEST(Rights, ThatAreWithdrawnEndTheirSessions) {
     EXPECT_EQ(other.bind("navigation"), ReturnCode::ok);
 }
 
+TEST(Rights, ThatAreWithdrawnEndCommandsThatWouldGoOnAfterTheirSession) {
+    World world{{navigation, speech}, {.on_session_end = OnSessionEnd::continue_}};
+    auto const of_desk = rights({"*"});
+    auto desk = world.connect_as(of_desk);
+    desk.bind("speech");
+    desk.execute(say("say-1"));
+    desk.received();
+    of_desk->withdraw();
+    world.engine->end_withdrawn(world.now);
+    EXPECT_THAT(desk.received(), ElementsAre("1 completed say-1 ABORT"));
+    EXPECT_THAT(world["speech"].calls, ElementsAre("start", "halt", "parameters_changed"));
+}
+
 }  // namespace rois

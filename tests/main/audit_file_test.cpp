@@ -94,7 +94,18 @@ TEST_F(OfAudit, LeavesSessionsOutIfThereAreTooMany) {
         audit.note({.what = "refused", .token = "watcher"});
         audit.note({.what = "connected", .token = "desk"});
     }
-    EXPECT_EQ(lines(content(file.name())), 10u + 3);
+    auto const text = content(file.name());
+    EXPECT_EQ(lines(text), 10u + 3 + 1);
+    EXPECT_THAT(text, testing::EndsWith(R"("what":"left out","token":"watcher","outcome":"sessions","left_out":1990})"
+                                        "\n"));
+}
+
+TEST_F(OfAudit, CountsWhatWasLeftOutAlsoIfNothingFollows) {
+    AuditFile audit{file.name(), {.now = now}};
+    for (int i = 0; i < 15; ++i) audit.note({.what = "refused", .address = "192.0.2.1"});
+    while (lines(content(file.name())) <= 10) std::this_thread::yield();
+    EXPECT_THAT(content(file.name()), testing::EndsWith(R"("what":"left out","outcome":"refusals","left_out":5})"
+                                                        "\n"));
 }
 
 TEST_F(OfAudit, GoesOnInItsPlaceIfAnotherProgramMovesOrRemovesIt) {
@@ -112,6 +123,24 @@ TEST_F(OfAudit, GoesOnInItsPlaceIfAnotherProgramMovesOrRemovesIt) {
     EXPECT_THAT(content(moved), testing::HasSubstr("bound"));
     EXPECT_THAT(content(file.name()), testing::HasSubstr("took over"));
     std::filesystem::remove(moved);
+}
+
+TEST_F(OfAudit, CountsLinesWhoseFileWasRemovedWithItsFolder) {
+    std::filesystem::remove(file.name());
+    std::filesystem::create_directory(file.name());
+    auto const name = file.name() + "/audit.log";
+    AuditFile audit{name, {}};
+    audit.note({.what = "bound"});
+    while (content(name).empty()) std::this_thread::yield();
+    std::filesystem::remove_all(file.name());
+    audit.note({.what = "released"});
+    while (audit.lost() == 0) std::this_thread::yield();
+    std::filesystem::create_directory(file.name());
+    audit.note({.what = "took over"});
+    while (content(name).empty()) std::this_thread::yield();
+    EXPECT_THAT(content(name), testing::HasSubstr("took over"));
+    EXPECT_EQ(audit.lost(), 1u);
+    std::filesystem::remove_all(file.name());
 }
 
 TEST_F(OfAudit, BeginsAnotherFileAndKeepsAFew) {

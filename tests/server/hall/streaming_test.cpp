@@ -199,6 +199,18 @@ TEST_P(Streaming, EndsWithTheSession) {
     receiving->line().rest();
 }
 
+TEST(StreamingAddress, IsOfNoUseAfterItsSessionAlsoIfCommandsContinue) {
+    GatewayProcess const gateway{{"--media", "127.0.0.1:0", "--on-session-end", "continue"}};
+    Application desk{Transport::http, gateway};
+    desk.connect();
+    auto const address = address_of_stream(desk, "video_streaming");
+    MediaReceiver receiving{address};
+    receiving.next_picture();
+    EXPECT_THAT(desk.disconnect(), IsOk());
+    receiving.line().rest();
+    EXPECT_THAT(MediaReceiver{address}.head(), testing::StartsWith("HTTP/1.1 404 "));
+}
+
 TEST(StreamingAddress, IsThePublicAddress) {
     GatewayProcess const gateway{{"--media", "127.0.0.1:0", "--media-url", "https://robots.example/media"}};
     Application desk{Transport::http, gateway};
