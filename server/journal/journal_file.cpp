@@ -26,6 +26,8 @@ constexpr std::int64_t version = 1;
 constexpr std::size_t page = 4'096;
 constexpr std::size_t page_in_log = page + 24;  // SQLite's log has a head before each page
 constexpr int longest_log = 256;                // pages; no step begins behind more
+constexpr std::size_t first_pages = 300;        // of the database and of its log
+constexpr auto room = "room";                   // the kind of a record that only takes room, and is not read
 constexpr std::size_t reserve_bytes = std::size_t{4} << 20;
 
 // Returns the largest number of pages of the database, so that all files together take at most `most_bytes`: the reserve, the
@@ -39,7 +41,7 @@ std::int64_t most_pages(std::size_t most_bytes) {
 
 constexpr auto settings =
     "PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA wal_autocheckpoint = 0;"
-    "PRAGMA journal_size_limit = 1048576; PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON";
+    "PRAGMA journal_size_limit = 2097152; PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON";
 constexpr auto table =
     "CREATE TABLE record (kind TEXT NOT NULL, session INTEGER NOT NULL, key TEXT NOT NULL, value TEXT NOT NULL,"
     " sum INTEGER NOT NULL, PRIMARY KEY (kind, session, key)) STRICT, WITHOUT ROWID";
@@ -228,7 +230,8 @@ JournalFile::Statement JournalFile::prepared(char const* sql) {
 
 std::vector<Record> JournalFile::read() {
     std::vector<Record> records;
-    auto const all = prepared("SELECT kind, session, key, value, sum FROM record ORDER BY kind, session, key");
+    auto const all =
+        prepared("SELECT kind, session, key, value, sum FROM record WHERE kind <> 'room' ORDER BY kind, session, key");
     int result = SQLITE_ROW;
     while ((result = sqlite3_step(all.get())) == SQLITE_ROW) {
         auto* const row = all.get();
@@ -311,6 +314,14 @@ JournalFile::Result JournalFile::store(RecordChanges const& changes) {
     }
     if (result == Result::stored) count_pages();
     if (result == Result::stored && !std::exchange(is_marked_, true)) mark_as_used();
+    return result;
+}
+
+JournalFile::Result JournalFile::grow() {
+    Record const filling{{room, 0, {}}, std::string(first_pages * page, ' ')};
+    auto result = attempt({.set = {filling}});
+    if (result != Result::broken) result = attempt({.gone = {filling.key}});
+    count_pages();
     return result;
 }
 

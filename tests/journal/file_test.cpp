@@ -91,6 +91,31 @@ TEST_F(JournalsFile, CanOnlyBeReadByItsOwner) {
     EXPECT_EQ(found.st_mode & 0777, 0600) << "also if it comes from elsewhere";
 }
 
+TEST_F(JournalsFile, HasItsRoomBeforeItIsNeeded) {
+    JournalFile file{folder.name(), plenty};
+    EXPECT_EQ(file.grow(), JournalFile::Result::stored);
+    EXPECT_THAT(file.read(), testing::IsEmpty());
+    auto const size_of = [&](std::string const& end) { return std::filesystem::file_size(file.name() + end); };
+    EXPECT_EQ(file.store({.set = {record(1, "first", "x")}}), JournalFile::Result::stored);
+    auto const database = size_of(""), log = size_of("-wal");
+    for (int i = 0; i < 1'000; ++i) {
+        ASSERT_EQ(file.store({.set = {record(1, std::to_string(i), std::string(400, 'x'))}}), JournalFile::Result::stored);
+        ASSERT_EQ(file.tidy(), JournalFile::Result::stored);
+    }
+    EXPECT_EQ(size_of(""), database);
+    EXPECT_EQ(size_of("-wal"), log);
+    EXPECT_EQ(file.read().size(), 1'001U);
+}
+
+TEST_F(JournalsFile, IsReadWithoutTheRoomThatACrashHasLeft) {
+    store({.set = {record(1, "a", "x")}});
+    auto const left = "INSERT INTO record VALUES ('room', 0, '', '   ', 0)";
+    run_sql(folder.name() + "/journal.db", left);
+    EXPECT_THAT(keys_in(folder.name()), testing::ElementsAre("1 a=x"));
+    JournalFile{folder.name(), plenty}.grow();
+    run_sql(folder.name() + "/journal.db", left);  // fails if it is still there
+}
+
 TEST_F(JournalsFile, KnowsWhetherItWasMovedOrReplaced) {
     JournalFile file{folder.name(), plenty};
     EXPECT_TRUE(file.is_in_place());
