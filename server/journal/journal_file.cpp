@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/crc.hpp>
 #include <cerrno>
 #include <cstring>
@@ -102,6 +103,16 @@ bool make_file(std::string const& name) {
     return found.st_size == 0;
 }
 
+// With the first page in its log, SQLite would not miss it.
+void require_database(std::string const& name) {
+    constexpr std::string_view begin{"SQLite format 3", 16};
+    std::array<char, begin.size()> found{};
+    UniqueDescriptor const file{::open(name.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC)};
+    if (::pread(file.get(), found.data(), found.size(), 0) != std::ssize(found) ||
+        std::string_view{found.data(), found.size()} != begin)
+        throw BadJournal{"state: " + rois::quoted(name) + " is not a journal of rois-gateway, or it is damaged"};
+}
+
 }  // namespace
 
 void JournalFile::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
@@ -116,6 +127,7 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
       most_pages_{most_pages(most_bytes)} {
     make_folder(folder);
     bool const is_new = make_file(name_);
+    if (!is_new) require_database(name_);
     check_log(is_new);
     open();
     check_header(is_new);
@@ -317,12 +329,11 @@ JournalFile::Result JournalFile::store(RecordChanges const& changes) {
     return result;
 }
 
-JournalFile::Result JournalFile::grow() {
+void JournalFile::grow() {
     Record const filling{{room, 0, {}}, std::string(first_pages * page, ' ')};
-    auto result = attempt({.set = {filling}});
-    if (result != Result::broken) result = attempt({.gone = {filling.key}});
+    for (auto const& changes : {RecordChanges{.set = {filling}}, RecordChanges{.gone = {filling.key}}})
+        if (attempt(changes) == Result::broken) refuse("cannot be written: " + problem_);
     count_pages();
-    return result;
 }
 
 // From the first step on, SQLite's log is not empty.

@@ -52,10 +52,11 @@ public:
     Result store(RecordChanges const&);
     // Gives the database and SQLite's log their first megabyte, if there is room. To grow later would keep commands waiting:
     // the disk takes much longer to store a file that has grown, above all while other programs write.
-    Result grow();
+    // Throws BadJournal if the disk does not write.
+    void grow();
     // Moves what was stored from SQLite's log into the database, if the log has grown long.
     Result tidy();
-    // Why the last `store`, `grow` or `tidy` did not succeed.
+    // Why the last `store` or `tidy` did not succeed.
     std::string const& problem() const { return problem_; }
 
     // Whether everything is stopped, in a file of its own that never grows: also a full disk takes a change of it.

@@ -43,17 +43,8 @@ std::string JournalWriter::why_no_commands() const {
     return no_room;
 }
 
-void JournalWriter::grow() {
-    try {
-        if (file_->grow() == JournalFile::Result::broken) note_broken(file_->problem());
-    } catch (std::bad_alloc const&) {
-        return;  // it grows later
-    }
-}
-
 // Looks now and then whether a full disk has room again, also without changes.
 void JournalWriter::run(std::stop_token const& stop) {
-    grow();
     std::unique_lock lock{mutex_};
     while (true) {
         news_.wait_for(lock, stop, std::chrono::seconds{1}, [this] { return next_ != nullptr; });

@@ -51,7 +51,6 @@ public:
 
 private:
     void run(std::stop_token const& stop);
-    void grow();
     void write(Changes const&);
     void note_broken(std::string_view problem);
     void note_room();

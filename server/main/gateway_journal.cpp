@@ -29,6 +29,7 @@ std::optional<OpenedJournal> opened_journal(GatewaySettings const& settings, std
     } catch (journal::BadRecord const& problem) {
         throw journal::BadJournal{"state: " + rois::quoted(opened.file->name()) + " is damaged: " + problem.what()};
     }
+    opened.file->grow();
     return opened;
 }
 
