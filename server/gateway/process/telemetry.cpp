@@ -170,9 +170,10 @@ public:
                 static_cast<double>(t.cut_));
         counter("rois_handshakes_failed_total", "TLS handshakes that failed or took too long.",
                 static_cast<double>(t.handshakes_failed_));
+        begin("rois_certificate_expiry_timestamp_seconds", "When the gateway's certificate expires, in seconds since 1970.",
+              MetricType::Gauge);
         if (auto const expires = t.certificate_expires_.load().time_since_epoch(); expires.count() != 0)
-            gauge("rois_certificate_expiry_timestamp_seconds", "When the gateway's certificate expires, in seconds since 1970.",
-                  std::chrono::duration<double>(expires).count());
+            add({}, std::chrono::duration<double>(expires).count());
         counter("rois_notifications_delivered_total", "Notifications written to connections.", static_cast<double>(t.delivered_));
         begin("rois_faults_total", "Messages that could not be read or were not allowed.", MetricType::Counter);
         for (std::size_t i = 0; i < Telemetry::fault_codes; ++i) {
