@@ -105,7 +105,8 @@ bool make_file(std::string const& name) {
 
 // With the first page in its log, SQLite would not miss it.
 void require_database(std::string const& name) {
-    constexpr std::string_view begin{"SQLite format 3", 16};
+    using namespace std::literals;
+    constexpr auto begin = "SQLite format 3\0"sv;
     std::array<char, begin.size()> found{};
     UniqueDescriptor const file{::open(name.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC)};
     if (::pread(file.get(), found.data(), found.size(), 0) != std::ssize(found) ||

@@ -15,8 +15,11 @@ rois::fuzzing::Target const* chosen = nullptr;
 
 }  // namespace
 
+// With -fork, libFuzzer starts this program again, with the arguments that it left: the environment names the target.
 extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
-    std::string_view const name = *count > 1 ? (*arguments)[1] : "";
+    constexpr auto variable = "ROIS_FUZZ_TARGET";
+    auto const* const outer = std::getenv(variable);
+    std::string_view const name = outer != nullptr ? outer : *count > 1 ? (*arguments)[1] : "";
     auto const all = rois::fuzzing::targets();
     auto const found = std::ranges::find(all, name, &rois::fuzzing::Target::name);
     if (found == all.end()) {
@@ -25,6 +28,8 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
         std::exit(2);
     }
     chosen = &*found;
+    if (outer != nullptr) return 0;
+    ::setenv(variable, (*arguments)[1], 1);
     std::copy(*arguments + 2, *arguments + *count, *arguments + 1);
     --*count;
     return 0;
