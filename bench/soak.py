@@ -71,7 +71,7 @@ def fail(line, chance):
 
 
 def lose_programs(port, over):
-    """A component program that is killed again and again, and that hangs before every second time."""
+    """A component program that is killed again and again; half of the times it hangs before."""
     chance = random.Random(1)
     while not over.is_set():
         command = [BIN / "rois-lamp", "--url", f"ws://127.0.0.1:{port}", "--name", "lamps"]

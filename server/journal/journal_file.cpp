@@ -103,7 +103,7 @@ bool make_file(std::string const& name) {
     return found.st_size == 0;
 }
 
-// With the first page in its log, SQLite would not miss it.
+// SQLite itself does not notice other bytes at the beginning of the file while its log has the first page.
 void require_database(std::string const& name) {
     using namespace std::literals;
     constexpr auto begin = "SQLite format 3\0"sv;

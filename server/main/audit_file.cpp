@@ -113,8 +113,10 @@ void AuditFile::run(std::stop_token const& stop) {
     while (true) {
         news_.wait_for(lock, stop, std::chrono::seconds{1}, [this] { return !lines_.empty(); });
         if (lines_.empty()) sum_up();
-        if (lines_.empty() && stop.stop_requested()) return;
-        if (lines_.empty()) continue;
+        if (lines_.empty()) {
+            if (stop.stop_requested()) return;
+            continue;
+        }
         auto const line = std::move(lines_.front());
         lines_.pop_front();
         lock.unlock();
@@ -203,10 +205,12 @@ bool AuditFile::is_removed() const {
 
 // A line that was written in part is removed.
 void AuditFile::write(std::string const& line) {
-    if (!is_in_place()) begin_again();
-    if (is_removed()) {
-        ++lost_;
-        return;
+    if (!is_in_place()) {
+        begin_again();
+        if (is_removed()) {
+            ++lost_;
+            return;
+        }
     }
     if (auto const size = size_of(file_); size > 0 && size + line.size() > limits_.bytes) begin_another();
     auto const whole = size_of(file_);

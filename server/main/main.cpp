@@ -211,7 +211,7 @@ std::shared_ptr<tls::Credentials> credentials_of(GatewaySettings const& settings
 std::vector<std::string> check_expiry(tls::Credentials const& credentials) {
     auto const expiry = tls::expiry_of(*credentials.context());
     if (expiry > std::chrono::system_clock::now()) return {};
-    return {"tls_certificate: the certificate has expired at " + to_text(expiry) + ": clients refuse it"};
+    return {"tls_certificate: the certificate expired at " + to_text(expiry) + ": clients refuse it"};
 }
 
 constexpr std::chrono::milliseconds longest_reading{300};  // of files after SIGHUP, at the end (docs/safety.md#the-end)

@@ -90,7 +90,7 @@ public:
         first_.run();
         threads.clear();
         hang_ups_.clear();
-        std::signal(SIGHUP, SIG_IGN);  // which clear() has given back to the system
+        std::signal(SIGHUP, SIG_IGN);  // clear() has given it back to the system, which would end the process
         return await_halts(shared_.gateway, last_moment_, shared_.settings().tick);
     }
 

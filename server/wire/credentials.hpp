@@ -54,7 +54,7 @@ private:
     bool may_go_on_ = false;
 };
 
-// When the certificate of the gateway expires that the context shows to clients.
+// When the certificate that the context shows to clients expires.
 std::chrono::system_clock::time_point expiry_of(boost::asio::ssl::context&);
 
 // Throws std::runtime_error that names the key, the file and the problem, unless the file holds certificates.

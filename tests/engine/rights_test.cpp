@@ -196,32 +196,22 @@ TEST(Rights, BelongToTheirSessions) {
     EXPECT_EQ(std::get<Refusal>(resumed->said.value()), Refusal::no_session);
 }
 
-TEST(Rights, ThatAreWithdrawnEndTheirSessions) {
-    World world{navigation, speech};
-    auto const of_desk = rights({"*"});
-    auto desk = world.connect_as(of_desk);
-    auto other = world.connect_as(rights({"*"}));
-    desk.bind("navigation");
-    desk.execute(go("go-1"));
-    desk.received();
-    of_desk->withdraw();
-    world.engine->end_withdrawn(world.now);
-    EXPECT_THAT(desk.received(), ElementsAre("1 completed go-1 ABORT"));
-    EXPECT_TRUE(desk.notifications_closed());
-    EXPECT_EQ(other.bind("navigation"), ReturnCode::ok);
-}
-
-TEST(Rights, ThatAreWithdrawnEndCommandsThatWouldGoOnAfterTheirSession) {
-    World world{{navigation, speech}, {.on_session_end = OnSessionEnd::continue_}};
-    auto const of_desk = rights({"*"});
-    auto desk = world.connect_as(of_desk);
-    desk.bind("speech");
-    desk.execute(say("say-1"));
-    desk.received();
-    of_desk->withdraw();
-    world.engine->end_withdrawn(world.now);
-    EXPECT_THAT(desk.received(), ElementsAre("1 completed say-1 ABORT"));
-    EXPECT_THAT(world["speech"].calls, ElementsAre("start", "halt", "parameters_changed"));
+TEST(Rights, ThatAreWithdrawnEndTheirSessionsAndAllTheirCommands) {
+    for (auto const at_its_end : {OnSessionEnd::stop, OnSessionEnd::continue_}) {
+        World world{{navigation, speech}, {.on_session_end = at_its_end}};
+        auto const of_desk = rights({"*"});
+        auto desk = world.connect_as(of_desk);
+        auto other = world.connect_as(rights({"*"}));
+        desk.bind("speech");
+        desk.execute(say("say-1"));
+        desk.received();
+        of_desk->withdraw();
+        world.engine->end_withdrawn(world.now);
+        EXPECT_THAT(desk.received(), ElementsAre("1 completed say-1 ABORT"));
+        EXPECT_TRUE(desk.notifications_closed());
+        EXPECT_THAT(world["speech"].calls, ElementsAre("start", "halt", "parameters_changed"));
+        EXPECT_EQ(other.bind("speech"), ReturnCode::ok);
+    }
 }
 
 }  // namespace rois

@@ -99,7 +99,9 @@ void EngineLog::halt_failed(std::string const& ref, std::string_view why) {
     spdlog::error("{} may still move: {}; it is halted again until it confirms", ref, why);
 }
 
-void EngineLog::halted_at_last(std::string const& ref) { spdlog::warn("{} does not move for this engine any more", ref); }
+void EngineLog::halted_at_last(std::string const& ref) {
+    spdlog::warn("{} no longer counts as moving: it has confirmed its halt, or its engine is gone", ref);
+}
 
 void EngineLog::refused(std::uint64_t session, Operation const& operation, Outcome const& outcome, std::string_view ref) {
     audit("refused", session, ref, operation_name(operation), to_text(outcome.return_code));

@@ -312,7 +312,7 @@ std::optional<std::vector<EngineState>> decode_engines(MessageTree const& messag
                            .components = decode_unsigned(node.attribute("components").value_or("0")),
                            .losses = decode_unsigned(node.attribute("losses").value_or("0")),
                            .last_error = std::string{node.child("last_error").text()}};
-        constexpr double most = 1e9;  // ms; NaN is not less
+        constexpr double most = 1e9;  // ms; NaN is not below it
         if (auto const round_trip = to_double(node.attribute("round_trip").value_or(""));
             round_trip && std::abs(*round_trip) < most)
             engine.round_trip = std::chrono::nanoseconds{static_cast<std::int64_t>(*round_trip * 1e6)};

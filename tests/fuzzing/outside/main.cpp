@@ -15,7 +15,7 @@ rois::fuzzing::Target const* chosen = nullptr;
 
 }  // namespace
 
-// With -fork, libFuzzer starts this program again, with the arguments that it left: the environment names the target.
+// With -fork, libFuzzer starts this program again, with the arguments that are left: the environment names the target.
 extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
     constexpr auto variable = "ROIS_FUZZ_TARGET";
     auto const* const outer = std::getenv(variable);

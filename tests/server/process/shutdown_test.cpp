@@ -106,7 +106,7 @@ TEST(Shutdown, WaitsUntilAllComponentsHaveHalted) {
     gateway.signal(SIGTERM);
     auto const ended = gateway.wait();
     EXPECT_EQ(ended.exit_code, 0);
-    EXPECT_THAT(ended.error, testing::HasSubstr("navigation does not move for this engine any more"));
+    EXPECT_THAT(ended.error, testing::HasSubstr("navigation no longer counts as moving: it has confirmed its halt"));
     EXPECT_THAT(ended.error, testing::Not(testing::HasSubstr("navigation did not confirm")));
 }
 
