@@ -31,9 +31,13 @@ std::set<std::string> marked_in(std::string const& report, std::string const& wo
 }  // namespace
 
 std::ostream& operator<<(std::ostream& out, Judged const& judged) {
+    if (broken_in(judged.text).empty()) return out << judged.text;
     std::istringstream lines{judged.text};
-    for (std::string line; std::getline(lines, line);)
-        if (!line.starts_with("  holds ")) out << line << '\n';
+    bool is_broken = false;
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("     ")) is_broken = line.starts_with("  BROKEN "); // else: the reason
+        if (is_broken) out << line << '\n';
+    }
     return out;
 }
 

@@ -17,7 +17,7 @@ struct Judged {
     std::string text{};
 };
 
-// Prints the report without the checks that held.
+// Prints the checks that found a broken rule, and why. If there are none, prints the whole report.
 std::ostream& operator<<(std::ostream&, Judged const&);
 
 // Runs rois-conformance with these arguments.
