@@ -35,7 +35,7 @@ std::ostream& operator<<(std::ostream& out, Judged const& judged) {
     std::istringstream lines{judged.text};
     bool is_broken = false;
     for (std::string line; std::getline(lines, line);) {
-        if (!line.starts_with("     ")) is_broken = line.starts_with("  BROKEN "); // else: the reason
+        if (!line.starts_with("     ")) is_broken = line.starts_with("  BROKEN ");  // else: the reason
         if (is_broken) out << line << '\n';
     }
     return out;
