@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <iostream>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -58,6 +59,8 @@ GatewayProcess::~GatewayProcess() {
     signal(SIGTERM);
     auto const ended = wait();
     EXPECT_EQ(ended.exit_code, 0) << ended.error;
+    auto const* const test = testing::UnitTest::GetInstance()->current_test_info();
+    if (test && test->result()->Failed()) std::cerr << "log of the gateway at " << url_ << ":\n" << ended.error;
 }
 
 std::size_t GatewayProcess::resident_bytes() const {

@@ -19,7 +19,8 @@ constexpr auto gateway_program = ROIS_BINARY_DIR "/bin/rois-gateway";
 // Runs rois-gateway with these arguments until it ends.
 Ended run_gateway(std::vector<std::string> const& arguments, Variables const& = {});
 
-// A gateway that listens on a free port of the loopback. The destructor ends it; the test fails if its exit code is not 0.
+// A gateway that listens on a free port of the loopback. The destructor ends it; the test fails if its exit code is not 0. After
+// a failed test, the destructor prints the gateway's log.
 class GatewayProcess {
 public:
     // Waits until the gateway listens. Throws std::runtime_error with its output if the gateway ends before that.
