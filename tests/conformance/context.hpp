@@ -14,6 +14,7 @@
 #include "conformance/traffic.hpp"
 #include "kit/application.hpp"
 #include "kit/http_client.hpp"
+#include "kit/websocket_client.hpp"
 
 namespace rois::conformance {
 
@@ -58,6 +59,12 @@ private:
     double room_;
     std::string disturbance_;
     std::chrono::steady_clock::time_point end_;
+};
+
+// A WebSocket without the notifications that may come at any time: the profile of the gateway may change.
+class WebSocket : public kit::WebSocketClient {
+public:
+    explicit WebSocket(Context const& context) : WebSocketClient{context.address()} { skip("profile_changed"); }
 };
 
 class Client;

@@ -46,7 +46,7 @@ Frame WebSocketClient::next() {
     return {head.kind(), line().take(head.payload_size)};
 }
 
-pugi::xml_node WebSocketClient::next_document() {
+pugi::xml_node WebSocketClient::read_document() {
     auto frame = next();
     while (frame.kind == Kind::ping) {
         send(frame.payload, Kind::pong);
@@ -57,6 +57,12 @@ pugi::xml_node WebSocketClient::next_document() {
     document_.load_string(frame.payload.c_str());
     give_known_prefixes(document_);
     return document_.document_element();
+}
+
+pugi::xml_node WebSocketClient::next_document() {
+    auto document = read_document();
+    for (; !skipped_.empty() && document.name() == skipped_; document = read_document()) ++count_skipped_;
+    return document;
 }
 
 pugi::xml_node WebSocketClient::call(std::string const& operation, Xml const& children, Attributes const& attributes) {

@@ -38,6 +38,9 @@ public:
     Frame next();
     // Returns the root element of the next text frame; answers pings.
     pugi::xml_node next_document();
+    // Makes `next_document` skip documents of this name.
+    void skip(std::string name) { skipped_ = std::move(name); }
+    unsigned skipped() const { return count_skipped_; }  // number of documents
     // Calls `ask`, and returns the next document.
     pugi::xml_node call(std::string const& operation, Xml const& children = {}, Attributes const& attributes = {});
     // Waits until the server closes the connection, and returns its close code; skips other frames.
@@ -48,8 +51,12 @@ public:
     void keep_session() { http_.session.clear(); }
 
 private:
+    pugi::xml_node read_document();
+
     HttpClient http_;
     pugi::xml_document document_;
+    std::string skipped_;
+    unsigned count_skipped_ = 0;
 };
 
 }  // namespace rois::kit

@@ -9,10 +9,13 @@ namespace {
 using kit::HttpClient;
 using kit::HttpReply;
 
-// A session with three waiting notifications.
-class ThreeNotifications {
+bool is_completion(pugi::xml_node notification) { return std::string_view{notification.name()} == "completed"; }
+unsigned sequence_of(pugi::xml_node notification) { return notification.attribute("sequence").as_uint(); }
+
+// A session with the waiting notifications `completed` of three commands. There may be others, such as profile_changed.
+class ThreeCompletions {
 public:
-    explicit ThreeNotifications(Context& context) : client{context.address()} {
+    explicit ThreeCompletions(Context& context) : client{context.address()} {
         auto const number = number_parameter_of(context);
         auto const& component = *number.component;
         client.call("connect");
@@ -20,21 +23,31 @@ public:
         if (bound == "OUT_OF_RESOURCES") throw Skipped{"another application uses " + component.ref};
         auto const set = kit::component_ref(component.ref) + kit::parameters({with_value(number, 50)});
         for (int i = 0; i < 3; ++i) ids.push_back(client.call("set_parameter", set).text("command_id"));
-        for (int i = 0; i < 3; ++i) client.notifications(i, 5);  // returns after the last command has completed
+        for (unsigned last = 0; sequences.size() < ids.size();) {
+            context.check_deadline();
+            auto const reply = client.notifications(last, 5);
+            require(!reply.root().first_child().empty(), "expected `completed` of three commands, got " + reply.body);
+            for (auto const notification : reply.root()) {
+                last = sequence_of(notification);
+                if (is_completion(notification)) sequences.push_back(last);
+            }
+        }
     }
 
     HttpClient client;
-    std::vector<std::string> ids;  // of the commands, in order
+    std::vector<std::string> ids{};     // of the commands, in order
+    std::vector<unsigned> sequences{};  // of their notifications
 };
 
 std::vector<std::string> commands_in(HttpReply const& reply) {
     std::vector<std::string> ids;
-    for (auto const notification : reply.root()) ids.emplace_back(notification.child("command_id").text().get());
+    for (auto const notification : reply.root())
+        if (is_completion(notification)) ids.emplace_back(notification.child("command_id").text().get());
     return ids;
 }
 
 void a_long_poll_returns_the_waiting_notifications(Context& context) {
-    ThreeNotifications waiting{context};
+    ThreeCompletions waiting{context};
     auto const reply = waiting.client.notifications(0, 5);
     context.traffic().validate(reply.body);
     require_equal("the document", "notifications", reply.root().name());
@@ -42,24 +55,25 @@ void a_long_poll_returns_the_waiting_notifications(Context& context) {
     unsigned expected = 0;
     for (auto const notification : reply.root()) {
         ++expected;
-        require(notification.attribute("sequence").as_uint() == expected,
-                "expected sequence " + std::to_string(expected) + ", got " + reply.body);
+        require(sequence_of(notification) == expected, "expected sequence " + std::to_string(expected) + ", got " + reply.body);
     }
 }
 
 void a_long_poll_discards_no_notification(Context& context) {
-    ThreeNotifications waiting{context};
-    auto const first = waiting.client.notifications(0, 5);
-    require_equal("the same notifications again", first.body, waiting.client.notifications(0, 5).body);
-    auto const rest = commands_in(waiting.client.notifications(2, 5));
-    require(rest == std::vector{waiting.ids[2]}, "after=2: expected only the third notification, got " + list(rest));
-    auto const none = waiting.client.notifications(3, 0);
-    require(none.status == 200 && !none.root().first_child(),
-            "after=3: expected an empty list with status 200, got " + none.body);
+    ThreeCompletions waiting{context};
+    auto const first = commands_in(waiting.client.notifications(0, 5));
+    require_equal("the same notifications again", list(first), list(commands_in(waiting.client.notifications(0, 5))));
+    auto const second = waiting.sequences[1], third = waiting.sequences[2];
+    auto const rest = commands_in(waiting.client.notifications(second, 5));
+    require(rest == std::vector{waiting.ids[2]},
+            "after=" + std::to_string(second) + ": expected only the third notification, got " + list(rest));
+    auto const none = waiting.client.notifications(third, 0);
+    require(none.status == 200 && commands_in(none).empty(),
+            "after=" + std::to_string(third) + ": expected no `completed`, with status 200, got " + none.body);
 }
 
 void a_long_poll_refuses_invalid_numbers(Context& context) {
-    ThreeNotifications waiting{context};
+    ThreeCompletions waiting{context};
     for (auto const* const query : {"after=x", "after=-1", "wait=soon", "wait=31"}) {
         auto const reply = waiting.client.get(std::string{"/rois/notifications?"} + query);
         require(reply.status == 400, std::string{query} + ": expected status 400, got " + std::to_string(reply.status));
@@ -90,22 +104,24 @@ std::pair<std::string, std::string> next_event(HttpClient& stream) {
 }
 
 void an_event_stream_sends_the_same_notifications(Context& context) {
-    ThreeNotifications waiting{context};
+    ThreeCompletions waiting{context};
     HttpClient stream{context.address()}, again{context.address()};
     for (auto* const client : {&stream, &again}) {
-        bool const is_first = client == &stream;
+        std::size_t next = client == &stream ? 0 : 2;  // of the commands
+        auto number = client == &stream ? 0 : waiting.sequences[1];
         client->session = waiting.client.session;
         kit::Headers headers{{"Accept", "text/event-stream"}};
-        if (!is_first) headers["Last-Event-ID"] = "2";
+        if (number > 0) headers["Last-Event-ID"] = std::to_string(number);
         auto const reply = client->get("/rois/notifications", headers);
         require_equal("the content type", "text/event-stream", reply.header("Content-Type").substr(0, 17));
-        for (std::size_t number = is_first ? 1 : 3; number <= 3; ++number) {
+        while (next < waiting.ids.size()) {
             auto const [id, data] = next_event(*client);
             context.traffic().validate(data);
-            require_equal("the id", std::to_string(number), id);
+            require_equal("the id", std::to_string(++number), id);
             Document const notification{data};
             require_equal("the sequence", id, notification.attribute("sequence"));
-            require_equal("the command", waiting.ids[number - 1], notification.text("command_id"));
+            if (is_completion(notification.root()))
+                require_equal("the command", waiting.ids[next++], notification.text("command_id"));
         }
         client->session.clear();
     }

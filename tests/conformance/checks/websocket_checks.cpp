@@ -1,14 +1,12 @@
 // The rules of docs/clients.md and RFC 6455 for WebSockets.
 #include "conformance/context.hpp"
 #include "kit/line.hpp"
-#include "kit/websocket_client.hpp"
 
 namespace rois::conformance {
 
 namespace {
 
 using kit::HttpClient;
-using kit::WebSocketClient;
 
 std::string attribute(pugi::xml_node node, char const* name) { return node.attribute(name).value(); }
 
@@ -27,7 +25,7 @@ void a_handshake_without_the_subprotocol_is_refused(Context& context) {
 }
 
 void a_fault_leaves_the_websocket_open(Context& context) {
-    WebSocketClient client{context.address()};
+    WebSocket client{context};
     client.send("<oops");
     require_equal("the fault", "not_well_formed", attribute(client.next_document(), "code"));
     require_equal("the answer of connect", "OK", attribute(client.call("connect"), "return_code"));
@@ -36,7 +34,7 @@ void a_fault_leaves_the_websocket_open(Context& context) {
 }
 
 void requests_are_answered_in_order(Context& context) {
-    WebSocketClient client{context.address()};
+    WebSocket client{context};
     client.call("connect");
     constexpr int count = 10;
     for (int i = 0; i < count; ++i) client.ask("search", "", {{"request_id", std::to_string(i)}});
@@ -45,7 +43,7 @@ void requests_are_answered_in_order(Context& context) {
 }
 
 void the_websocket_stays_open_after_disconnect(Context& context) {
-    WebSocketClient client{context.address()};
+    WebSocket client{context};
     client.call("connect");
     auto const first = client.session();
     require_equal("the answer of disconnect", "OK", attribute(client.call("disconnect"), "return_code"));
@@ -57,7 +55,7 @@ void the_websocket_stays_open_after_disconnect(Context& context) {
 void a_session_of_a_websocket_can_be_used_over_http(Context& context) {
     auto const number = number_parameter_of(context);
     auto const& component = *number.component;
-    WebSocketClient client{context.address()};
+    WebSocket client{context};
     client.call("connect");
     HttpClient http{context.address()};
     http.session = client.session();
@@ -68,13 +66,13 @@ void a_session_of_a_websocket_can_be_used_over_http(Context& context) {
     require_equal("the received documents", "completed", client.next_document().name());
 }
 
-void require_close_code(WebSocketClient& client, int code) {
+void require_close_code(WebSocket& client, int code) {
     auto const found = client.await_close();
     require(found == code, "expected the close code " + std::to_string(code) + ", got " + std::to_string(found));
 }
 
 void resume_closes_the_older_websocket(Context& context) {
-    WebSocketClient older{context.address()}, newer{context.address()};
+    WebSocket older{context}, newer{context};
     older.call("connect");
     auto const answer = newer.call("resume", {}, {{"session", older.session()}, {"last_sequence", "0"}});
     require_equal("the answer of resume", "OK", attribute(answer, "return_code"));
@@ -84,8 +82,7 @@ void resume_closes_the_older_websocket(Context& context) {
 }
 
 void protocol_errors_close_the_websocket(Context& context) {
-    WebSocketClient binary{context.address()}, no_text{context.address()}, reserved{context.address()},
-        unmasked{context.address()};
+    WebSocket binary{context}, no_text{context}, reserved{context}, unmasked{context};
     binary.send("<connect/>", kit::Kind::binary);
     require_close_code(binary, 1003);
     no_text.send("\xC3\x28");
@@ -97,7 +94,7 @@ void protocol_errors_close_the_websocket(Context& context) {
 }
 
 void a_ping_is_answered(Context& context) {
-    WebSocketClient client{context.address()};
+    WebSocket client{context};
     client.send("still there?", kit::Kind::ping);
     auto const frame = client.next();
     require(frame.kind == kit::Kind::pong && frame.payload == "still there?", "expected a pong with the payload of the ping");

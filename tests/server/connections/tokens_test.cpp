@@ -270,7 +270,7 @@ TEST_F(Tokens, EndTheStreamsOfARevokedOneWithinASecond) {
 }
 
 TEST_F(Tokens, EndTheSessionsOfAnExpiredOneWithinASecond) {
-    auto const ends = std::chrono::ceil<std::chrono::seconds>(std::chrono::system_clock::now() + std::chrono::milliseconds{500});
+    auto const ends = std::chrono::ceil<std::chrono::seconds>(std::chrono::system_clock::now() + std::chrono::seconds{2});
     auto const seconds = std::to_string(std::chrono::system_clock::to_time_t(ends));
     auto const when = run_shell("printf %s $(date -u -d @" + seconds + " +%FT%TZ)").out;
     auto const token = file.add("desk", "operator", {"--expires", when});
