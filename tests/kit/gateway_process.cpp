@@ -55,12 +55,12 @@ GatewayProcess::GatewayProcess(std::vector<std::string> arguments, Variables con
 }
 
 GatewayProcess::~GatewayProcess() {
-    if (process_ == 0) return;
-    signal(SIGTERM);
-    auto const ended = wait();
-    EXPECT_EQ(ended.exit_code, 0) << ended.error;
+    if (process_ != 0) {
+        signal(SIGTERM);
+        EXPECT_EQ(wait().exit_code, 0) << log_;
+    }
     auto const* const test = testing::UnitTest::GetInstance()->current_test_info();
-    if (test && test->result()->Failed()) std::cerr << "log of the gateway at " << url_ << ":\n" << ended.error;
+    if (test && test->result()->Failed()) std::cerr << "log of the gateway at " << url_ << ":\n" << log_;
 }
 
 std::size_t GatewayProcess::resident_bytes() const {
