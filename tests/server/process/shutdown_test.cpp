@@ -115,7 +115,7 @@ TEST(Shutdown, NamesComponentsThatDidNotHaltInTime) {
     Ended ended;
     auto const took = time_to_end(gateway, ended);
     EXPECT_GE(took, 500ms);
-    EXPECT_LT(took, 3s) << "the default is 5 s";
+    EXPECT_LT(took, 4500ms) << "the default is 5 s";
     EXPECT_EQ(ended.exit_code, 71);
     EXPECT_THAT(ended.error, testing::HasSubstr("navigation did not confirm that it stands still"));
 }
@@ -132,7 +132,7 @@ TEST(Shutdown, DoesNotWaitForClientsThatNeverRead) {
     auto const took = time_to_end(gateway, ended);
     EXPECT_EQ(ended.exit_code, 0);
     EXPECT_GE(took, 500ms) << "it waits for a client that may read yet";
-    EXPECT_LT(took, 3s) << "the default is 5 s";
+    EXPECT_LT(took, 4500ms) << "the default is 5 s";
 }
 
 // The thread that waits for signals has mostly no connection here.
