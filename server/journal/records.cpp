@@ -198,16 +198,25 @@ private:
     xml::AnswerReader answers_;
 };
 
+// The library reads an integer of more than 64 bits as a fraction, whose conversion to an integer would be undefined.
+json parsed(std::string const& text) {
+    return json::parse(text, [](int, json::parse_event_t event, json const& value) {
+        if (event == json::parse_event_t::value && value.is_number_float())
+            throw std::invalid_argument(value.dump() + " is not an integer of 64 bits");
+        return true;
+    });
+}
+
 void add(StoredState& state, Record const& record, Reader& reader) {
     auto const& kind = record.key.kind;
     if (kind == kind::command)
-        state.commands.push_back(reader.command(record, json::parse(record.value)));
+        state.commands.push_back(reader.command(record, parsed(record.value)));
     else if (kind == kind::engine)
-        state.engine = Reader::engine(json::parse(record.value));
+        state.engine = Reader::engine(parsed(record.value));
     else if (kind == kind::notification)
         state.notifications.push_back(reader.notification(record));
     else if (kind == kind::session)
-        state.sessions.push_back(reader.session(record, json::parse(record.value)));
+        state.sessions.push_back(reader.session(record, parsed(record.value)));
     else if (kind == kind::subscription)
         state.subscriptions.push_back(reader.subscription(record));
     else

@@ -17,9 +17,9 @@ namespace {
 
 // Returns the place after the comment that begins here.
 std::size_t end_of_comment(std::string_view text, std::size_t begin) {
-    std::string_view const end = text.substr(begin, 2) == "//" ? "\n" : "*/";
-    auto const at = text.find(end, begin + 2);
-    return at == text.npos ? text.size() : at + end.size();
+    bool const is_line = text.substr(begin, 2) == "//";
+    auto const at = is_line ? text.find_first_of("\r\n", begin + 2) : text.find("*/", begin + 2);
+    return at == text.npos ? text.size() : at + (is_line ? 1 : 2);
 }
 
 // Returns the place after the string that begins here.

@@ -48,6 +48,10 @@ TEST(ConfigurationFile, SetsKeysAndIgnoresComments) {
     EXPECT_EQ(settings.seed, GatewaySettings{}.seed);
 }
 
+TEST(ConfigurationFile, MayEndItsLinesWithACarriageReturn) {
+    EXPECT_EQ(settings_of("// a comment\r{\"sim_speed\": 2.5}\r").sim_speed, 2.5);
+}
+
 TEST(ConfigurationFile, ThatIsPrintedSetsTheSameValues) {
     GatewaySettings settings;
     settings.seed = 77;
