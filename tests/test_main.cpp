@@ -64,7 +64,7 @@ int main(int count, char** arguments) {
     auto const result = RUN_ALL_TESTS();
     bool const has_failed = watch->has_failed() || testing::UnitTest::GetInstance()->ad_hoc_test_result().Failed();
     if (watch->to_repeat().empty() || has_failed || std::getenv(second_run) != nullptr) return result;
-    std::cerr << "Running once more: " << watch->to_repeat() << std::endl;
+    std::cerr << "Running once more: " << watch->to_repeat() << "\n";
     ::setenv(second_run, "1", 1);
     ::setenv("GTEST_FILTER", watch->to_repeat().c_str(), 1);
     ::unsetenv("GTEST_TOTAL_SHARDS");
