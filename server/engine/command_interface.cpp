@@ -219,6 +219,8 @@ Engine::Core::Later Engine::Core::perform(Session& session, BindAny const& bind,
     if (!may_ever_match(selection.filter(),
                         registry_.possible(selection.filter().demand(), commanded_by(session, selection.filter())), session))
         return refused<BindAny::Reply>(ReturnCode::unsupported, "no component of this engine can match the condition");
+    if (auto problem = recorder_.why_no_commands(); !problem.empty())  // the condition is stored
+        return refused<BindAny::Reply>(ReturnCode::out_of_resources, std::move(problem));
     auto const [matches, held_of_group] = select_to_bind(selection, session);
     std::vector<ToBindNow> candidates;
     auto const condition = std::make_shared<QueryExpression const>(bind.condition);

@@ -142,7 +142,7 @@ private:
     bool owns_present_stop(Session const&) const;
     bool present_stop_has_owners() const;
     static std::string owner_of(Session const&);
-    void follow_ended_owner(Session const&);
+    bool follow_ended_owner(Session const&);
     Reply perform(Session&, StopEverything const&, Instant now);
     Reply perform(Session&, ClearStop const&, Instant now);
 

@@ -21,6 +21,9 @@ Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instan
     bool const again = known != nullptr && session.subscriptions.contains(known);
     if (auto problem = again ? std::nullopt : no_room_for(session, wanted, known != nullptr))
         return refused<Subscribe::Reply>(ReturnCode::out_of_resources, *std::move(problem));
+    // The last room is for the ends of commands.
+    if (auto problem = recorder_.why_no_commands(); !again && !problem.empty())
+        return refused<Subscribe::Reply>(ReturnCode::out_of_resources, std::move(problem));
     Subscribe::Reply reply;
     reply.subscribe_id = subscriptions_.add(session, subscribe.event_type, std::move(wanted), subscribe.inline_results).id;
     recorder_.subscribed(session, reply.subscribe_id, subscribe,

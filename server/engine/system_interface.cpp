@@ -140,9 +140,11 @@ std::string Engine::Core::owner_of(Session const& session) {
 }
 
 // The session takes the place of an owner that has ended, if there was one with its token.
-void Engine::Core::follow_ended_owner(Session const& session) {
+bool Engine::Core::follow_ended_owner(Session const& session) {
     auto const found = std::ranges::find(ended_owners_, owner_of(session));
-    if (found != ended_owners_.end()) ended_owners_.erase(found);
+    if (found == ended_owners_.end()) return false;
+    ended_owners_.erase(found);
+    return true;
 }
 
 // A stop ends when each session that owns it has cleared it. A stop without owners, such as one of POST /rois/stop, ends only
@@ -179,13 +181,12 @@ Reply Engine::Core::perform(Session& session, ClearStop const& asked, Instant) {
     if (stop != last_stop_ || !present_stop_has_owners()) return ClearStop::Reply{};
     recorder_.changed(session);
     recorder_.changed_engine();
-    if (owns_present_stop(session))
-        session.owns_stop = false;
-    else
-        follow_ended_owner(session);
+    bool const owned = owns_present_stop(session);
+    if (owned) session.owns_stop = false;
+    bool const has_cleared = owned || follow_ended_owner(session);
     bool const is_over = !present_stop_has_owners();
     if (is_over) clear();
-    trace_->cleared_stop(session.number, is_over);
+    if (has_cleared) trace_->cleared_stop(session.number, is_over);
     return ClearStop::Reply{};
 }
 

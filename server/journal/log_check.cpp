@@ -6,6 +6,7 @@
 #include <boost/endian/conversion.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <utility>
 
@@ -43,17 +44,18 @@ bool is_damaged_log(int file) {
     bool const is_big = word(head, 0) == magic + 1;
     auto sum = sum_of(Bytes{head}.first(24), is_big, {});
     bool is_whole = (is_big || word(head, 0) == magic) && word(head, 8) == page && sum == Sum{word(head, 24), word(head, 28)};
-    // Frames of an earlier use of the file have another salt.
+    // Frames of an earlier use of the file have another salt. Without a head, it is not known which salt is the present one.
     auto const salt_at = [](Bytes bytes, std::size_t at) { return Sum{word(bytes, at), word(bytes, at + 4)}; };
-    auto const salt = is_whole ? salt_at(head, 16) : salt_at(frame, 8);
-    int commits_behind = 0;
+    bool const has_head = is_whole;
+    std::map<Sum, int> commits_behind;  // by salt
     for (auto at = head_of_log; read_all(file, frame, at); at += frame.size()) {
-        bool const is_of_log = salt_at(frame, 8) == salt;
+        auto const salt = salt_at(frame, 8);
+        bool const is_of_log = !has_head || salt == salt_at(head, 16);
         sum = sum_of(Bytes{frame}.subspan(head_of_frame), is_big, sum_of(Bytes{frame}.first(8), is_big, sum));
         is_whole = is_whole && is_of_log && sum == salt_at(frame, 16);
-        if (!is_whole && is_of_log && word(frame, 4) != 0) ++commits_behind;
+        if (!is_whole && is_of_log && word(frame, 4) != 0 && ++commits_behind[salt] >= 2) return true;
     }
-    return commits_behind >= 2;
+    return false;
 }
 
 }  // namespace rois::journal

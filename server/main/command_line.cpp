@@ -71,10 +71,12 @@ void declare_tokens(CLI::App& app, Flags& flags) {
     add.add_option("--components", given.components, "pattern of the components that it sees; may be repeated [*]")
         ->option_text("PATTERN")
         ->expected(1)
+        ->allow_extra_args(false)  // else [a,b] would be two patterns
         ->take_all();
     add.add_option("--commands", given.commands, "pattern of those among them that it may command; may be repeated [*]")
         ->option_text("PATTERN")
         ->expected(1)
+        ->allow_extra_args(false)
         ->take_all();
     add.add_option("--expires", given.expires, "30d, 12h, 45min, a day (at its end), or a time such as 2027-01-31T18:00:00Z")
         ->option_text("WHEN");

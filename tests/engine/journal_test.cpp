@@ -269,6 +269,19 @@ TEST_F(Journaled, WhatBeginsAndEndsWhileTheDiskIsFullLeavesNoTrace) {
     EXPECT_EQ(journal().gone, 1u) << "that one is in the journal";
 }
 
+TEST_F(Journaled, CommandsBeginAgainAlsoIfNothingIsLeftToStore) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    journal().then = MemoryJournal::Then::not_stored;
+    auto const subscribed = desk.subscribe("reached_target");
+    world.advance(300ms);
+    EXPECT_EQ(desk.execute(go("refused")).return_code, ReturnCode::out_of_resources);
+    EXPECT_EQ(desk.unsubscribe(subscribed.subscribe_id), ReturnCode::ok);
+    journal().then = MemoryJournal::Then::stored;
+    world.advance(300ms);
+    EXPECT_EQ(desk.execute(go("go")).return_code, ReturnCode::ok);
+}
+
 TEST_F(Journaled, ASubscriptionThatIsRepeatedAndEndsWhileTheDiskIsFullDoesNotReturn) {
     auto desk = world.connect();
     auto const stored = desk.subscribe("reached_target");
@@ -319,6 +332,8 @@ TEST_F(Journaled, WithoutRoomNoCommandBegins) {
     EXPECT_EQ(desk.execute(go("go")).return_code, ReturnCode::out_of_resources);
     EXPECT_EQ(desk.execute(named("s", stop("navigation"))).return_code, ReturnCode::ok);
     EXPECT_EQ(desk.bind("speech"), ReturnCode::ok);
+    EXPECT_EQ(desk.subscribe("reached_target").return_code, ReturnCode::out_of_resources) << "conditions may be long";
+    EXPECT_EQ(desk.bind_any(), "OUT_OF_RESOURCES");
 }
 
 TEST_F(Journaled, AStopOfEverythingStays) {

@@ -231,6 +231,13 @@ TEST_F(JournalsLog, ThatIsDamagedIsRefused) {
     EXPECT_EQ(keys_in(crashed.name()).size(), 20U);
 }
 
+TEST_F(JournalsLog, WithoutItsBeginningIsRefused) {
+    for (std::size_t const length : {512U, 8'192U}) {  // its head and parts of its frames
+        std::fstream{log(), std::ios::in | std::ios::out | std::ios::binary} << std::string(length, '\0');
+        EXPECT_THAT(why_refused(crashed.name()), HasSubstr("-wal' is damaged")) << length;
+    }
+}
+
 TEST_F(JournalsLog, WithoutItsDatabaseIsRefused) {
     std::filesystem::resize_file(crashed.file(), 0);
     EXPECT_THAT(why_refused(crashed.name()), HasSubstr("is missing or empty"));

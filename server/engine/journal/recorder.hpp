@@ -65,9 +65,9 @@ public:
     void notify(NotificationQueue&) override;
     void flush() noexcept override { readers_.flush(); }
 
-    // Whether something has changed, and the journal is not busy.
+    // Whether something has changed, or the journal has failed and is tried again; not while it is busy.
     bool has_something_to_give() const {
-        return (changed_.any() || given_.any() || news_missed_) && !is_being_stored_ && !next_try_;
+        return (changed_.any() || given_.any() || news_missed_ || is_failing_) && !is_being_stored_ && !next_try_;
     }
     // Gives it to the journal; requires has_something_to_give(). If memory is missing, the next call tries again.
     void give(std::function<StoredEngine()> const& engine) noexcept;

@@ -348,7 +348,9 @@ TEST_F(Tokens, AreNamedInTheAuditLogAndNeverShown) {
         EXPECT_EQ(chief.call("release", component_ref("move")).fault(), "no_session");
         EXPECT_EQ(chief.notifications(0, 0).fault(), "no_session");
         chief.session = own_session;
-        for (auto* one : {&desk, &chief}) one->call("stop_everything");
+        std::string const stopped = desk.call("stop_everything").root().attribute("stop").value();
+        EXPECT_EQ(chief.call("clear_stop", {}, {{"stop", stopped}}).return_code(), "OK") << "the stop of another session";
+        chief.call("stop_everything");
         for (auto* one : {&desk, &chief}) one->call("clear_stop", {}, {{"stop", "0"}});
         HttpClient stranger{gateway};
         for (int i = 0; i < 30; ++i) stranger.get("/rois/profile/secret", {{"Authorization", "Bearer guess"}});
@@ -377,6 +379,7 @@ TEST_F(Tokens, AreNamedInTheAuditLogAndNeverShown) {
          R"({"what":"cleared the stop","token":"chief","session":2})",
          R"({"what":"refused","address":"127.0.0.1","operation":"/rois/profile/","outcome":"unauthorized"})"})
         EXPECT_THAT(without_times, HasSubstr(std::string{line} + "\n"));
+    EXPECT_THAT(text, Not(HasSubstr(R"("cleared its own stop","token":"chief")")));
     for (auto const& secret : {service, administrator, session, std::string{"guess"}, std::string{"my-secret-id"},
                                std::string{"script"}, std::string{"secret"}})
         EXPECT_THAT(text, Not(HasSubstr(secret)));

@@ -59,6 +59,12 @@ TEST(TokenCommand, ListsWhatTokensAllow) {
               "desk     operator  *           navigation, move  2100-01-01T00:00:00.000Z\n");
 }
 
+TEST(TokenCommand, TakesPatternsThatBeginWithABracket) {
+    TokenFile const file;
+    file.add("desk", "operator", {"--components", "[*,x]", "--components", "[rs]obot[12]", "--commands", "[!n]"});
+    EXPECT_THAT(file.run({"list"}).out, HasSubstr("[*,x], [rs]obot[12]  [!n]"));
+}
+
 TEST(TokenCommand, SaysWhatIsWrong) {
     TokenFile const file;
     file.add("desk", "operator");
