@@ -130,14 +130,15 @@ public:
         come();
     }
     void refuse(Refusal refusal) override {
-        if (auto const* bind = std::get_if<Bind>(&operation()); refusal == Refusal::not_allowed && rights && bind != nullptr)
-            gateway_.audit_({.what = "refused",
-                             .token = rights->holder(),
-                             .component = bind->component_ref.code,
-                             .operation = operation_name(operation()),
-                             .outcome = to_text(FaultCode::not_allowed)});
         fault_ = gateway_.fault_of(refusal);
         fault_->request_id = request_.request_id;
+        auto const* bind = std::get_if<Bind>(&operation());
+        if (rights && ((bind && refusal == Refusal::not_allowed) || std::holds_alternative<Connect>(operation())))
+            gateway_.audit_({.what = "refused",
+                             .token = rights->holder(),
+                             .component = bind ? bind->component_ref.code : std::string_view{},
+                             .operation = operation_name(operation()),
+                             .outcome = to_text(fault_->code)});
         come();
     }
     // From now on the reader is woken when the answer comes. Called with the engine locked.
@@ -278,6 +279,7 @@ PendingAnswer Gateway::perform(SessionId const& session, Request&& request, Via 
     if (opens)
         if (auto fault = refusal_of(*client)) {
             fault->request_id = request.request_id;
+            note_refusal(*client, operation_name(request.operation), fault->code);
             return refused(std::move(*fault));
         }
     log_.take_joined();  // of an operation that failed

@@ -284,6 +284,24 @@ TEST_F(Tokens, EndTheSessionsOfAnExpiredOneWithinASecond) {
     EXPECT_EQ(kit::HttpClient{with_token(token, gateway)}.get("/rois/profile").status, 401);
 }
 
+TEST_F(Tokens, WithoutRoomForASessionAreInTheAuditLog) {
+    auto const token = file.add("desk", "operator"), other = file.add("other", "operator");
+    auto const log = file.folder() + "/audit.log";
+    {
+        GatewayProcess const gateway{
+            file.of_gateway({"--audit-log", log, "--max-sessions-per-address", "1", "--max-sessions", "1"})};
+        kit::HttpClient first{with_token(token, gateway)}, second{with_token(token, gateway)}, third{with_token(other, gateway)};
+        EXPECT_EQ(first.call("connect").return_code(), "OK");
+        first.call("bind", component_ref("navigation"));  // else it gives way
+        EXPECT_EQ(second.call("connect").fault(), "too_many") << "of this token";
+        EXPECT_EQ(third.call("connect").fault(), "too_many") << "at all";
+    }
+    auto const text = run_shell("cat " + log).out;
+    EXPECT_THAT(text,
+                HasSubstr(R"("what":"refused","token":"desk","address":"127.0.0.1","operation":"connect","outcome":"too_many")"));
+    EXPECT_THAT(text, HasSubstr(R"("what":"refused","token":"other","operation":"connect","outcome":"too_many")"));
+}
+
 TEST_F(Tokens, ThatAreWrongGet429AfterTenInAMinute) {
     auto const token = file.add("desk", "operator");
     GatewayProcess const gateway{file.of_gateway()};
