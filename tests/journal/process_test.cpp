@@ -195,9 +195,9 @@ TEST_F(GatewayWithJournal, TakesAtMostStateBytesAndThenRefusesCommands) {
         if (subscriptions % 4 == 0) subscribers.push_back(&connected());  // each session may have 1 MiB of conditions
         auto const text = std::to_string(++subscriptions) + std::string(200'000, 'x');
         auto const condition = where(either(equal("component_ref", "person_detection"), equal("component_ref", text)));
-        EXPECT_EQ(subscribers.back()->call("subscribe", text_element("event_type", "person_detected") + condition).return_code(),
-                  "OK");
+        auto const answer = subscribers.back()->call("subscribe", text_element("event_type", "person_detected") + condition);
         largest = std::max(largest, folder.bytes());
+        return answer.return_code();
     };
     auto next = long_speech;
     auto const speak = [&] {
@@ -208,8 +208,11 @@ TEST_F(GatewayWithJournal, TakesAtMostStateBytesAndThenRefusesCommands) {
     auto const refused = speak();
     EXPECT_EQ(refused.return_code(), "OUT_OF_RESOURCES") << refused.body;
     EXPECT_THAT(refused.reason(), HasSubstr("state_bytes"));
-    for (int i = 0; i < 10; ++i) subscribe();
-    EXPECT_EQ(desk.call("execute", list({.component = "speech_synthesis", .type = "stop"})).return_code(), "OK");
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(subscribe(), "OUT_OF_RESOURCES");
+    Command const quiet{.component = "speech_synthesis", .type = "stop", .id = "quiet"};
+    EXPECT_EQ(desk.call("execute", list(quiet)).return_code(), "OK");
+    auto const completed = "<command_id>quiet</command_id>";
+    EXPECT_TRUE(eventually([&] { return desk.notifications(0, 0).body.find(completed) != std::string::npos; }));
     EXPECT_LE(largest, most);
     for (auto* const each : subscribers) {
         EXPECT_EQ(each->call("disconnect").return_code(), "OK");
