@@ -117,9 +117,9 @@ public:
         StoredSession session{.session = record.key.session,
                               .id = {value.at("id").get<std::string>()},
                               .rights = value.at("rights"),
-                              .window = Milliseconds{value.at("window").get<std::int64_t>()},
-                              .lease = Milliseconds{value.at("lease").get<std::int64_t>()},
-                              .lease_http = Milliseconds{value.at("lease_http").get<std::int64_t>()},
+                              .window = milliseconds(value.at("window"), longest),
+                              .lease = milliseconds(value.at("lease"), longest),
+                              .lease_http = milliseconds(value.at("lease_http"), longest),
                               .links_count = value.at("links_count"),
                               .is_engine = value.at("is_engine"),
                               .receives_switches = value.at("receives_switches"),
@@ -154,7 +154,7 @@ public:
             command.end = {.status = code<CompletedStatus>(end->at("status")),
                            .reason = end->at("reason"),
                            .results = results(end->at("results")),
-                           .at = Utc{Milliseconds{end->at("at").get<std::int64_t>()}},
+                           .at = Utc{milliseconds(end->at("at"), latest)},
                            .notified = end->at("notified")};
         return command;
     }
@@ -169,6 +169,15 @@ public:
     }
 
 private:
+    // More could not be added to a time.
+    static constexpr std::int64_t longest = 10'000'000'000;    // 115 days
+    static constexpr std::int64_t latest = 9'000'000'000'000;  // since 1970: in the year 2255
+    static Milliseconds milliseconds(json const& value, std::int64_t most) {
+        auto const number = value.get<std::int64_t>();
+        if (number < 0 || number > most) throw std::invalid_argument(value.dump() + " is not from 0 to " + std::to_string(most));
+        return Milliseconds{number};
+    }
+
     template <class Code>
     static Code code(json const& value) {
         auto const& text = value.get_ref<std::string const&>();

@@ -146,6 +146,8 @@ TEST(Records, ThatCannotBeReadAreNamed) {
     EXPECT_THAT(problem({{kind::session, 3, ""}, "no json"}), HasSubstr("cannot be read"));
     EXPECT_THAT(problem({{kind::engine, 0, ""}, R"({"last_session": 99999999999999999999})"}),
                 HasSubstr("cannot be read: 1e+20 is not an integer of 64 bits"));
+    EXPECT_THAT(problem({{kind::session, 3, ""}, R"({"id": "x", "rights": "", "window": 17295857133614})"}),
+                HasSubstr("17295857133614 is not from 0 to 10000000000"));
     EXPECT_THAT(problem({{kind::notification, 3, "1"}, "<completed/>"}), HasSubstr("it is not a notification"));
     EXPECT_THAT(problem({{kind::subscription, 3, "s-1"}, "<connect/>"}), HasSubstr("cannot be read"));
     EXPECT_THAT(problem({{"other", 3, ""}, ""}), HasSubstr("unknown kind"));
