@@ -20,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto still = 300ms;
 constexpr auto second_run = "ROIS_TEST_SECOND_RUN";
 
-// Notes how late a thread of this process wakes up.
+// Measures how long the machine stands still during each test: that long, a thread that sleeps wakes up late.
 class Watch : public testing::EmptyTestEventListener {
 public:
     std::string const& to_repeat() const { return to_repeat_; }  // a filter of GoogleTest; empty: nothing

@@ -139,7 +139,7 @@ std::string Engine::Core::owner_of(Session const& session) {
     return (session.is_engine ? "engine " : "client ") + (rights == nullptr ? "" : rights->holder() + " " + rights->id());
 }
 
-// The session takes the place of an owner that has ended, if there was one with its token.
+// The session takes the place of an owner that has ended. Returns false if none had its token.
 bool Engine::Core::follow_ended_owner(Session const& session) {
     auto const found = std::ranges::find(ended_owners_, owner_of(session));
     if (found == ended_owners_.end()) return false;

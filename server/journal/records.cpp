@@ -169,7 +169,7 @@ public:
     }
 
 private:
-    // More could not be added to a time.
+    // Longer durations and later times would overflow in calculations.
     static constexpr std::int64_t longest = 10'000'000'000;    // 115 days
     static constexpr std::int64_t latest = 9'000'000'000'000;  // since 1970: in the year 2255
     static Milliseconds milliseconds(json const& value, std::int64_t most) {
