@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::chrono::milliseconds slow{500};  // a step takes some milliseconds; after a second, commands are refused
 constexpr auto no_room =
-    "the journal has no room, because the disk is full or state_bytes is reached: no command begins until it has";
+    "the journal has no room, because the disk is full or state_bytes is reached: no command or subscription begins until it has";
 
 }  // namespace
 

@@ -138,7 +138,8 @@ void Recorder::forgot(Session const& session, std::shared_ptr<Command> const& co
 std::string Recorder::why_no_commands() const {
     if (!is_on()) return {};
     auto problem = journal_->why_no_commands();
-    if (problem.empty() && is_failing_) problem = "the journal cannot be written now: no command begins until it can";
+    if (problem.empty() && is_failing_)
+        problem = "the journal cannot be written now: no command or subscription begins until it can";
     return problem;
 }
 
