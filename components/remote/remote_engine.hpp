@@ -101,7 +101,8 @@ public:
     void query(std::shared_ptr<ComponentRecord> const&, Ticket, std::string const& query_type);
 
 private:
-    // Called with the answer, or with null if the session ends before it arrives.
+    // Called with the answer, or with null: the sub engine has refused the request, or the session has ended before the answer
+    // came. `why_no_answer` says which.
     using Then = std::function<void(Reply const*)>;
     struct Unanswered {
         client::Link::Document document;
@@ -169,6 +170,7 @@ private:
     void operator()(Switched const&);
 
     // --- remote_requests.cpp: what this engine asks ---
+    std::string why_no_answer() const;
     void bind_there(std::shared_ptr<ComponentRecord> const&, Then const&);
     void release_unwanted(std::shared_ptr<ComponentRecord> const&);
     void confirm_halt(std::shared_ptr<ComponentRecord> const&);
@@ -205,6 +207,7 @@ private:
     bool is_open_ = false;                            // requests can be sent
     std::map<std::uint64_t, Unanswered> unanswered_;  // requests, by their numbers
     std::uint64_t last_request_ = 0;
+    std::string refusal_;  // why the sub engine has refused a request, while `then` of that request runs
     std::uint64_t last_command_ = 0;
     RateLimit notifications_{1'000, 5'000};  // that it may send
     std::uint64_t documents_ = 0;            // number of received documents

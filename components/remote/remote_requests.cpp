@@ -10,7 +10,6 @@ namespace rois::remote {
 
 namespace {
 
-constexpr auto is_lost = "its engine is lost";
 constexpr std::chrono::milliseconds between_questions{50};  // whether everything stands still
 constexpr std::chrono::milliseconds between_stops{500};     // of a component that does not answer
 constexpr std::size_t most_stops = 4;                       // whose end may still confirm a halt
@@ -29,20 +28,24 @@ CommandUnit unit_of(std::string const& ref, std::string type, std::string id, Pa
 
 }  // namespace
 
+std::string RemoteEngine::why_no_answer() const {
+    return refusal_.empty() ? "its engine is lost" : "its engine refuses it: " + refusal_;
+}
+
 void RemoteEngine::attach(std::shared_ptr<ComponentRecord> const& record) {
     auto const state = states_.find(record->entry.ref);
     if (state != states_.end()) report_state(*record, state->second);
 }
 
 void RemoteEngine::bind(std::shared_ptr<ComponentRecord> const& record, Ticket ticket, Binding const& binding) {
-    if (!is_open_) return record->answer(ticket, Failed{is_lost});
+    if (!is_open_) return record->answer(ticket, Failed{why_no_answer()});
     if (!std::exchange(record->is_wanted, true)) record->stored.clear();  // of an earlier application
     if (!binding.parameters.empty()) record->store(binding.parameters);
     bool const is_same = std::exchange(record->switching, binding.switching) == binding.switching;
     if (record->is_held && record->binds_asked == 0 && is_same) return record->answer(ticket, Done{});
     bool const restores = !binding.parameters.empty();
     bind_there(record, [self = shared_from_this(), record, ticket, restores](Reply const* reply) {
-        if (reply == nullptr) return record->answer(ticket, Failed{is_lost});
+        if (reply == nullptr) return record->answer(ticket, Failed{self->why_no_answer()});
         auto const outcome = outcome_of(*reply);
         if (record->is_held && restores) self->restore_parameters(record);
         if (outcome.return_code == ReturnCode::ok) return record->answer(ticket, Done{});
@@ -90,11 +93,11 @@ void RemoteEngine::end_activity(std::shared_ptr<ComponentRecord> const& record) 
 // `start` takes the stored parameters as arguments: they may have been stored while the sub engine was lost.
 void RemoteEngine::prepare(std::shared_ptr<ComponentRecord> const& record, Ticket ticket, std::string const& command_type,
                            ParameterList const& parameters) {
-    if (!is_open_) return record->answer(ticket, Failed{is_lost});
+    if (!is_open_) return record->answer(ticket, Failed{why_no_answer()});
     auto unit = unit_of(record->entry.ref, command_type, {}, translation_.to_there(parameters, record->entry));
     Execute check{.command_unit_list = {{std::move(unit)}}, .check_only = true};
     ask(std::move(check), [self = shared_from_this(), record, ticket, command_type, parameters](Reply const* reply) {
-        if (reply == nullptr) return record->answer(ticket, Failed{is_lost});
+        if (reply == nullptr) return record->answer(ticket, Failed{self->why_no_answer()});
         auto const outcome = outcome_of(*reply);
         if (outcome.return_code == ReturnCode::bad_parameter)
             return record->answer(ticket, Refused{reason_of_only_command(outcome)});
@@ -146,7 +149,7 @@ void RemoteEngine::begin(std::shared_ptr<ComponentRecord> const& record, Command
             self->commands_.erase(known);
             --record->running;
             auto const status = reply == nullptr ? CompletedStatus::abort : status_of_refusal(outcome_of(*reply).return_code);
-            auto const reason = reply == nullptr ? std::string{is_lost} : reason_of_only_command(outcome_of(*reply));
+            auto const reason = reply == nullptr ? self->why_no_answer() : reason_of_only_command(outcome_of(*reply));
             record->report(CommandEnded{.command = command, .status = status, .results = {}, .afterwards = {}, .reason = reason});
         },
         {id});
@@ -272,7 +275,7 @@ void RemoteEngine::command(std::shared_ptr<ComponentRecord> const& record, std::
         [self = shared_from_this(), then, id](Reply const* reply) {
             if (reply != nullptr && outcome_of(*reply).return_code == ReturnCode::ok) return;
             if (self->commands_.erase(id) > 0)
-                reply == nullptr ? then(CompletedStatus::abort, is_lost)
+                reply == nullptr ? then(CompletedStatus::abort, self->why_no_answer())
                                  : then(CompletedStatus::error, reason_of_only_command(outcome_of(*reply)));
         },
         {id});

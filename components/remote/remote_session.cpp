@@ -183,7 +183,9 @@ void RemoteEngine::take(Fault const& fault) {
     auto const request = std::move(found->second);
     unanswered_.erase(found);
     note("it refused a request: " + fault.reason);
+    refusal_ = fault.reason;
     request.then(nullptr);
+    refusal_.clear();
 }
 
 // Ignores answers that were not asked for.

@@ -213,6 +213,18 @@ TEST_F(SubEngines, RefuseOperationsAtOnceWhileTheyAreLost) {
     EXPECT_EQ(engines.execute(desk, go("later", "hall.navigation")).return_code, ReturnCode::ok);
 }
 
+TEST_F(SubEngines, SayWhyTheyRefuseWhatTheirTokenDoesNotAllow) {
+    engines.bind(desk, "hall.speech");
+    engines.not_allowed = "bind";
+    EXPECT_THAT(engines.ask(desk, Bind{Application::identifier("hall.navigation")}).reason, HasSubstr("the token may not bind"));
+    engines.not_allowed = "execute";
+    auto const refused = engines.execute(desk, say("hello", "hall.speech"));
+    EXPECT_EQ(refused.return_code, ReturnCode::error);
+    EXPECT_THAT(refused.reason, HasSubstr("the token may not execute"));
+    engines.cut();
+    EXPECT_THAT(engines.ask(desk, Bind{Application::identifier("hall.navigation")}).reason, HasSubstr("its engine is lost"));
+}
+
 TEST_F(SubEngines, AloneConfirmThatTheirComponentsStandStill) {
     engines.bind(desk, "hall.navigation");
     engines.execute(desk, go("go", "hall.navigation"));

@@ -89,7 +89,10 @@ private:
         auto const read = reader_.read(document);
         ASSERT_TRUE(std::holds_alternative<Request>(read)) << document << std::get<Fault>(read).reason;
         auto const& [operation, id] = std::get<Request>(read);
-        engines_.asked_.push_back(document.substr(1, document.find(' ') - 1));
+        auto const name = document.substr(1, document.find(' ') - 1);
+        engines_.asked_.push_back(name);
+        if (name == engines_.not_allowed)
+            return inject(xml::encode(Fault{FaultCode::not_allowed, "the token may not " + name, {}, id}));
         // A link whose session has ended opens another one.
         if (std::holds_alternative<Connect>(operation) && reads_ && reads_->closed()) session_ = {};
         auto const& session = std::holds_alternative<Resume>(operation) ? std::get<Resume>(operation).session : session_;

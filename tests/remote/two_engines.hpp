@@ -69,6 +69,8 @@ public:
     void reverse_answers();
     // Changes the answers of the hall.
     std::function<void(Reply&)> falsify = [](Reply&) {};
+    // An operation ("bind") that the hall refuses because the token of the main engine does not allow it.
+    std::string not_allowed;
     // Sends the main engine a document, as if from the hall.
     void inject(std::string const& document);
     void inject(Notification const&);  // with the next sequence
