@@ -190,12 +190,10 @@ void JournalFile::open() {
 void JournalFile::check_header(bool is_new) {
     auto const refuse_by = [&](int code) {
         if ((code & 0xff) == SQLITE_BUSY) refuse("is in use by another gateway or program");
-        if ((code & 0xff) == SQLITE_READONLY)
-            refuse(std::string{"or its folder cannot be written: "} + sqlite3_errmsg(database_.get()));
-        if ((code & 0xff) == SQLITE_FULL || (code & 0xff) == SQLITE_IOERR)
-            refuse(std::string{"cannot be read or written: "} + sqlite3_errmsg(database_.get()));
+        if ((code & 0xff) == SQLITE_READONLY) refuse("or its folder cannot be written: " + said());
+        if ((code & 0xff) == SQLITE_FULL || (code & 0xff) == SQLITE_IOERR) refuse("cannot be read or written: " + said());
         if ((code & 0xff) == SQLITE_NOTADB) refuse("is not a journal of rois-gateway, or it is damaged");
-        refuse(std::string{"cannot be read, it may be damaged: "} + sqlite3_errmsg(database_.get()));
+        refuse("cannot be read, it may be damaged: " + said());
     };
     if (!run("PRAGMA locking_mode = EXCLUSIVE; BEGIN EXCLUSIVE")) refuse_by(sqlite3_extended_errcode(database_.get()));
     auto const found = number("PRAGMA application_id");
@@ -203,7 +201,7 @@ void JournalFile::check_header(bool is_new) {
     if (is_new) {
         auto const mark = "PRAGMA application_id = " + std::to_string(application) +
                           "; PRAGMA user_version = " + std::to_string(version) + ";" + table;
-        if (!run(mark.c_str())) refuse(std::string{"cannot be written: "} + sqlite3_errmsg(database_.get()));
+        if (!run(mark.c_str())) refuse("cannot be written: " + said());
     } else if (found != application) {
         refuse("is not a journal of rois-gateway");
     } else if (found_version != version) {
@@ -227,6 +225,9 @@ void JournalFile::check_pages() {
     if (!is_ours || sqlite3_step(parts.get()) != SQLITE_DONE) refuse("has other tables than a journal of rois-gateway");
 }
 
+// What SQLite says about its last failure: it may repeat a text of the file.
+std::string JournalFile::said() const { return rois::quoted(sqlite3_errmsg(database_.get())); }
+
 bool JournalFile::run(char const* sql) { return sqlite3_exec(database_.get(), sql, nullptr, nullptr, nullptr) == SQLITE_OK; }
 
 std::int64_t JournalFile::number(char const* pragma) {
@@ -237,7 +238,7 @@ std::int64_t JournalFile::number(char const* pragma) {
 JournalFile::Statement JournalFile::prepared(char const* sql) {
     sqlite3_stmt* statement = nullptr;
     if (sqlite3_prepare_v2(database_.get(), sql, -1, &statement, nullptr) != SQLITE_OK)
-        refuse(std::string{"is damaged, or not a journal of rois-gateway: "} + sqlite3_errmsg(database_.get()));
+        refuse("is damaged, or not a journal of rois-gateway: " + said());
     return Statement{statement};
 }
 
@@ -255,7 +256,7 @@ std::vector<Record> JournalFile::read() {
             refuse("is damaged: the bytes of the " + rois::quoted(record.key.kind) + " " + rois::quoted(record.key.key) +
                    " of session " + std::to_string(record.key.session) + " have changed");
     }
-    if (result != SQLITE_DONE) refuse(std::string{"is damaged: "} + sqlite3_errmsg(database_.get()));
+    if (result != SQLITE_DONE) refuse("is damaged: " + said());
     return records;
 }
 
@@ -269,7 +270,7 @@ bool JournalFile::step(Statement& statement) {
 bool JournalFile::note_failure() noexcept {
     failure_ = sqlite3_extended_errcode(database_.get());
     try {
-        problem_ = sqlite3_errmsg(database_.get());
+        problem_ = said();
     } catch (std::bad_alloc const&) {
         problem_.clear();
     }

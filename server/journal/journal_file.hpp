@@ -82,6 +82,7 @@ private:
     void open();
     void check_header(bool is_new);
     void check_pages();
+    std::string said() const;
     bool run(char const* sql);
     std::int64_t number(char const* pragma);
     Statement prepared(char const* sql);

@@ -180,7 +180,7 @@ TEST_F(GatewayWithJournal, DoesNotStartOnAFullDisk) {
     auto const ended = run_gateway({"--listen", "127.0.0.1:0", "--state", folder.name()},
                                    kit::preloading(ROIS_BINARY_DIR "/tests/libfailing_disk.so", {{"ROIS_DISK", disk()}}));
     EXPECT_EQ(ended.exit_code, 2);
-    EXPECT_THAT(ended.error, HasSubstr("cannot be read or written: database or disk is full"));
+    EXPECT_THAT(ended.error, HasSubstr("cannot be read or written: 'database or disk is full'"));
 }
 
 TEST_F(GatewayWithJournal, TakesAtMostStateBytesAndThenRefusesCommands) {
