@@ -183,9 +183,11 @@ void RemoteEngine::take(Fault const& fault) {
     auto const request = std::move(found->second);
     unanswered_.erase(found);
     note("it refused a request: " + fault.reason);
-    refusal_ = fault.reason;
+    struct Meanwhile {  // also if `then` throws
+        std::string& refusal;
+        ~Meanwhile() { refusal.clear(); }
+    } const meanwhile{refusal_ = fault.reason};
     request.then(nullptr);
-    refusal_.clear();
 }
 
 // Ignores answers that were not asked for.

@@ -225,7 +225,7 @@ void JournalFile::check_pages() {
     if (!is_ours || sqlite3_step(parts.get()) != SQLITE_DONE) refuse("has other tables than a journal of rois-gateway");
 }
 
-// What SQLite says about its last failure: it may repeat a text of the file.
+// What SQLite says about its last failure. It may repeat bytes of the file, so it is quoted.
 std::string JournalFile::said() const { return rois::quoted(sqlite3_errmsg(database_.get())); }
 
 bool JournalFile::run(char const* sql) { return sqlite3_exec(database_.get(), sql, nullptr, nullptr, nullptr) == SQLITE_OK; }
