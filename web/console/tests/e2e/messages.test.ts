@@ -31,6 +31,12 @@ async function command(page: Page, ref: string, world = hall): Promise<void> {
   await world.pass_until(page, page.locator('.exchange-came').getByText('Done.'), 200);
 }
 
+// The number of open sessions, as the gateway counts them.
+async function sessions(): Promise<number> {
+  const metrics = await (await fetch(`${stage.gateway.url}/metrics`)).text();
+  return Number(/^rois_sessions (\d+)$/m.exec(metrics)?.[1]);
+}
+
 // Subscribes to person_detected without results, and causes an event.
 async function event_comes(page: Page, world = hall): Promise<void> {
   await page.getByRole('treeitem', { name: /^person_detection / }).click();
@@ -167,6 +173,7 @@ describe('events and messages', () => {
         await command(page, 'person_detection');
         stage.front.cut(); // for longer than the session is kept
         await page.getByText('Connection lost', { exact: true }).waitFor();
+        await expect.poll(sessions, { timeout: 10_000 }).toBe(1); // the hall's
         stage.front.restore();
         await page.getByText('The session was lost and a new one began.', { exact: false }).waitFor();
         await page.getByText('The old session was lost', { exact: false }).waitFor();
