@@ -19,12 +19,12 @@ Ended run_gateway(std::vector<std::string> const& arguments, Variables const& va
     return run(gateway_program, arguments, {}, variables);
 }
 
-GatewayProcess::GatewayProcess(std::vector<std::string> arguments, Variables const& variables) {
+GatewayProcess::GatewayProcess(std::vector<std::string> arguments, Variables const& variables, std::string const& program) {
     if (std::ranges::find(arguments, "--listen") == arguments.end()) {
         arguments.insert(arguments.end(), {"--listen", "127.0.0.1:0"});
     }
     Pipe const error;
-    process_ = start(gateway_program, arguments, variables, {.error = error.to_write});
+    process_ = start(program, arguments, variables, {.error = error.to_write});
     close(error.to_write);
     errors_ = error.to_read;
     reader_ = std::thread{[this] {

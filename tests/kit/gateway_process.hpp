@@ -23,8 +23,10 @@ Ended run_gateway(std::vector<std::string> const& arguments, Variables const& = 
 // a failed test, the destructor prints the gateway's log.
 class GatewayProcess {
 public:
-    // Waits until the gateway listens. Throws std::runtime_error with its output if the gateway ends before that.
-    explicit GatewayProcess(std::vector<std::string> arguments = {}, Variables const& = {});
+    // Waits until the gateway listens. Throws std::runtime_error with its output if the gateway ends before that. `program` is
+    // the gateway, or a program that becomes it.
+    explicit GatewayProcess(std::vector<std::string> arguments = {}, Variables const& = {},
+                            std::string const& program = gateway_program);
     ~GatewayProcess();
     GatewayProcess(GatewayProcess const&) = delete;
     GatewayProcess& operator=(GatewayProcess const&) = delete;
