@@ -2,9 +2,12 @@
 // should, and tests of them fail. If all tests that failed did so while the machine stood still, they run once more, in a new
 // process.
 #include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
@@ -69,6 +72,11 @@ int main(int count, char** arguments) {
     ::setenv("GTEST_FILTER", watch->to_repeat().c_str(), 1);
     ::unsetenv("GTEST_TOTAL_SHARDS");
     ::unsetenv("GTEST_SHARD_INDEX");
-    ::execl("/proc/self/exe", arguments[0], nullptr);
-    return result;
+    // In a child, because this process must still end the gateways that it has started.
+    std::array<char*, 2> const line{arguments[0], nullptr};
+    pid_t child = 0;
+    if (::posix_spawn(&child, "/proc/self/exe", nullptr, nullptr, line.data(), environ) != 0) return result;
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : result;
 }
