@@ -221,7 +221,7 @@ class MemoryThatRunsOut : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(MemoryThatRunsOut, AtAnyCallStopsNoClockAndHaltsMovingComponents) {
     std::uint64_t n = 1;
-    while (survives(n, GetParam()) && !HasFailure() && n < 20'000) ++n;
+    while (survives(n, GetParam()) && !HasFailure() && n < 20'000) n += faults::step;
     EXPECT_GT(n, 500) << "the history needs memory that often";
 }
 
@@ -229,7 +229,7 @@ TEST_P(MemoryThatRunsOut, AtAnyCallStopsNoClockAndHaltsMovingComponents) {
 TEST_P(MemoryThatRunsOut, LateInALongHistoryStopsNoClockAndHaltsMovingComponents) {
     constexpr int rounds = 80;
     std::uint64_t n = 1 + GetParam() % 41;
-    while (n < 20'000 && !HasFailure() && survives(n, GetParam(), rounds)) n += 41;
+    while (n < 20'000 && !HasFailure() && survives(n, GetParam(), rounds)) n += 41 * faults::step;
     EXPECT_GE(n, 20'000) << "the rounds need memory that often";
 }
 

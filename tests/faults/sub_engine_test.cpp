@@ -57,7 +57,7 @@ TEST(SubEngineWithoutMemory, EndsEveryCommandAndComesBack) {
     for (bool has_failed = true; has_failed;) {
         TwoEngines engines{{navigation, speech}};
         auto desk = engines.main.connect();
-        n += n < 300 ? 1 : 7;
+        n += (n < 300 ? 1 : 7) * faults::step;
         Failing const failing{engines, n};
         engines.bind(desk, "hall.navigation");
         auto const accepted = engines.execute(desk, go("go", "hall.navigation")).return_code == ReturnCode::ok;
