@@ -24,7 +24,8 @@ bool stop();
 // Returns the number of calls since the last `fail_at`, by threads that are not exempt.
 std::uint64_t calls(Of);
 
-// A history with one thread is played with a fault at each call; with the thread sanitizer, which finds nothing in it, at fewer.
+// A history with one thread is played again and again, with the fault this many calls later each time. The thread sanitizer,
+// which is slow and looks for races between threads, plays few of them.
 #if defined(__SANITIZE_THREAD__)
 constexpr std::uint64_t step = 29;
 #else

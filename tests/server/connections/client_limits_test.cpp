@@ -331,7 +331,7 @@ TEST_F(OpenFiles, AreAsManyAsConnectionsNeed) {
     for (auto& each : all) ASSERT_EQ(each->get("/healthz").status, 200);
 }
 
-// A shell lowers the gateway's limit. Neither may raise it again.
+// A shell lowers its limit and becomes the gateway, which may not raise it again.
 TEST_F(OpenFiles, TooFewAreLoggedInOneLine) {
     auto const starts = [] {
         prctl(PR_CAPBSET_DROP, CAP_SYS_RESOURCE, 0, 0, 0);  // for this thread and what it starts
