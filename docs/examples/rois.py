@@ -151,7 +151,7 @@ class Engine:
             latest = time.monotonic() + patience
             try:
                 with urllib.request.urlopen(urllib.request.Request(self.url + path, body, headers), timeout=patience) as answer:
-                    while piece := answer.read1():
+                    while piece := answer.read1(65536):
                         came += piece
                         if len(came) > LONGEST:
                             raise NoAnswer(f"the answer of {self.url} is longer than {LONGEST} bytes")

@@ -48,6 +48,7 @@ struct Flags {
         std::string role;
         std::vector<std::string> components, commands;
         std::string expires;
+        bool ever_expires = false;
     } token;
     std::map<std::string, std::string> values;  // by key
 };
@@ -79,7 +80,8 @@ void declare_tokens(CLI::App& app, Flags& flags) {
         ->allow_extra_args(false)
         ->take_all();
     add.add_option("--expires", given.expires, "30d, 12h, 45min, a day (at its end), or a time such as 2027-01-31T18:00:00Z")
-        ->option_text("WHEN");
+        ->option_text("WHEN")
+        ->each([&given](std::string const&) { given.ever_expires = true; });
     token.add_subcommand("list", "print all tokens, without their secrets")->fallthrough();
     name(*token.add_subcommand("revoke", "remove a token: its sessions end within a second")->fallthrough());
 }
@@ -100,7 +102,7 @@ TokenEntry token_of(Flags const& flags) {
             throw BadSettings{std::string{flag} + " cannot be " + rois::quoted(*bad) + ": " + std::string{expected_pattern}};
     if (!given.components.empty()) entry.components = given.components;
     if (!given.commands.empty()) entry.commands = given.commands;
-    if (given.expires.empty()) return entry;
+    if (!given.ever_expires) return entry;
     auto const now = std::chrono::system_clock::now();
     entry.expires = read_expiry(given.expires, now);
     if (!entry.expires || *entry.expires <= now)

@@ -267,6 +267,10 @@ TokensFile::TokensFile(std::string file, Tokens& tokens) : file_{std::move(file)
 std::vector<std::shared_ptr<Principal>> TokensFile::read() const {
     std::vector<std::shared_ptr<Principal>> principals;
     for (auto const& entry : read_tokens(file_)) principals.push_back(principal_of(entry));
+    using std::filesystem::perms;
+    if ((std::filesystem::status(file_).permissions() & (perms::group_read | perms::others_read)) != perms::none)
+        spdlog::warn("tokens: other users may read {}: the mode 0600 is enough, if the file belongs to the user of the gateway",
+                     file_);
     return principals;
 }
 
@@ -301,7 +305,7 @@ void TokensFile::look() {
             if (complaint_ != error.what()) spdlog::warn("{}; the tokens are those of before", error.what());
             complaint_ = error.what();
         }
-    } catch (std::exception const&) {  // there is no memory: the next look tries again
+    } catch (std::exception const&) {  // NOLINT(bugprone-empty-catch): there is no memory, and the next look tries again
     }
 }
 

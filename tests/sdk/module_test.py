@@ -368,6 +368,14 @@ class Values(ModuleTest):
         self.assertEqual([each.text for each in (await self.link.query("a", "numbers")).iter(rois.R + "value")], ["1 2 3"])
 
 
+class Tokens(unittest.TestCase):
+    def test_are_sent_without_tls_to_this_machine_only(self):
+        for url in ("ws://localhost:8080", "ws://127.0.0.1:8080", "ws://127.1.2.3", "ws://[::1]:8080", "wss://robot.example"):
+            self.assertTrue(rois.is_safe(url), url)
+        for url in ("ws://127.0.0.1.example", "ws://127.robot.example", "ws://localhost.example", "ws://10.0.0.1", "ws://[::2]", "ws://"):
+            self.assertFalse(rois.is_safe(url), url)
+
+
 class Unsent(ModuleTest):
     async def restart(self):
         """The next link, to an engine that opens a new session."""

@@ -10,6 +10,7 @@ import contextlib
 import datetime
 import hashlib
 import inspect
+import ipaddress
 import logging
 import os
 import pathlib
@@ -744,7 +745,11 @@ def is_safe(url):
     """Whether others on the network cannot read a token that is sent there."""
     parts = urllib.parse.urlsplit(url)
     host = parts.hostname or ""
-    return parts.scheme in ("wss", "https") or host in ("localhost", "::1") or host.startswith("127.")
+    if parts.scheme in ("wss", "https") or host == "localhost":
+        return True
+    with contextlib.suppress(ValueError):  # not an address: "127.0.0.1.example" is a name like any other
+        return ipaddress.ip_address(host).is_loopback
+    return False
 
 
 def run(url, name, components):

@@ -163,6 +163,7 @@ Task<Connection::Then> Connection::serve() {
 
 // Reads from the received bytes. Returns `next` if a request is complete or was refused, and `receive` if bytes are missing.
 Connection::Then Connection::take_request() {
+    if (has_head_ && wire_.received().size() >= head_.content_length) return judge_head();  // its token may be revoked by now
     if (!has_head_) {
         auto const then = take_head();
         if (then != Then::next) return then;

@@ -223,67 +223,6 @@ TEST_F(Tokens, AreNeededToLearnWhyTheGatewayIsNotReady) {
     EXPECT_EQ(unknown.body, "not ready\n");
 }
 
-TEST_F(Tokens, EndTheSessionsOfARevokedOneWithinASecond) {
-    auto const token = file.add("desk", "operator"), other = file.add("other", "operator");
-    GatewayProcess const gateway{file.of_gateway()};
-    kit::HttpClient colleague{with_token(other, gateway)};
-    colleague.call("connect");
-    kit::WebSocketClient desk{with_token(token, gateway)};
-    desk.call("connect");
-    EXPECT_STREQ(desk.call("bind", component_ref("navigation")).attribute("return_code").value(), "OK");
-    kit::HttpClient over_http{with_token(token, gateway)}, stream{with_token(token, gateway)};
-    over_http.call("connect");
-    stream.session = over_http.session;
-    EXPECT_EQ(stream.get("/rois/notifications", {{"Accept", "text/event-stream"}}).status, 200);
-
-    EXPECT_EQ(file.run({"revoke", "desk"}).exit_code, 0);
-    auto const revoked_at = std::chrono::steady_clock::now();
-    EXPECT_EQ(desk.await_close(), 1008);
-    EXPECT_TRUE(stream.line().ends());
-    EXPECT_LT(std::chrono::steady_clock::now() - revoked_at, std::chrono::seconds{1});
-    EXPECT_EQ(over_http.call("get_profile").status, 401);
-    over_http.session.clear();
-    stream.session.clear();
-    EXPECT_EQ(bind(colleague, "navigation"), "OK") << "the component is free, and other sessions go on";
-}
-
-TEST_F(Tokens, EndTheStreamsOfARevokedOneWithinASecond) {
-    auto const token = file.add("desk", "operator");
-    GatewayProcess const gateway{file.of_gateway({"--media", "127.0.0.1:0"})};
-    kit::HttpClient desk{with_token(token, gateway)};
-    desk.call("connect");
-    EXPECT_EQ(bind(desk, "audio_streaming"), "OK");
-    Command const connecting{.component = "audio_streaming", .type = "connect_stream", .id = "stream"};
-    EXPECT_EQ(outcome(desk, "execute", sequence(unit(connecting))), "OK");
-    EXPECT_THAT(desk.notifications(0).body, HasSubstr("completed"));
-    Document const result{desk.call("get_command_result", text_element("command_id", "stream")).body};
-    auto const url = result.values().at("transport_parameters").front();
-    MediaReceiver receiving{url};
-    EXPECT_THAT(receiving.head(), testing::StartsWith("HTTP/1.1 200 "));
-
-    EXPECT_EQ(file.run({"revoke", "desk"}).exit_code, 0);
-    auto const revoked_at = std::chrono::steady_clock::now();
-    receiving.line().rest();
-    EXPECT_LT(std::chrono::steady_clock::now() - revoked_at, std::chrono::seconds{1});
-    EXPECT_THAT(MediaReceiver{url}.head(), testing::StartsWith("HTTP/1.1 404 "));
-    desk.session.clear();
-}
-
-TEST_F(Tokens, EndTheSessionsOfAnExpiredOneWithinASecond) {
-    auto const ends = std::chrono::ceil<std::chrono::seconds>(std::chrono::system_clock::now() + std::chrono::seconds{2});
-    auto const seconds = std::to_string(std::chrono::system_clock::to_time_t(ends));
-    auto const when = run_shell("printf %s $(date -u -d @" + seconds + " +%FT%TZ)").out;
-    auto const token = file.add("desk", "operator", {"--expires", when});
-    GatewayProcess const gateway{file.of_gateway()};
-    kit::WebSocketClient desk{with_token(token, gateway)};
-    desk.call("connect");
-    desk.keep_session();
-    EXPECT_EQ(desk.await_close(), 1008);
-    EXPECT_GE(std::chrono::system_clock::now(), ends);
-    EXPECT_LT(std::chrono::system_clock::now(), ends + std::chrono::seconds{1});
-    EXPECT_EQ(kit::HttpClient{with_token(token, gateway)}.get("/rois/profile").status, 401);
-}
-
 TEST_F(Tokens, WithoutRoomForASessionAreInTheAuditLog) {
     auto const token = file.add("desk", "operator"), other = file.add("other", "operator");
     auto const log = file.folder() + "/audit.log";

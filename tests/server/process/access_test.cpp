@@ -76,6 +76,7 @@ TEST(TokenCommand, SaysWhatIsWrong) {
     expect_complaint(file.run({"add", "x", "--role", "observer", "--expires", "soon"}), "--expires must be a time in the future");
     expect_complaint(file.run({"add", "x", "--role", "observer", "--expires", "2001-01-01"}),
                      "--expires must be a time in the future");
+    expect_complaint(file.run({"add", "x", "--role", "observer", "--expires", ""}), "--expires must be a time in the future");
     expect_complaint(file.run({"add", "x", "--role", "observer", "--components", ""}),
                      "--components cannot be '': expected patterns of refs");
     for (auto const& pattern : {std::string{"robot[12"}, std::string{"a[]"}, std::string(257, 'x'), std::string{"\xff"}})
