@@ -133,6 +133,14 @@ TEST(FileOfTokens, HasAtMostAThousand) {
     expect_complaint(file.run({"add", "more", "--role", "observer"}), "there are 1000 tokens already: revoke one");
 }
 
+TEST(FileOfTokens, ThatOthersMayReadGetsAWarning) {
+    TokenFile const file;
+    file.add("desk", "operator");
+    std::filesystem::permissions(file.name(), std::filesystem::perms::others_read, std::filesystem::perm_options::add);
+    GatewayProcess gateway{file.of_gateway()};
+    EXPECT_THAT(gateway.log_with("other users"), HasSubstr("other users may read " + file.name()));
+}
+
 TEST(FileOfTokens, MustBeValidAndForItsOwnerOnly) {
     TokenFile const file;
     auto const refused = [&](std::string const& text, std::string const& wanted) {
