@@ -243,6 +243,21 @@ TEST_F(GatewayWithJournal, EndsInTimeWhileTheDiskIsSlow) {
     }
 }
 
+TEST_F(GatewayWithJournal, EndsInTimeWhileASessionIsBeingStored) {
+    start();
+    let_disk_be("slow");
+    WebSocketClient opening{gateway->address()};
+    opening.ask("connect");
+    auto& other = client();
+    ASSERT_TRUE(eventually([&] { return other.get("/metrics").body.find("rois_sessions 1\n") != std::string::npos; }));
+    auto const begun = std::chrono::steady_clock::now();
+    gateway->signal(SIGTERM);
+    auto const ended = gateway->wait();
+    EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds{10});
+    EXPECT_EQ(ended.exit_code, 0) << ended.error;
+    gateway.reset();
+}
+
 TEST_F(GatewayWithJournal, StopsWhileTheDiskIsSlow) {
     start();
     auto& desk = connected();

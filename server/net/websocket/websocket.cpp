@@ -184,7 +184,7 @@ void WebSocket::add_pong(std::string_view payload) {
 // Waits until the next frame may be handled.
 Task<> WebSocket::pause() {
     if (!long_message_.empty()) co_await answer_long_message();
-    while (session_changes_ && !broken_) co_await something_written();
+    while (session_changes_ && !broken_ && !close_gathered_) co_await something_written();
     if (last_answer_) co_await leave_session();
     if (full()) co_await wait_for_room();
 }

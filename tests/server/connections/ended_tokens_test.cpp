@@ -57,7 +57,7 @@ TEST_F(EndedTokens, EndTheirStreamsWithinASecondOfBeingRevoked) {
     desk.call("connect");
     EXPECT_EQ(bind(desk, "audio_streaming"), "OK");
     Command const connecting{.component = "audio_streaming", .type = "connect_stream", .id = "stream"};
-    EXPECT_EQ(outcome(desk, "execute", sequence(unit(connecting))), "OK");
+    EXPECT_EQ(desk.call("execute", sequence(unit(connecting))).return_code(), "OK");
     EXPECT_THAT(desk.notifications(0).body, HasSubstr("completed"));
     Document const result{desk.call("get_command_result", text_element("command_id", "stream")).body};
     auto const url = result.values().at("transport_parameters").front();
