@@ -78,6 +78,20 @@ TEST_F(Journaled, TheResultOfACommandThatHasEndedStays) {
     EXPECT_EQ(without.result_of("d"), "OK charge=80") << "its component has not returned";
 }
 
+TEST_F(Journaled, TheIdOfACommandStaysInUseAlsoIfTheCalendarJumpsMeanwhile) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.execute(named("d", command("dock", "navigation")));
+    world["navigation"].begins();
+    world["navigation"].finishes(CompletedStatus::ok);
+    for (auto const jump : {std::chrono::hours{24}, std::chrono::hours{-48}}) {
+        world.now.utc += jump;
+        auto resumed = die_and_resume(desk);
+        EXPECT_EQ(resumed.result_of("d"), "OK") << jump.count();
+        EXPECT_EQ(resumed.execute(go("d")).return_code, ReturnCode::bad_parameter) << jump.count();
+    }
+}
+
 TEST_F(Journaled, ACommandBeginsWhenItIsStored) {
     auto desk = world.connect();
     desk.bind("navigation");

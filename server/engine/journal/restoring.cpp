@@ -225,7 +225,6 @@ void Engine::Core::restore(Session& session, StoredCommand&& stored, Instant now
     auto const end =
         std::move(stored.end)
             .value_or(StoredCommand::End{.status = CompletedStatus::abort, .reason = std::string{interrupted}, .at = now.utc});
-    auto const ago = std::clamp(now.utc - end.at, Utc::duration{0}, Utc::duration{settings_.command_results});
     auto command = std::make_shared<Command>();
     command->has_been_stored = true;
     command->id = std::move(stored.id);
@@ -244,7 +243,7 @@ void Engine::Core::restore(Session& session, StoredCommand&& stored, Instant now
     command->status = end.status;
     command->reason = end.reason;
     command->results = end.results;
-    command->ended_at = now.steady - ago;
+    command->ended_at = now.steady;  // only the calendar knows how long ago, and it may have jumped: the id stays in use
     command->ended_utc = end.at;
     command->notified = end.notified;
     executor_.restore(session, command, now);
