@@ -429,6 +429,34 @@ class Unsent(ModuleTest):
         known = await self.link.ask("get_command_result", "<command_id>old</command_id>")
         self.assertEqual(known.get("return_code"), "BAD_PARAMETER")
 
+    async def result_of(self, id):
+        answer = await self.link.ask("get_command_result", f"<command_id>{id}</command_id>")
+        self.assert_ok(answer)
+        return [(each.get(rois.R + "name"), each.findtext(rois.R + "value")) for each in answer.iter(rois.M + "result")]
+
+    async def test_the_result_of_a_command_says_how_it_has_ended(self):
+        await self.link.connect()
+        self.a.take = fail_with(ValueError("too <heavy>"))
+        await self.link.execute("a", "take", id="failed")
+        await self.completed("failed", "ERROR")
+        self.assertEqual(await self.result_of("failed"), [("status", "ERROR"), ("reason", "ValueError: too <heavy>")])
+        self.a.start = wait_for(patience)
+        await self.link.execute("a", "start", id="old")
+        self.assertEqual(await self.result_of("old"), [("status", "RUNNING")])
+        await self.link.execute("a", "stop", id="stop")
+        await self.completed("stop", "OK")
+        self.assertEqual(await self.result_of("old"), [("status", "ABORT"), ("reason", "it was stopped")])
+        self.assertEqual(await self.result_of("stop"), [("status", "OK")])
+
+    async def test_only_the_last_thousand_commands_are_known(self):
+        await self.link.connect()
+        for number in range(1_001):
+            await self.link.execute("a", "take", id=f"c{number}")
+        known = await self.link.ask("get_command_result", "<command_id>c0</command_id>")
+        self.assertEqual(known.get("return_code"), "BAD_PARAMETER")
+        await self.completed("c1000", "OK")
+        self.assertEqual(await self.result_of("c1"), [("status", "OK")])
+
     async def test_a_query_may_report_events_from_its_thread(self):
         await self.link.connect()
         await self.link.subscribe("switched")

@@ -250,6 +250,13 @@ def results(types, values):
     return f"<results>{content}</results>"
 
 
+def with_status(status, reason="", content="<results/>"):
+    """The `results` of a command as get_command_result returns them: its status, why it failed, and then its own."""
+    told = {"status": status, "reason": reason} if reason else {"status": status}
+    own = content.removeprefix("<results/>").removeprefix("<results>")
+    return results(dict.fromkeys(told, "string"), told).removesuffix("</results>") + (own or "</results>")
+
+
 async def within(seconds, task):
     """The result of a task. Before Python 3.12, asyncio.wait_for may lose a cancellation."""
     done, _ = await asyncio.wait([task], timeout=seconds)
@@ -370,7 +377,7 @@ class Service:
         self.window = 3.0
         self.lease = 0
         self.subscribed = {}
-        self.performed = collections.deque(maxlen=1_000)  # ids of accepted commands
+        self.performed = {}  # of the last accepted commands, by id: what get_command_result returns
         self.sequence = 0  # of the last notification
         self.written = 0  # of the last one given to a link
         self.sent = collections.deque(maxlen=10_000)  # (sequence, document, event or None): kept for a link that returns
@@ -540,7 +547,7 @@ class Service:
     async def on_get_command_result(self, request):
         id = request.findtext(M + "command_id")
         code = "OK" if id in self.performed else "BAD_PARAMETER"
-        self.reply("get_command_result", request, code, "<results/>", f"unknown command {id!r}")
+        self.reply("get_command_result", request, code, self.performed.get(id), f"unknown command {id!r}")
 
     async def on_execute(self, request):
         sequence = request.find(R + "CommandUnitSequence")
@@ -556,7 +563,9 @@ class Service:
         self.reply("execute", request, content=ElementTree.tostring(sequence, encoding="unicode"))
         if request.get("check_only") in ("true", "1"):
             return
-        self.performed.append(id)
+        self.performed[id] = with_status("RUNNING")
+        if len(self.performed) > 1_000:
+            self.performed.pop(next(iter(self.performed)))
         await self.perform(component, id, command, arguments)
 
     def arguments(self, component, command, unit):
@@ -613,6 +622,8 @@ class Service:
             content = results(component._profile.messages["command"][command][1], values or {})
         except Exception as problem:
             status, content, reason = "ERROR", "<results/>", f"{type(problem).__name__}: {problem}"
+        if id in self.performed:
+            self.performed[id] = with_status(status, reason, content)
         why = f"<reason>{escape(reason)}</reason>" if reason else ""
         what = f"<command_id>{escape(id)}</command_id><status>{status}</status>{content}{why}"
         self.notify("completed", what, f' active="{str(component._active).lower()}"')
