@@ -76,6 +76,7 @@ TEST_F(Journaled, TheResultOfACommandThatHasEndedStays) {
     EXPECT_THAT(resumed.received(), ElementsAre("1 completed d OK"));
     auto without = die_and_resume(resumed, {speech});
     EXPECT_EQ(without.result_of("d"), "OK charge=80") << "its component has not returned";
+    EXPECT_THAT(without.execute(go("d")).reason, HasSubstr("'d' is in use"));
 }
 
 TEST_F(Journaled, TheIdOfACommandStaysInUseAlsoIfTheCalendarJumpsMeanwhile) {

@@ -87,12 +87,13 @@ std::optional<Objection> SequenceCheck::objection(CommandMessage const& message)
 
 std::optional<Objection> SequenceCheck::command(CommandMessage const& message, std::string const& path) {
     begins_something_ = begins_something_ || begins_action(message.command_type);
+    // First: a client that repeats a command must learn that it was accepted, also while the component is away.
+    if (auto problem = id(message.command_id)) return problem;
     auto [component, problem_of_ref] = registry_.meant(message.component_ref, session_);
     if (component == nullptr) return bad_parameter(std::move(problem_of_ref));
     if (component->bound_to != &session_)
         return Objection{ReturnCode::error, "the component " + quoted(component->ref().code) + " is not bound by this session"};
-    if (auto problem = values(message, *component, path)) return problem;
-    return id(message.command_id);
+    return values(message, *component, path);
 }
 
 std::optional<Objection> SequenceCheck::values(CommandMessage const& message, RegisteredComponent& component,

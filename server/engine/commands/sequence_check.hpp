@@ -41,7 +41,7 @@ public:
     // Returns the first objection, beginning with the path of the unit; nullopt if all commands may run.
     std::optional<Objection> objection(CommandUnitSequence const&);
 
-    // Checks one command: known, bound, type, values, in this order.
+    // Checks one command: id, component known, bound, type, values, in this order.
     std::optional<Objection> objection(CommandMessage const&);
 
     // The commands that were checked, in document order.
