@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <memory>
@@ -11,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "kit/received_media.hpp"
 #include "server/application.hpp"
 #include "server/token_file.hpp"
 #include "server/websocket_client.hpp"
