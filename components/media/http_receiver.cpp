@@ -95,7 +95,7 @@ void begin_to_watch(Connection& connection) {
 // Returns false if the receiver did not take the text in time.
 Task<bool> write(Connection& connection, std::string_view text) {
     Error error;
-    connection.stream.expires_after(connection.settings.write_timeout);
+    connection.stream.expires_after(connection.settings.limits.write_timeout);
     if (connection.tls)
         co_await asio::async_write(*connection.tls, asio::buffer(text), into(error));
     else
@@ -159,13 +159,14 @@ std::string single_picture(Channel& channel, bool with_content) {
 // Returns the response to a request beyond the limits, or without exactly one Host; else nothing.
 std::optional<std::string> invalid_refusal(http::request<http::empty_body> const& request, Settings const& settings) {
     bool const with_content = request.method() != http::verb::head;
-    if (static_cast<std::size_t>(std::distance(request.begin(), request.end())) > settings.max_header_fields)
+    if (static_cast<std::size_t>(std::distance(request.begin(), request.end())) > settings.limits.max_header_fields)
         return refusal("431 Request Header Fields Too Large",
-                       "more than " + std::to_string(settings.max_header_fields) + " header fields (max_header_fields)",
+                       "more than " + std::to_string(settings.limits.max_header_fields) + " header fields (max_header_fields)",
                        with_content);
-    if (request.target().size() > settings.max_target)
+    if (request.target().size() > settings.limits.max_target)
         return refusal("414 URI Too Long",
-                       "the target has more than " + std::to_string(settings.max_target) + " bytes (max_target)", with_content);
+                       "the target has more than " + std::to_string(settings.limits.max_target) + " bytes (max_target)",
+                       with_content);
     if (request.count(http::field::host) > 1 || (request.count(http::field::host) == 0 && request.version() > 10))
         return refusal("400 Bad Request", "expected exactly one Host header", with_content);
     return {};
@@ -247,7 +248,7 @@ Task<bool> secure(Connection& connection) {
     auto const& settings = connection.settings;
     if (!settings.credentials) co_return true;
     Error error;
-    connection.stream.expires_after(settings.handshake_timeout);
+    connection.stream.expires_after(settings.limits.handshake_timeout);
     auto const is_tls = co_await beast::async_detect_ssl(connection.stream, connection.received, into(error));
     if (!error && !is_tls) co_await write(connection, refusal("400 Bad Request", tls::expects_tls));
     if (error || !is_tls) co_return false;
@@ -285,15 +286,15 @@ Task<> linger(Connection& connection) {
 Task<> serve_request(SharedConnection connection) {
     Error error;
     http::request_parser<http::empty_body> parser;
-    parser.header_limit(static_cast<std::uint32_t>(connection->settings.max_header));
-    connection->stream.expires_after(connection->settings.request_timeout);
+    parser.header_limit(static_cast<std::uint32_t>(connection->settings.limits.max_header));
+    connection->stream.expires_after(connection->settings.limits.request_timeout);
     if (connection->tls)
         co_await http::async_read_header(*connection->tls, connection->received, parser, into(error));
     else
         co_await http::async_read_header(connection->stream, connection->received, parser, into(error));
     if (!error) {
         co_await answer(connection, parser.release());
-    } else if (auto const text = parse_refusal(error, connection->settings.max_header); !text.empty()) {
+    } else if (auto const text = parse_refusal(error, connection->settings.limits.max_header); !text.empty()) {
         co_await write(*connection, text);
     }
 }

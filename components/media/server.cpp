@@ -76,6 +76,9 @@ public:
     Running& operator=(Running const&) = delete;
 
     Settings const& settings() const { return settings_; }
+    void use(Limits const& limits) {
+        asio::post(io_, [this, limits] { settings_.limits = limits; });
+    }
     std::string const& url() const { return url_; }
 
     std::unique_ptr<Outlet> serve(Content content, Flow flow) {
@@ -159,7 +162,7 @@ private:
         Timer pause{acceptor_.get_executor()};
         while (true) {
             boost::system::error_code error;
-            if (connections_ < settings_.max_connections) {
+            if (connections_ < settings_.limits.max_connections) {
                 auto socket = co_await acceptor_.async_accept(into(error));
                 if (!error) {
                     begin_to_serve(std::move(socket));
@@ -171,7 +174,7 @@ private:
         }
     }
 
-    Settings const settings_;
+    Settings settings_;  // the thread of `io_` changes and reads the limits
     std::function<std::string()> fresh_id_;
     std::shared_ptr<Directory> const directory_ = std::make_shared<Directory>();
     std::string url_;
@@ -188,6 +191,8 @@ Server::Server(Settings settings, std::function<std::string()> fresh_id)
 Server::~Server() = default;
 
 std::string const& Server::url() const { return running_->url(); }
+
+void Server::use(Limits const& limits) { running_->use(limits); }
 
 std::unique_ptr<Outlet> Server::serve(Content content, Flow flow) { return running_->serve(std::move(content), flow); }
 

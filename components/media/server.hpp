@@ -22,6 +22,9 @@ public:
     // The start of all HTTP addresses: "http://127.0.0.1:8081".
     std::string const& url() const;
 
+    // Other limits from now on. Thread-safe.
+    void use(Limits const&);
+
     std::unique_ptr<Outlet> serve(Content, Flow) override;
     std::optional<std::string> rtp_refusal(std::string_view target) const override;
     std::unique_ptr<Outlet> send(Tone const&, std::string_view rtp_target, Flow) override;

@@ -40,7 +40,7 @@ public:
     Core(EngineProfile profile, std::vector<ComponentProfile> known_profiles, EngineSettings const& settings, Outbox& outbox,
          FreshSecret fresh_secret);
 
-    void use(EngineSettings const& settings) { settings_ = with_changes(settings_, settings); }
+    void use(EngineSettings const&);
     void report_to(Trace& trace) { trace_ = &trace; }
     void keep_within(MemoryBudget& memory) { memory_ = &memory; }
     void add(std::unique_ptr<Component>);

@@ -136,6 +136,12 @@ void Engine::Core::begin(Instant now) {
 }
 
 // If a part of the tick fails, the others still run. Throws the first failure at the end; a later tick repeats the failed part.
+void Engine::Core::use(EngineSettings const& settings) {
+    settings_ = with_changes(settings_, settings);
+    events_.keep_for(settings_.event_details);
+    errors_.keep_for(settings_.error_details);
+}
+
 void Engine::Core::tick(Instant now) {
     Attempts attempts;
     if (unsettled_) attempts.note(std::exchange(unsettled_, nullptr));

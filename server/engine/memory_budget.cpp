@@ -17,7 +17,7 @@ MemoryBudget::Room MemoryBudget::reserve(std::size_t bytes) {
     auto const before = reserved_.fetch_add(bytes);
     Room room{*this, bytes};
     if (!measure_) return room;
-    if (measure_() + before + bytes <= total_) return room;
+    if (measure_() + before + bytes <= total()) return room;
     return {};
 }
 
@@ -25,7 +25,7 @@ std::string MemoryBudget::refuse(std::string_view what) {
     ++refusals_;
     if (exhausted()) return std::string{what} + ": the system gives the gateway no more memory; try again later";
     auto const in_mib = [](std::size_t bytes) { return std::to_string(bytes >> 20U); };
-    return std::string{what} + ": the gateway uses " + in_mib(used()) + " of the " + in_mib(total_) +
+    return std::string{what} + ": the gateway uses " + in_mib(used()) + " of the " + in_mib(total()) +
            " MiB of its memory_budget; try again later";
 }
 

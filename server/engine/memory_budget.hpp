@@ -25,14 +25,15 @@ public:
     MemoryBudget& operator=(MemoryBudget const&) = delete;
     static MemoryBudget& none();
 
-    std::size_t total() const { return total_; }
+    std::size_t total() const { return total_.load(std::memory_order_relaxed); }
+    void limit(std::size_t total) { total_ = total; }
     std::size_t used() const { return used_.load(std::memory_order_relaxed); }  // at the last measurement
 
     // From 80 % on: new sessions, new subscriptions and long documents are refused.
-    bool tight() const { return used() >= total_ / 5 * 4 || exhausted(); }
+    bool tight() const { return used() >= total() / 5 * 4 || exhausted(); }
     // From 100 % on, and while the system has no more memory: only short requests are accepted, and data that is kept for later
     // is dropped.
-    bool full() const { return used() >= total_ || exhausted(); }
+    bool full() const { return used() >= total() || exhausted(); }
 
     // Whether an allocation failed a short time ago, even if the budget is not used up. Set by the owner of the budget; any
     // thread.
@@ -81,7 +82,7 @@ public:
     std::uint64_t refusals() const { return refusals_; }
 
 private:
-    std::size_t total_ = std::numeric_limits<std::size_t>::max();
+    std::atomic<std::size_t> total_ = std::numeric_limits<std::size_t>::max();
     Measure measure_;
     std::atomic<std::size_t> used_ = 0;
     std::atomic<std::size_t> reserved_ = 0;

@@ -35,8 +35,6 @@ struct EngineSettings {
 inline EngineSettings with_changes(EngineSettings const& present, EngineSettings const& wanted) {
     auto next = wanted;
     next.max_kept_events = present.max_kept_events;
-    next.event_details = present.event_details;
-    next.error_details = present.error_details;
     return next;
 }
 

@@ -124,8 +124,7 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
       log_{name_ + "-wal"},
       reserve_{folder + "/reserve"},
       in_use_{folder + "/in_use"},
-      log_pages_{longest_log},  // an earlier process may have left a long log
-      most_pages_{most_pages(most_bytes)} {
+      log_pages_{longest_log} {  // an earlier process may have left a long log
     make_folder(folder);
     bool const is_new = make_file(name_);
     if (!is_new) require_database(name_);
@@ -137,8 +136,7 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
     if (::lstat(name_.c_str(), &found) != 0) refuse("cannot be read");
     inode_ = found.st_ino;
     device_ = found.st_dev;
-    spare_pages_ = std::min<std::int64_t>(reserve_bytes / page, most_pages_ / 4);
-    number(("PRAGMA max_page_count = " + std::to_string(most_pages_)).c_str());
+    if (!limit(most_bytes)) refuse("cannot be opened: " + said());
     begin_ = prepared("BEGIN IMMEDIATE");
     commit_ = prepared("COMMIT");
     rollback_ = prepared("ROLLBACK");
@@ -348,6 +346,14 @@ JournalFile::Result JournalFile::attempt(RecordChanges const& changes) {
     roll_back();
     if (auto const tidied = tidy(); tidied != Result::stored) return tidied;
     return write(changes) ? Result::stored : judged();
+}
+
+bool JournalFile::limit(std::size_t most_bytes) {
+    auto const most = most_pages(most_bytes);
+    if (!run(("PRAGMA max_page_count = " + std::to_string(most)).c_str())) return false;
+    most_pages_ = most;
+    spare_pages_ = std::min<std::int64_t>(reserve_bytes / page, most / 4);
+    return true;
 }
 
 // Keeps the last number if SQLite has no memory to count.

@@ -48,6 +48,9 @@ public:
         no_room,  // the disk or the file is full: nothing was changed, and a later attempt may succeed
         broken    // the system did not write what it was given: nothing may be acknowledged any more
     };
+    // From now on, all files together take at most `most_bytes`, as in the constructor. False: there is no memory; call it again.
+    bool limit(std::size_t most_bytes);
+
     // Makes all changes, or none of them. When it returns, they are on the disk.
     Result store(RecordChanges const&);
     // Gives the database and SQLite's log their first megabyte, if there is room. To grow later would keep commands waiting:

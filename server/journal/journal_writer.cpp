@@ -32,6 +32,14 @@ void JournalWriter::store(std::shared_ptr<Changes const> changes) noexcept {
     news_.notify_all();
 }
 
+void JournalWriter::limit(std::size_t bytes) {
+    {
+        std::lock_guard const lock{mutex_};
+        next_limit_ = bytes;
+    }
+    news_.notify_all();
+}
+
 bool JournalWriter::finish(std::chrono::milliseconds longest) {
     thread_.request_stop();
     std::unique_lock lock{mutex_};
@@ -45,13 +53,16 @@ std::string JournalWriter::why_no_commands() const {
 
 // Looks now and then whether a full disk has room again, also without changes.
 void JournalWriter::run(std::stop_token const& stop) {
+    std::optional<std::size_t> limit;
     std::unique_lock lock{mutex_};
     while (true) {
-        news_.wait_for(lock, stop, std::chrono::seconds{1}, [this] { return next_ != nullptr; });
+        news_.wait_for(lock, stop, std::chrono::seconds{1}, [this] { return next_ != nullptr || next_limit_; });
         auto const changes = std::exchange(next_, nullptr);
+        if (next_limit_) limit = std::exchange(next_limit_, std::nullopt);
         if (changes == nullptr && stop.stop_requested()) break;
         lock.unlock();
         if (!file_->is_in_place()) note_broken("it was moved or removed");
+        if (limit && uses(*limit)) limit.reset();
         if (changes != nullptr) write(*changes);
         note_room();
         lock.lock();
@@ -61,6 +72,15 @@ void JournalWriter::run(std::stop_token const& stop) {
     lock.lock();
     is_closed_ = true;
     news_.notify_all();
+}
+
+// False: there is no memory.
+bool JournalWriter::uses(std::size_t limit) {
+    try {
+        return file_->limit(limit);
+    } catch (std::bad_alloc const&) {
+        return false;
+    }
 }
 
 void JournalWriter::write(Changes const& changes) {

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -37,6 +38,9 @@ public:
     void store(std::shared_ptr<Changes const>) noexcept override;
     std::string why_no_commands() const override;
 
+    // From now on, all files together take at most `bytes`. Thread-safe.
+    void limit(std::size_t bytes);
+
     // Waits until everything that was given is written and the file is closed. Changes that are given later are ignored. Returns
     // false if the disk needs longer than this.
     bool finish(std::chrono::milliseconds longest);
@@ -51,6 +55,7 @@ public:
 
 private:
     void run(std::stop_token const& stop);
+    bool uses(std::size_t limit);
     void write(Changes const&);
     void note_broken(std::string_view problem);
     void note_room();
@@ -64,6 +69,7 @@ private:
     std::mutex mutex_;  // guards the members below
     std::condition_variable_any news_;
     std::shared_ptr<Changes const> next_;
+    std::optional<std::size_t> next_limit_;
     bool is_closed_ = false;
     std::jthread thread_;
 };

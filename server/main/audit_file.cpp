@@ -68,7 +68,8 @@ std::size_t size_of(UniqueDescriptor const& file) {
 
 }  // namespace
 
-AuditFile::AuditFile(std::string file, Limits const& limits) try : limits_{limits}, name_{std::move(file)} {
+AuditFile::AuditFile(std::string file, Limits const& limits) try
+    : limits_{limits}, bytes_{limits.bytes}, files_{limits.files}, name_{std::move(file)} {
     open();
     thread_ = std::jthread{[this](std::stop_token const& stop) { run(stop); }};
 } catch (BadSettings const& problem) {
@@ -170,7 +171,7 @@ void AuditFile::begin_another() {
             return path.parent_path() / (name + path.extension().string());
         };
         // A file of another program that has taken its place is not touched.
-        for (auto number = is_in_place() ? limits_.files : 0; number > 0; --number)
+        for (auto number = is_in_place() ? files_.load() : 0; number > 0; --number)
             if (std::filesystem::exists(earlier(number - 1))) std::filesystem::rename(earlier(number - 1), earlier(number));
         open();
         cannot_begin_ = false;
@@ -212,7 +213,7 @@ void AuditFile::write(std::string const& line) {
             return;
         }
     }
-    if (auto const size = size_of(file_); size > 0 && size + line.size() > limits_.bytes) begin_another();
+    if (auto const size = size_of(file_); size > 0 && size + line.size() > bytes_) begin_another();
     auto const whole = size_of(file_);
     try {
         write_all(file_, line);

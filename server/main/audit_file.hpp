@@ -38,6 +38,11 @@ public:
 
     // Returns at once: a thread of its own writes the line.
     void note(AuditEntry const&) noexcept;
+    // Other limits for the files from now on. Thread-safe.
+    void limit(std::size_t bytes, std::size_t files) {
+        bytes_ = bytes;
+        files_ = files;
+    }
     // Lines that could not be written, or for which there was no room.
     std::uint64_t lost() const { return lost_; }
 
@@ -58,7 +63,9 @@ private:
     void begin_again();
     void begin_another();
 
-    Limits const limits_;
+    Limits const limits_;  // but for the next two
+    std::atomic<std::size_t> bytes_;
+    std::atomic<std::size_t> files_;
     std::string const name_;
     UniqueDescriptor file_;      // the constructor and the thread use it, and the next one
     bool cannot_begin_ = false;  // another file; it is reported once

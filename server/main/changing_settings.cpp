@@ -27,8 +27,22 @@ GatewaySettings with_changes(GatewaySettings const& present, GatewaySettings con
     auto next = present;
     next.net = net::with_changes(present.net, wanted.net);
     next.engine = with_changes(present.engine, wanted.engine);
+    next.media.limits = wanted.media.limits;
     next.max_wrong_tokens = wanted.max_wrong_tokens;
+    next.audit_log_bytes = wanted.audit_log_bytes;
+    next.audit_log_files = wanted.audit_log_files;
+    next.state_bytes = wanted.state_bytes;
     return next;
+}
+
+media::Limits media_limits(std::size_t max_connections, net::Settings const& net) {
+    return {.max_connections = max_connections,
+            .max_header = net.max_header,
+            .max_header_fields = net.max_header_fields,
+            .max_target = net.max_target,
+            .handshake_timeout = net.handshake_timeout,
+            .request_timeout = net.request_timeout,
+            .write_timeout = net.write_timeout};
 }
 
 void report_changes(GatewaySettings const& before, GatewaySettings const& after, GatewaySettings const& wanted) {

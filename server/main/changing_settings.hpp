@@ -1,6 +1,7 @@
 // The settings that can change while the gateway runs: hosts, origins, limits and periods.
 #pragma once
 
+#include <cstddef>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -29,6 +30,9 @@ private:
 
 // The present settings with those of others, as far as they can change while the gateway runs.
 GatewaySettings with_changes(GatewaySettings const& present, GatewaySettings const& wanted);
+
+// Limits and times of the media server. All but the number of its connections are those of the gateway.
+media::Limits media_limits(std::size_t max_connections, net::Settings const&);
 
 // Logs which keys have changed, and which would have changed after a restart.
 void report_changes(GatewaySettings const& before, GatewaySettings const& after, GatewaySettings const& wanted);

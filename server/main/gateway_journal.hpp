@@ -1,6 +1,7 @@
 // The gateway's journal (key `state`; docs/journal.md), and what an earlier start has left in it.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 
@@ -30,6 +31,9 @@ public:
 
     // Lets the engine continue with what an earlier start has stored. Call it once, before the first request.
     void restore(Tokens*);  // null: the gateway has none
+
+    // Other bytes for its files (key `state_bytes`). Thread-safe.
+    void limit(std::size_t bytes) { writer_.limit(bytes); }
 
     // Waits until everything is stored. Without an answer of the disk, logs that and ends the process with this code: a thread
     // that waits for the disk cannot be ended.

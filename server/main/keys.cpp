@@ -281,7 +281,7 @@ std::vector<Key> media_keys() {
                                   {{"loopback", media::RtpTargets::loopback}, {"any", media::RtpTargets::any}}),
         whole_number<std::size_t>(
             "max_media_connections", "maximum number of connections to the media server",
-            [](GatewaySettings & s) -> auto& { return s.media.max_connections; }, 1, 10'000),
+            [](GatewaySettings & s) -> auto& { return s.media.limits.max_connections; }, 1, 10'000),
     };
 }
 

@@ -141,7 +141,7 @@ std::size_t raise_open_files(std::size_t wanted) {
 // Raises the limit of open files to the number that all connections need. If the system refuses, accepts fewer connections.
 void make_room_for_connections(net::Settings& net, media::Settings const& media) {
     constexpr std::size_t own = 64, of_thread = 8;  // open files besides the connections, with some reserve
-    auto const others = own + of_thread * net.threads + (media.host.empty() ? 0 : media.max_connections);
+    auto const others = own + of_thread * net.threads + (media.host.empty() ? 0 : media.limits.max_connections);
     auto const wanted = others + net.max_connections;
     auto const possible = raise_open_files(wanted);
     if (possible >= wanted) return;
@@ -157,12 +157,7 @@ void make_room_for_connections(net::Settings& net, media::Settings const& media)
 std::shared_ptr<media::Server> make_media(media::Settings settings, net::Settings const& net, Sites const& sites) {
     if (settings.host.empty()) return nullptr;
     settings.credentials = net.credentials;
-    settings.max_header = net.max_header;
-    settings.max_header_fields = net.max_header_fields;
-    settings.max_target = net.max_target;
-    settings.handshake_timeout = net.handshake_timeout;
-    settings.request_timeout = net.request_timeout;
-    settings.write_timeout = net.write_timeout;
+    settings.limits = media_limits(settings.limits.max_connections, net);
     settings.is_own_host = [&sites](std::string_view host) { return sites.is_own_host(host); };
     settings.is_allowed_origin = [&sites](std::string_view origin, std::string_view host) {
         return sites.is_allowed_origin(origin, host);
@@ -359,9 +354,13 @@ int serve(CommandLine const& command) {
             auto const before = std::exchange(present, with_changes(present, wanted));
             report_changes(before, present, wanted);
             auto next = with_all_hosts(wanted);
-            make_room_for_connections(next, settings.media);
+            make_room_for_connections(next, wanted.media);
             server.use(next);
             gateway.use(client_limits(next), wanted.engine);
+            memory.limit(next.memory_budget);
+            if (media) media->use(media_limits(wanted.media.limits.max_connections, next));
+            if (audit_file) audit_file->limit(wanted.audit_log_bytes, wanted.audit_log_files);
+            if (journal) journal->limit(wanted.state_bytes);
             tokens.limit(wanted.max_wrong_tokens);
             program_tokens.all().limit(wanted.max_wrong_tokens);
             sites.use(next);

@@ -10,12 +10,9 @@
 
 namespace rois::net {
 
-LongDocuments::LongDocuments(std::shared_ptr<xml::Schemas const> schemas, xml::DocumentLimits const& limits,
-                             xml::Validation validation)
-    : reader_{std::move(schemas), limits, validation} {}
-
-Task<PendingAnswer> LongDocuments::answer(Gateway& gateway, SessionId const& session, std::string_view text, Via via,
-                                          std::weak_ptr<Waker> waits, std::shared_ptr<Client> const& client, Wakes& wakes) {
+Task<PendingAnswer> LongDocuments::answer(Settings const& settings, Gateway& gateway, SessionId const& session,
+                                          std::string_view text, Via via, std::weak_ptr<Waker> waits,
+                                          std::shared_ptr<Client> const& client, Wakes& wakes) {
     Executor const executor = co_await asio::this_coro::executor;
     auto const done = std::make_shared<WakeUp>(executor, wakes);
     auto const left = std::make_shared<std::latch>(1);
@@ -23,7 +20,8 @@ Task<PendingAnswer> LongDocuments::answer(Gateway& gateway, SessionId const& ses
     std::exception_ptr failed;
     asio::post(thread_, [&, done, left] {
         try {
-            answer = gateway.answer(reader_, session, text, via, waits, client);
+            auto& reader = reader_.use(settings.document, settings.validation);
+            answer = gateway.answer(reader, session, text, via, waits, client);
         } catch (...) {
             failed = std::current_exception();
         }

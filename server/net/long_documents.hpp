@@ -5,8 +5,10 @@
 #include <boost/asio/thread_pool.hpp>
 #include <cstddef>
 #include <memory>
+#include <utility>
 
 #include "gateway/gateway.hpp"
+#include "net/settings.hpp"
 #include "wire/asio.hpp"
 #include "xml/codec/codec.hpp"
 
@@ -14,15 +16,15 @@ namespace rois::net {
 
 class LongDocuments {
 public:
-    LongDocuments(std::shared_ptr<xml::Schemas const>, xml::DocumentLimits const&, xml::Validation);
+    explicit LongDocuments(std::shared_ptr<xml::Schemas const> schemas) : reader_{std::move(schemas)} {}
 
     // Reading a long document takes half a millisecond or more.
     static bool is_long(std::size_t bytes) { return bytes > std::size_t{32} * 1024; }
 
     // Thread-safe. Calls Gateway::answer on the separate thread, and resumes the caller on the caller's thread. The caller owns
     // all arguments, which must live until then.
-    Task<PendingAnswer> answer(Gateway&, SessionId const&, std::string_view text, Via, std::weak_ptr<Waker> waits,
-                               std::shared_ptr<Client> const&, Wakes&);
+    Task<PendingAnswer> answer(Settings const&, Gateway&, SessionId const&, std::string_view text, Via,
+                               std::weak_ptr<Waker> waits, std::shared_ptr<Client> const&, Wakes&);
 
 private:
     xml::RequestReader reader_;

@@ -30,9 +30,7 @@ std::size_t sweeps_for_all(Settings const& settings) {
 }  // namespace
 
 Loop::Loop(Shared& shared)
-    : shared_{shared},
-      reader_{shared.schemas, shared.settings().document, shared.settings().validation},
-      wakes_{[this] { asio::post(io_, [this] { wakes_.serve(); }); }, shared.troubles} {
+    : shared_{shared}, reader_{shared.schemas}, wakes_{[this] { asio::post(io_, [this] { wakes_.serve(); }); }, shared.troubles} {
     run_forever(Troubles::Where::sweep, [this] { return sweep(); });
 }
 

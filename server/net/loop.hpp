@@ -34,7 +34,7 @@ public:
           documents{served},
           schemas{std::move(all)},
           troubles{reported},
-          long_documents{schemas, settings.document, settings.validation} {
+          long_documents{schemas} {
         use(std::move(settings));
     }
 
@@ -83,7 +83,7 @@ public:
     Stranger cut_stranger(Address const* from);
     bool draining() const { return last_moment_ != Steady::max(); }
     Shared& shared() const { return shared_; }
-    xml::RequestReader& reader() { return reader_; }
+    xml::RequestReader& reader() { return reader_.use(shared_.settings().document, shared_.settings().validation); }
     Executor executor() { return io_.get_executor(); }
     Wakes& wakes() { return wakes_; }
     Turns& turns() { return turns_; }  // of strangers

@@ -80,9 +80,6 @@ inline Settings with_changes(Settings present, Settings const& wanted) {
     next.host = std::move(present.host);
     next.port = present.port;
     next.threads = present.threads;
-    next.memory_budget = present.memory_budget;
-    next.document = present.document;
-    next.validation = present.validation;
     next.join = std::move(present.join);
     next.program_tokens = present.program_tokens;
     next.credentials = std::move(present.credentials);

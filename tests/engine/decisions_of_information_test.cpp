@@ -92,6 +92,30 @@ TEST(Decision21, DetailsAreKeptUntilTheyExpire) {
     EXPECT_THAT(desk.detail_of(event.event_id).reason, HasSubstr("expired"));
 }
 
+// Also for the details that are kept already.
+TEST(Decision21, TheTimeOfDetailsCanChange) {
+    World world{detection, navigation};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.subscribe("person_detected");
+    world["detection"].fires("person_detected", people(2));
+    world["navigation"].reports(ErrorType::component_internal_error, "no way");
+    desk.received();
+    auto const event = desk.last_received<ReceiveEvent>().event_id;
+    auto const error = desk.last_received<ReceiveError>().error_id;
+    world.engine->use({.event_details = 20s, .error_details = 30s});
+    world.advance(19'950ms);
+    EXPECT_EQ(desk.detail_of(event).return_code, ReturnCode::ok);
+    world.advance(50ms);
+    EXPECT_THAT(desk.detail_of(event).reason, HasSubstr("expired"));
+    EXPECT_EQ(desk.detail_of(error).return_code, ReturnCode::ok);
+    world.engine->use({.event_details = 20s, .error_details = 40s});
+    world.advance(15s);
+    EXPECT_EQ(desk.detail_of(error).return_code, ReturnCode::ok);
+    world.advance(5s);
+    EXPECT_THAT(desk.detail_of(error).reason, HasSubstr("expired"));
+}
+
 TEST(Decision22, NotificationsAreNumberedAsThingsHappen) {
     World world{detection, navigation};
     auto desk = world.connect();

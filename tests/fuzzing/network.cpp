@@ -46,7 +46,8 @@ void http(std::string_view input) {
 void websocket(std::string_view input) {
     auto const read = [&](std::size_t first) {
         std::string messages;
-        net::MessageReader reader{1'000, 16};
+        net::MessageReader reader;
+        reader.limit(1'000, 16);
         std::string bytes{input.substr(0, first)};
         auto rest = input.substr(first);
         while (true) {

@@ -357,6 +357,23 @@ TEST_F(JournalsFile, TakesNoMoreThanItsLimitWithItsLogAndTheReserve) {
     EXPECT_TRUE(file.has_reserve()) << "commands may begin again";
 }
 
+TEST_F(JournalsFile, HasAnotherLimitFromNowOn) {
+    JournalFile file{folder.name(), 10'000'000};
+    auto const large = [&](std::uint64_t session) {
+        return file.store({.set = {record(session, "large", std::string(1'500'000, 'x'))}});
+    };
+    EXPECT_EQ(large(1), JournalFile::Result::stored);
+    EXPECT_EQ(large(2), JournalFile::Result::no_room);
+    EXPECT_TRUE(file.limit(plenty));
+    EXPECT_EQ(large(2), JournalFile::Result::stored);
+    file.keep_reserve(Steady::clock::now());
+    EXPECT_TRUE(file.has_reserve());
+    EXPECT_TRUE(file.limit(10'000'000));
+    EXPECT_FALSE(file.has_reserve()) << "the database is larger: no command may begin";
+    EXPECT_EQ(file.store({.ended = {1}}), JournalFile::Result::stored);
+    EXPECT_EQ(large(1), JournalFile::Result::stored) << "it does not grow";
+}
+
 TEST_F(JournalsFile, IsReadQuickly) {
     if (kit::has_sanitizer) GTEST_SKIP() << "sanitizers are slow";
     constexpr int many = 100'000;

@@ -156,6 +156,18 @@ TEST_F(OfAudit, BeginsAnotherFileAndKeepsAFew) {
     for (auto const* end : {".1", ".2"}) std::filesystem::remove(file.name() + end);
 }
 
+TEST_F(OfAudit, HasOtherLimitsFromNowOn) {
+    {
+        AuditFile audit{file.name(), {}};
+        audit.limit(1'000, 1);
+        for (int i = 0; i < 100; ++i) audit.note({.what = "bound", .component = "navigation"});
+    }
+    EXPECT_LE(std::filesystem::file_size(file.name()), 1'000u);
+    EXPECT_LE(std::filesystem::file_size(file.name() + ".1"), 1'000u);
+    EXPECT_FALSE(std::filesystem::exists(file.name() + ".2"));
+    std::filesystem::remove(file.name() + ".1");
+}
+
 // A folder in the way of the next file; root may write everywhere.
 TEST_F(OfAudit, LosesNothingIfAnotherFileCannotBeBegun) {
     std::filesystem::create_directories(file.name() + ".1/in/the/way");

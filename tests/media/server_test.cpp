@@ -102,7 +102,7 @@ TEST_F(MediaServer, EndsTheConnectionWithTheOutlet) {
 
 TEST(MediaServerLimits, QueuesConnectionsBeyondTheLimit) {
     Settings settings;
-    settings.max_connections = 2;
+    settings.limits.max_connections = 2;
     Stage stage{settings};
     auto const outlet = stage.server.serve(Sound{}, Flow::on);
     auto one = std::make_unique<MediaReceiver>(outlet->address());
@@ -115,9 +115,24 @@ TEST(MediaServerLimits, QueuesConnectionsBeyondTheLimit) {
     EXPECT_THAT(third.take_until("\r\n\r\n"), StartsWith("HTTP/1.1 200 "));
 }
 
+TEST(MediaServerLimits, CanChangeWhileItRuns) {
+    Settings settings;
+    settings.limits.max_connections = 1;
+    Stage stage{settings};
+    auto const outlet = stage.server.serve(Sound{}, Flow::on);
+    MediaReceiver const one{outlet->address()};
+    MediaUrl const url{outlet->address()};
+    Line second{url.address};
+    second.send(media_request(url));
+    settings.limits.max_connections = 2;
+    settings.limits.request_timeout = std::chrono::milliseconds{100};
+    stage.server.use(settings.limits);
+    EXPECT_THAT(second.take_until("\r\n\r\n"), StartsWith("HTTP/1.1 200 "));
+}
+
 TEST(MediaServerLimits, LimitsTheTimeOfARequest) {
     Settings settings;
-    settings.request_timeout = std::chrono::milliseconds{100};
+    settings.limits.request_timeout = std::chrono::milliseconds{100};
     Stage stage{settings};
     Line line{MediaUrl{stage.server.url() + "/"}.address};
     line.send("GET / HTTP/1.1\r\nHo");
@@ -126,7 +141,7 @@ TEST(MediaServerLimits, LimitsTheTimeOfARequest) {
 
 TEST(MediaServerLimits, DisconnectsAReceiverThatDoesNotRead) {
     Settings settings;
-    settings.write_timeout = std::chrono::milliseconds{100};
+    settings.limits.write_timeout = std::chrono::milliseconds{100};
     Stage stage{settings};
     Picture large{.width = 1'600, .height = 1'200, .rgb = {}};
     std::uint32_t noise = 1;

@@ -141,12 +141,12 @@ std::string Reference::objection(int session, Plan const& plan) const {
     for (auto const& unit : plan)
         for (auto const& branch : unit)
             for (auto const& order : branch) {
-                if (order.component == nobody) return "BAD_PARAMETER";
-                if (components_[at(order.component)].bound_to != session) return "ERROR";
-                if (order.type == "dance") return "BAD_PARAMETER";
                 bool const is_taken = known.contains(order.name) || names.find(order.name) != names.npos;
                 if (is_taken && !is(Flaw::a_name_may_come_again)) return "BAD_PARAMETER";
                 names += order.name;
+                if (order.component == nobody) return "BAD_PARAMETER";
+                if (components_[at(order.component)].bound_to != session) return "ERROR";
+                if (order.type == "dance") return "BAD_PARAMETER";
             }
     return "";
 }

@@ -37,7 +37,8 @@ struct Read {
     CloseCode code;
 };
 Read read(std::string bytes) {
-    MessageReader reader{1'000'000, 10};
+    MessageReader reader;
+    reader.limit(1'000'000, 10);
     std::size_t used = 0;
     auto const received = reader.next(bytes, used);
     return {received.kind, std::string{received.text}, received.code};
@@ -84,7 +85,8 @@ TEST(Frame, OfACloseHasACodeAndAReasonThatFits) {
 
 TEST(MessageReader, WaitsForTheWholeFrame) {
     for (std::size_t const size : {0, 5, 125, 126, 300, 65'535, 65'536}) {
-        MessageReader reader{100'000, 10};
+        MessageReader reader;
+        reader.limit(100'000, 10);
         auto bytes = frame(0x81, std::string(size, 'x'));
         std::size_t used = 0;
         for (std::size_t cut = 0; cut < bytes.size(); cut += cut < 20 ? 1 : 997) {
@@ -99,7 +101,8 @@ TEST(MessageReader, WaitsForTheWholeFrame) {
 }
 
 TEST(MessageReader, JoinsFragmentsAroundAPing) {
-    MessageReader reader{100, 10};
+    MessageReader reader;
+    reader.limit(100, 10);
     std::size_t used = 0;
     auto first = frame(0x01, "\xE2\x82"), ping = frame(0x89, "?"), last = frame(0x80, "\xAC");
     EXPECT_EQ(reader.next(first, used).kind, Kind::fragment);
@@ -115,7 +118,8 @@ TEST(MessageReader, JoinsFragmentsAroundAPing) {
 }
 
 TEST(MessageReader, LimitsTheMessageNotTheFrame) {
-    MessageReader reader{100, 10};
+    MessageReader reader;
+    reader.limit(100, 10);
     std::size_t used = 0;
     auto half = frame(0x01, std::string(60, 'x')), more = frame(0x80, std::string(60, 'x'));
     reader.next(half, used);
@@ -129,7 +133,8 @@ TEST(MessageReader, RejectsAMessageThatIsTooLargeByItsHeadAlone) {
 }
 
 TEST(MessageReader, LimitsTheNumberOfFragments) {
-    MessageReader reader{100, 10};
+    MessageReader reader;
+    reader.limit(100, 10);
     std::size_t used = 0;
     auto first = frame(0x01, "");
     reader.next(first, used);
@@ -169,7 +174,8 @@ TEST(MessageReader, RejectsFragmentsOutOfOrder) {
     expect_protocol_error(frame(0x80, "x"), "a last fragment without a beginning");
     expect_protocol_error(frame(0x00, "x"), "a fragment without a beginning");
     for (unsigned const first_byte : {0x81U, 0x01U}) {
-        MessageReader reader{100, 10};
+        MessageReader reader;
+        reader.limit(100, 10);
         std::size_t used = 0;
         auto begun = frame(0x01, "x"), again = frame(first_byte, "x");
         reader.next(begun, used);
@@ -307,7 +313,8 @@ private:
 TEST(MessageReader, ReadsRandomDialoguesInRandomPieces) {
     for (unsigned seed = 0; seed < 100; ++seed) {
         Dialogue dialogue{seed, 20};
-        MessageReader reader{1 << 20, 10};
+        MessageReader reader;
+        reader.limit(1 << 20, 10);
         std::string input;
         for (std::size_t sent = 0; sent < dialogue.bytes.size();) {
             auto const size = std::min(dialogue.bytes.size() - sent, 1 + dialogue.below(3'000));
@@ -334,7 +341,8 @@ TEST(MessageReader, SurvivesRandomChanges) {
         auto input = dialogue.bytes.substr(0, 1 + dialogue.below(2'000));
         for (auto changes = 1 + dialogue.below(5); changes > 0; --changes)
             input[dialogue.below(input.size())] = static_cast<char>(dialogue.below(256));
-        MessageReader reader{1 << 16, 4};
+        MessageReader reader;
+        reader.limit(1 << 16, 4);
         for (bool goes_on = true; goes_on;) {
             std::vector<char> exact{input.begin(), input.end()};
             std::size_t used = 0;

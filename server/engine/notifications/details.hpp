@@ -38,6 +38,11 @@ public:
     Details(std::string prefix, std::chrono::milliseconds kept_for) : prefix_{std::move(prefix)}, kept_for_{kept_for} {}
 
     std::chrono::milliseconds kept_for() const { return kept_for_; }
+    // Also of the entries that are kept already.
+    void keep_for(std::chrono::milliseconds time) {
+        for (auto& entry : kept_) entry.until += time - kept_for_;
+        kept_for_ = time;
+    }
 
     // The number that the next id will have.
     std::uint64_t next() const { return first_ + kept_.size(); }

@@ -140,8 +140,8 @@ Task<Connection::Then> Connection::serve() {
             PendingAnswer answer;
             if (LongDocuments::is_long(body.size())) {
                 co_await flush();  // answers to earlier requests do not wait for this one
-                answer = co_await shared.long_documents.answer(shared.gateway, session_, body, Via::http, waker_, client_,
-                                                               loop_.wakes());
+                answer = co_await shared.long_documents.answer(shared.settings(), shared.gateway, session_, body, Via::http,
+                                                               waker_, client_, loop_.wakes());
             } else {
                 answer = shared.gateway.answer(loop_.reader(), session_, body, Via::http, waker_, client_);
             }

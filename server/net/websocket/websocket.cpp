@@ -33,8 +33,7 @@ WebSocket::WebSocket(std::shared_ptr<Wire> wire, Loop& loop, std::shared_ptr<Cli
       shared_{loop.shared()},
       received_at_{now()},
       pings_{static_cast<std::uint64_t>(received_at_.time_since_epoch().count())},
-      reader_{loop.reader()},
-      messages_{shared_.settings().document.bytes, shared_.settings().max_fragments},
+      loop_{loop},
       client_{std::move(client)} {}
 
 bool WebSocket::full() const {
@@ -81,6 +80,7 @@ bool WebSocket::take_frames() {
     while (!ending_ && !broken_) {
         if (last_answer_ || session_changes_ || full() || !long_message_.empty()) return false;
         std::size_t used = 0;
+        messages_.limit(shared_.settings().document.bytes, shared_.settings().max_fragments);
         auto const received = messages_.next(wire_->received(), used);
         if (received.kind == Received::Kind::nothing) break;
         if (received.kind == Received::Kind::text) message_due_ = Steady::max();  // the next message has its own deadline
@@ -105,7 +105,8 @@ void WebSocket::take(Received const& received) {
             else if (LongDocuments::is_long(received.text.size()))
                 long_message_ = received.text;
             else
-                take(shared_.gateway.answer(reader_, session_, received.text, Via::websocket, waker_, client_, reading_.get()));
+                take(shared_.gateway.answer(loop_.reader(), session_, received.text, Via::websocket, waker_, client_,
+                                            reading_.get()));
             break;
         case Received::Kind::ping:
             note_control();
@@ -191,7 +192,8 @@ Task<> WebSocket::pause() {
 
 Task<> WebSocket::answer_long_message() {
     auto const message = std::exchange(long_message_, {});
-    take(co_await shared_.long_documents.answer(shared_.gateway, session_, message, Via::websocket, waker_, client_, wakes()));
+    take(co_await shared_.long_documents.answer(shared_.settings(), shared_.gateway, session_, message, Via::websocket, waker_,
+                                                client_, wakes()));
 }
 
 // Sends the session's last notifications, waits until its other readers have received them too, and then answers the disconnect.

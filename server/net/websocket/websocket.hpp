@@ -98,7 +98,7 @@ private:
     Steady message_due_ = Steady::max();  // when the unfinished message must be complete
     Steady controls_since_;               // the beginning of the second in which control frames are counted
     unsigned controls_ = 0;
-    xml::RequestReader& reader_;
+    Loop& loop_;
     std::string long_message_;  // for the other thread; no more frames are handled meanwhile
     MessageReader messages_;
     SessionId session_;

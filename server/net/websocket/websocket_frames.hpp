@@ -70,9 +70,11 @@ struct Received {
 // Reads the messages of one connection.
 class MessageReader {
 public:
-    // Limits: bytes of a message, and its number of frames.
-    MessageReader(std::size_t max_message, std::size_t max_fragments)
-        : max_message_{max_message}, max_fragments_{max_fragments} {}
+    // The bytes of a message, and its number of frames.
+    void limit(std::size_t max_message, std::size_t max_fragments) {
+        max_message_ = max_message;
+        max_fragments_ = max_fragments;
+    }
 
     // Reads the frame at the front of `bytes` and unmasks its payload in place. Sets `used` to the size of the frame; 0 if it is
     // incomplete. The result is valid until the bytes change or until the next call.
@@ -89,8 +91,8 @@ private:
     static Received take_control(Head const&, std::string_view payload);
     Received take_part(Head const&, std::string_view payload);
 
-    std::size_t max_message_;
-    std::size_t max_fragments_;
+    std::size_t max_message_ = 0;
+    std::size_t max_fragments_ = 0;
     std::size_t fragments_ = 0;  // of the unfinished message
     std::string parts_;          // its payload so far
     std::string whole_;          // the last message that arrived in fragments

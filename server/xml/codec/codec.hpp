@@ -26,6 +26,8 @@ struct DocumentLimits {
     std::size_t name_length = 256;  // bytes
     std::size_t elements = 5'000;
     std::size_t namespaces = 64;  // declarations in scope: of an element and its ancestors
+
+    bool operator==(DocumentLimits const&) const = default;
 };
 
 // How documents are checked. Both ways accept the same documents and report the same faults.
@@ -40,6 +42,9 @@ public:
     explicit RequestReader(std::shared_ptr<Schemas const>, DocumentLimits = {}, Validation = Validation::fast);
     ~RequestReader();
     RequestReader(RequestReader&&) noexcept;
+
+    // From now on, checks documents like this. Returns this reader.
+    RequestReader& use(DocumentLimits const&, Validation);
 
     // Returns a fault for every invalid document, and never throws for one. The fault has the request_id if it could be read.
     std::variant<Request, Fault> read(std::string_view document);

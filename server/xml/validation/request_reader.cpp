@@ -9,7 +9,15 @@ namespace rois::xml {
 class RequestReader::Impl {
 public:
     Impl(std::shared_ptr<Schemas const> schemas, DocumentLimits limits, Validation validation)
-        : schemas_{schemas}, reader_{std::move(schemas), limits, operation_names(), ForeignNamespaces::refused, validation} {}
+        : schemas_{schemas},
+          limits_{limits},
+          validation_{validation},
+          reader_{std::move(schemas), limits, operation_names(), ForeignNamespaces::refused, validation} {}
+
+    bool uses(DocumentLimits const& limits, Validation validation) const {
+        return limits == limits_ && validation == validation_;
+    }
+    std::shared_ptr<Schemas const> const& schemas() const { return schemas_; }
 
     std::variant<Request, Fault> read(std::string_view document) {
         if (auto fault = reader_.read(document)) return *std::move(fault);
@@ -27,6 +35,8 @@ public:
 
 private:
     std::shared_ptr<Schemas const> schemas_;
+    DocumentLimits limits_;
+    Validation validation_;
     CheckedReader reader_;
 };
 
@@ -36,6 +46,11 @@ RequestReader::RequestReader(std::shared_ptr<Schemas const> schemas, DocumentLim
 RequestReader::~RequestReader() = default;
 
 RequestReader::RequestReader(RequestReader&&) noexcept = default;
+
+RequestReader& RequestReader::use(DocumentLimits const& limits, Validation validation) {
+    if (!impl_->uses(limits, validation)) impl_ = std::make_unique<Impl>(impl_->schemas(), limits, validation);
+    return *this;
+}
 
 std::variant<Request, Fault> RequestReader::read(std::string_view document) { return impl_->read(document); }
 
