@@ -1,7 +1,9 @@
 #include "component_test/checks.hpp"
 
 #include <algorithm>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "component_test/steps.hpp"
 #include "types/text/texts.hpp"
@@ -109,7 +111,13 @@ void knows_its_commands_when_the_link_returns(Program& program) {
     require(program.ask(GetCommandResult{{unknown_name}, {}}).return_code == ReturnCode::bad_parameter,
             "get_command_result of an unknown command: expected BAD_PARAMETER");
     stop(program, ref);
-    program.completed(id, longest_halt);
+    auto const ended = program.completed(id, longest_halt);
+    auto const told = program.ask(GetCommandResult{{id}, {}});
+    require_ok(told, "get_command_result of a command that has ended");
+    std::string const expected{to_text(ended.status)};
+    auto const* const status = find(told.results.parameters, "status");
+    require(status != nullptr && status->values == std::vector{expected},
+            "get_command_result of a command that has ended: expected the status " + expected + ", as in its completed");
 }
 
 // Starts all that each component can do. Nothing is started if the program refuses it.

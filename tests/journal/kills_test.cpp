@@ -2,11 +2,15 @@
 // the checks read only their own records. ROIS_KILLS sets how often it is killed, and ROIS_SEED when.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -181,6 +185,9 @@ public:
             std::ranges::count(given_, Given::acknowledged, [](auto const& each) { return each.second; }));
     }
 
+    // The commands that may have begun.
+    std::size_t starts() const { return (last_ + 1) / 2; }
+
     // The notifications that are not the end of a command.
     std::size_t others() const { return received_.size() - acknowledged(); }
 
@@ -226,7 +233,9 @@ private:
             given_[waiting_] = Given::acknowledged;
         else if (!answer.return_code.empty())
             given_[waiting_] = Given::refused;
-        if (given_[waiting_] != Given::acknowledged && problems_.size() < 10)
+        if (given_[waiting_] == Given::refused && is_of_sub_engine_)
+            is_bound_ = false;  // the sub engine may be away
+        else if (given_[waiting_] != Given::acknowledged && problems_.size() < 10)
             problems_.push_back(component_ + ": execute: " + answer.whole);
         waiting_.clear();
     }
@@ -234,9 +243,9 @@ private:
     // Half of the commands run for longer than the gateway lives.
     Command next() const {
         if (last_ % 2 == 0) return {.component = component_, .type = "stop", .id = waiting_};
-        if (component_ == "navigation")
+        if (component_.ends_with("navigation"))
             return {.component = component_, .id = waiting_, .arguments = {target_position({"9000, 2000, 0"})}};
-        if (component_ == "speech_synthesis")
+        if (component_.ends_with("speech_synthesis"))
             return {
                 .component = component_, .id = waiting_, .arguments = {speech_text("Good morning, and welcome to the hall.")}};
         return {.component = component_, .id = waiting_};
@@ -250,6 +259,7 @@ private:
     }
 
     std::string const component_;
+    bool const is_of_sub_engine_ = component_.find('.') != component_.npos;
     Transport const transport_;
     Whereabouts& where_;
     std::string session_;
@@ -261,41 +271,99 @@ private:
     std::vector<std::string> problems_;
 };
 
+// Kills one of the gateways `kills` times, while the witnesses use the first one.
+class Hall {
+public:
+    // `arguments`: of each gateway.
+    explicit Hall(std::vector<std::vector<std::string>> arguments) : arguments_{std::move(arguments)} {
+        for (auto const& each : arguments_) gateways_.push_back(std::make_unique<GatewayProcess>(each));
+        where_.set(gateways_.front()->address());
+    }
+
+    void add(std::string component, Transport transport) {
+        witnesses_.push_back(std::make_unique<Witness>(std::move(component), transport, where_));
+    }
+
+    void play() {
+        auto const kills = number_in("ROIS_KILLS", 5);
+        std::mt19937_64 random{number_in("ROIS_SEED", 1)};
+        std::atomic<bool> done = false;
+        std::vector<std::jthread> threads;
+        for (auto const& witness : witnesses_) threads.emplace_back([&] { witness->run(done); });
+        for (unsigned long kill = 0; kill < kills; ++kill) {
+            std::this_thread::sleep_for(std::chrono::microseconds{std::uniform_int_distribution{20'000, 300'000}(random)});
+            auto const which = std::uniform_int_distribution<std::size_t>{0, gateways_.size() - 1}(random);
+            auto& gateway = gateways_[which];
+            gateway->signal(SIGKILL);
+            logs_ += gateway->wait().error;
+            gateway = std::make_unique<GatewayProcess>(arguments_[which]);
+            if (which == 0) where_.set(gateway->address());
+        }
+        std::this_thread::sleep_for(100ms);
+        done = true;
+        threads.clear();
+        std::size_t acknowledged = 0, others = 0;
+        for (auto const& witness : witnesses_) {
+            witness->expect_promises_kept();
+            acknowledged += witness->acknowledged();
+            others += witness->others();
+        }
+        std::printf("%lu kills, %zu commands acknowledged, %zu events and errors\n", kills, acknowledged, others);
+    }
+
+    std::vector<std::unique_ptr<Witness>> const& witnesses() const { return witnesses_; }
+
+    // Ends all gateways, and returns the logs of all that ever ran.
+    std::string logs() {
+        for (auto& gateway : gateways_) {
+            gateway->signal(SIGTERM);
+            logs_ += gateway->wait().error;
+        }
+        gateways_.clear();
+        return logs_;
+    }
+
+private:
+    std::vector<std::vector<std::string>> arguments_;
+    std::vector<std::unique_ptr<GatewayProcess>> gateways_;
+    std::string logs_;
+    Whereabouts where_;
+    std::vector<std::unique_ptr<Witness>> witnesses_;
+};
+
 }  // namespace
 
 TEST(Kills, LoseNothingAndRepeatNothing) {
-    auto const kills = number_in("ROIS_KILLS", 5);
-    std::mt19937_64 random{number_in("ROIS_SEED", 1)};
     StateFolder const folder;
-    Whereabouts where;
-    std::vector<std::unique_ptr<Witness>> witnesses;
-    for (auto const& [component, transport] : {std::pair{"navigation", Transport::http},
-                                               {"speech_synthesis", Transport::http},
-                                               {"person_detection", Transport::websocket},
-                                               {"sound_detection", Transport::websocket}})
-        witnesses.push_back(std::make_unique<Witness>(component, transport, where));
-    std::atomic<bool> done = false;
-    auto gateway = std::make_unique<GatewayProcess>(folder.arguments());
-    where.set(gateway->address());
-    std::vector<std::jthread> threads;
-    for (auto const& witness : witnesses) threads.emplace_back([&] { witness->run(done); });
-    for (unsigned long kill = 0; kill < kills; ++kill) {
-        std::this_thread::sleep_for(std::chrono::microseconds{std::uniform_int_distribution{20'000, 300'000}(random)});
-        gateway->signal(SIGKILL);
-        gateway->wait();
-        gateway = std::make_unique<GatewayProcess>(folder.arguments());
-        where.set(gateway->address());
+    Hall hall{{folder.arguments()}};
+    hall.add("navigation", Transport::http);
+    hall.add("speech_synthesis", Transport::http);
+    hall.add("person_detection", Transport::websocket);
+    hall.add("sound_detection", Transport::websocket);
+    hall.play();
+}
+
+// Either engine is killed. What an application commands runs in the sub engine.
+TEST(Kills, LoseNothingOfASubEngineAndRepeatNothingThere) {
+    StateFolder const folder, folder_of_robot;
+    auto const port = std::to_string(20'000 + ::getpid() % 10'000);  // the system gives none of these to other sockets
+    auto const engines = folder.name() + ".json";
+    std::ofstream{engines} << R"({"engines": [{"name": "robot1", "url": "ws://127.0.0.1:)" << port << R"("}]})";
+    Hall hall{{{"--state", folder.name(), "--robots", "none", "--engines", engines},
+               {"--state", folder_of_robot.name(), "--listen", "127.0.0.1:" + port, "--log-level", "debug"}}};
+    std::array const components{"navigation", "speech_synthesis", "person_detection", "sound_detection"};
+    for (std::string const name : components)
+        hall.add("robot1." + name, name.ends_with("detection") ? Transport::websocket : Transport::http);
+    hall.play();
+    auto const logs = hall.logs();
+    for (std::size_t i = 0; i < components.size(); ++i) {
+        auto const began = "start of " + std::string{components[i]} + ", begins";
+        std::size_t times = 0;
+        for (auto at = logs.find(began); at != logs.npos; at = logs.find(began, at + 1)) ++times;
+        EXPECT_GT(times, 0U) << began;
+        EXPECT_LE(times, hall.witnesses()[i]->starts()) << began;
     }
-    std::this_thread::sleep_for(100ms);
-    done = true;
-    threads.clear();
-    std::size_t acknowledged = 0, others = 0;
-    for (auto const& witness : witnesses) {
-        witness->expect_promises_kept();
-        acknowledged += witness->acknowledged();
-        others += witness->others();
-    }
-    std::printf("%lu kills, %zu commands acknowledged, %zu events and errors\n", kills, acknowledged, others);
+    std::filesystem::remove(engines);
 }
 
 }  // namespace rois::test
