@@ -99,9 +99,10 @@ TEST(Decision21, TheTimeOfDetailsCanChange) {
     desk.bind("navigation");
     desk.subscribe("person_detected");
     world["detection"].fires("person_detected", people(2));
-    world["navigation"].reports(ErrorType::component_internal_error, "no way");
     desk.received();
     auto const event = desk.last_received<ReceiveEvent>().event_id;
+    world["navigation"].reports(ErrorType::component_internal_error, "no way");
+    desk.received();
     auto const error = desk.last_received<ReceiveError>().error_id;
     world.engine->use({.event_details = 20s, .error_details = 30s});
     world.advance(19'950ms);

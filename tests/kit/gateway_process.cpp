@@ -87,7 +87,9 @@ Address GatewayProcess::media_address() {
 
 std::string GatewayProcess::log_with(std::string_view text) {
     std::unique_lock lock{mutex_};
-    news_.wait_for(lock, std::chrono::seconds{10}, [&] { return ended_ || log_.find(text) != std::string::npos; });
+    auto const is_there = [&] { return log_.find(text) != std::string::npos; };
+    news_.wait_for(lock, std::chrono::seconds{10}, [&] { return ended_ || is_there(); });
+    EXPECT_TRUE(is_there()) << "in the log: " << text;
     return log_;
 }
 

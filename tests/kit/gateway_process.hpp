@@ -40,7 +40,7 @@ public:
     // Limits the address space of the process to its present size and this number of bytes.
     void limit_address_space(std::size_t more) const;
 
-    // Returns the log as soon as it contains the text, or after ten seconds.
+    // Returns the log as soon as it contains the text. It must come within ten seconds.
     std::string log_with(std::string_view text);
 
     void signal(int number);

@@ -63,7 +63,7 @@ TEST_F(HangUp, ChangesTheLimitsOfTokens) {
     desk.call("bind", component_ref("navigation"));
     put(R"({"max_sessions": 1, "max_sessions_per_address": 1, "max_wrong_tokens": 1})");
     gateway.signal(SIGHUP);
-    gateway.log_with("the settings read again");
+    gateway.log_with("the settings and the tokens read again");
     EXPECT_THAT(same.call("connect").reason(), HasSubstr("this token has 1 sessions open already"));
     EXPECT_THAT(hall.call("connect").reason(), HasSubstr("too many sessions are open"));
     HttpClient stranger{gateway};
@@ -87,7 +87,7 @@ TEST_F(HangUp, ChangesTheLimitsOfDocuments) {
     client.call("connect");
     socket.call("connect");
     auto const by_socket = [&](std::string const& document) {
-        socket.send_raw(0x01, document);
+        socket.send_raw(0x81, document);
         return socket.next_document();
     };
     for (auto const blanks : {0, 40'000}) {  // another thread reads long documents
@@ -103,7 +103,7 @@ TEST_F(HangUp, ChangesTheLimitsOfDocuments) {
         EXPECT_EQ(client.post(query_with(2, blanks)).status, 200);
     }
     EXPECT_EQ(client.post(query_with(2, 50'000)).status, 413);
-    socket.send_raw(0x01, query_with(2, 50'000));
+    socket.send_raw(0x81, query_with(2, 50'000));
     EXPECT_EQ(socket.await_close(), 1009);
 }
 
