@@ -366,7 +366,7 @@ TEST_F(JournalsFile, HasAnotherLimitFromNowOn) {
     EXPECT_EQ(large(2), JournalFile::Result::no_room);
     EXPECT_TRUE(file.limit(plenty));
     EXPECT_EQ(large(2), JournalFile::Result::stored);
-    file.keep_reserve(Steady::clock::now());
+    file.keep_reserve(Steady::clock::now() + std::chrono::hours{1});
     EXPECT_TRUE(file.has_reserve());
     EXPECT_TRUE(file.limit(10'000'000));
     EXPECT_FALSE(file.has_reserve()) << "the database is larger: no command may begin";

@@ -63,7 +63,7 @@ TEST_F(HangUp, ChangesTheLimitsOfTokens) {
     desk.call("bind", component_ref("navigation"));
     put(R"({"max_sessions": 1, "max_sessions_per_address": 1, "max_wrong_tokens": 1})");
     gateway.signal(SIGHUP);
-    gateway.log_with("the settings and the tokens read again");
+    gateway.log_with("the settings, the tokens read again");
     EXPECT_THAT(same.call("connect").reason(), HasSubstr("this token has 1 sessions open already"));
     EXPECT_THAT(hall.call("connect").reason(), HasSubstr("too many sessions are open"));
     HttpClient stranger{gateway};
