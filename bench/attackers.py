@@ -12,7 +12,7 @@ import sys
 import threading
 import time
 
-from documents import MESSAGE, ROIS, execute, is_equal, parameter, query, subscribe, unit
+from documents import MESSAGE, ROIS, execute, is_equal, is_like, parameter, query, subscribe, unit
 
 BIG = 880_000  # bytes of one text, below the limit of a document
 HOST = "127.0.0.1"
@@ -205,6 +205,22 @@ def literals(port):
     each(port, 60, act)
 
 
+def patterns(port):
+    """A session that compares 16 kB with 250 patterns, on 16 connections."""
+    owner = Line(port)
+    owner.connect()
+    owner.post(bind("speech_synthesis"))
+    text = parameter("rois:parameter", "speech_text", "string", "x" * 16_000)
+    owner.post(execute([unit("speech_synthesis", "set_parameter", text)]))
+    search = query("component_status", [is_like("speech_text", f"*no{number}") for number in range(250)])
+
+    def act(one, _):
+        one.session = owner.session
+        one.post(search)
+
+    each(port, 16, act)
+
+
 def bodies(port):
     """200 bodies of 0.9 MB that are never finished."""
     head = Line(port).head(BIG + 1)
@@ -388,6 +404,7 @@ FLOODS = {
         garbage,
         predicates,
         literals,
+        patterns,
         bodies,
         commands,
         sessions,

@@ -17,6 +17,13 @@ def is_equal(reference, literal):
     )
 
 
+def is_like(reference, pattern):
+    return (
+        f'<fes:PropertyIsLike wildCard="*" singleChar="?" escapeChar="!"><fes:ValueReference>{reference}</fes:ValueReference>'
+        f"<fes:Literal>{pattern}</fes:Literal></fes:PropertyIsLike>"
+    )
+
+
 def condition(predicates, operator="Or"):
     if not predicates:
         return ""

@@ -50,6 +50,7 @@ void serve(Setting const& setting) {
     EngineSettings engine_settings;
     engine_settings.max_sessions = 100'000;
     engine_settings.max_predicates = 10'000'000;
+    engine_settings.max_condition_steps = 1'000'000'000'000;
     engine_settings.max_waiting_notifications = 100'000;  // the benchmark of set_parameter over HTTP does not fetch them
     Readers readers;
     Engine engine{profile, known_profiles(), engine_settings, readers, fresh_secret};

@@ -91,6 +91,9 @@ void start_watcher(int input) {
 [[noreturn]] void become(char const* folder, char* const* command, char* const* environment, int output, int gateway) {
     ::setpgid(0, 0);  // what it starts itself ends with it
     ::signal(SIGPIPE, SIG_DFL);
+    sigset_t none;
+    ::sigemptyset(&none);
+    ::pthread_sigmask(SIG_SETMASK, &none, nullptr);  // this thread may hold signals back
     start_watcher(gateway);
     ::dup2(::open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
     ::dup2(output, STDOUT_FILENO);

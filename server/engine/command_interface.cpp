@@ -389,7 +389,7 @@ Engine::Core::Later Engine::Core::prepare(Session& session, SharedAsked const& a
 Engine::Core::Later Engine::Core::perform(Session& session, SetParameter const& set, SharedAsked const& asked, Instant now) {
     CommandMessage message{
         .component_ref = set.component_ref, .command_type = "set_parameter", .command_id = {}, .arguments = set.parameters};
-    SequenceCheck check{session, registry_};
+    SequenceCheck check{session, registry_, frames_seen_by(session)};
     if (auto problem = check.objection(message))
         return refused<SetParameter::Reply>(problem->return_code, std::move(problem->reason));
     auto then = [this, asked, message = std::move(message), only_check = set.check_only](
@@ -408,7 +408,7 @@ Engine::Core::Later Engine::Core::perform(Session& session, SetParameter const& 
 
 Engine::Core::Later Engine::Core::perform(Session& session, Execute const& execute, SharedAsked const& asked, Instant now) {
     executor_.forget_old_results(session, now);
-    SequenceCheck check{session, registry_};
+    SequenceCheck check{session, registry_, frames_seen_by(session)};
     if (auto problem = check.objection(execute.command_unit_list))
         return refused<Execute::Reply>(problem->return_code, std::move(problem->reason));
     bool const begins = check.begins_something(), lasts = begins || check.delays_something();

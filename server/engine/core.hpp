@@ -18,6 +18,7 @@
 #include "engine/commands/deadlines.hpp"
 #include "engine/commands/executor.hpp"
 #include "engine/commands/sequence_check.hpp"
+#include "engine/conditions/effort.hpp"
 #include "engine/conditions/filter.hpp"
 #include "engine/engine.hpp"
 #include "engine/frames/perspective.hpp"
@@ -40,7 +41,12 @@ public:
     Core(EngineProfile profile, std::vector<ComponentProfile> known_profiles, EngineSettings const& settings, Outbox& outbox,
          FreshSecret fresh_secret);
 
-    void use(EngineSettings const&);
+    void use(EngineSettings const& settings) {
+        settings_ = with_changes(settings_, settings);
+        effort_.limit(settings_.max_condition_steps);
+        events_.keep_for(settings_.event_details);
+        errors_.keep_for(settings_.error_details);
+    }
     void report_to(Trace& trace) { trace_ = &trace; }
     void keep_within(MemoryBudget& memory) { memory_ = &memory; }
     void add(std::unique_ptr<Component>);
@@ -223,10 +229,16 @@ private:
     ReceiveError noted(FoundError const&, Instant now);
 
     // Conditions (conditions.cpp)
+    // The session pays for what is matched during this turn.
+    Effort::Turn turn_of(Session& session, Instant now) { return {effort_, session.effort, sessions_.size(), now.steady}; }
+    // The answer to a request whose condition needs more steps than the session has now.
+    template <class R>
+    R too_much_effort();
     // The components and places that this session sees; null: all.
     Perspective perspective(Session const* asker, Perspective::Of of) const {
         return {registry_, places_, asker == nullptr ? places_ : places_seen_by(asker->rights.get()), asker, of};
     }
+    Frames const& frames_seen_by(Session const& asker) const { return places_seen_by(asker.rights.get()).frames; }
     // The names that the asker may use: those of components that it sees.
     Vocabulary vocabulary(Session const& asker) const {
         auto const* rights = asker.rights.get();
@@ -264,6 +276,8 @@ private:
     template <class R>
     R reply_with(Details::Answer const&, std::string_view kind, std::string const& id, QueryExpression const&,
                  Session const& asker) const;
+    // Whether the asker may not learn the members of this logical component, and so not the text of its errors (docs/trust.md).
+    bool hides_members(Session const& asker, std::string const& ref) const;
     // Sets the results of this reply. Returns why there are none, or nullopt.
     std::optional<std::string> choose_details(Results&, Details::Answer const&, std::string_view kind, std::string const& id,
                                               QueryExpression const&, Session const& asker) const;
@@ -343,6 +357,8 @@ private:
     Deadlines deadlines_;
     Deadlines::Ticket last_due_ = Deadlines::first();  // of the deadlines that were carried out since the last tick
     Notifier notifier_;
+    Effort effort_;
+    std::uint64_t event_ = 0;  // number of the event that is being delivered
     Executor executor_;
     Details events_;
     KeptEvents kept_events_;
@@ -387,6 +403,14 @@ R refused(ReturnCode code, std::string reason) {
     reply.return_code = code;
     reply.reason = std::move(reason);
     return reply;
+}
+
+template <class R>
+R Engine::Core::too_much_effort() {
+    effort_.count_refusal();
+    return refused<R>(ReturnCode::out_of_resources,
+                      "the conditions of this session need too many comparisons; try again later, or with a simpler condition "
+                      "(docs/conditions.md)");
 }
 
 template <class R>

@@ -19,6 +19,7 @@ Engine::Core::Core(EngineProfile profile, std::vector<ComponentProfile> known_pr
       profile_{std::move(profile)},
       recorder_{outbox, sessions_},
       notifier_{recorder_},
+      effort_{settings_.max_condition_steps},
       executor_{settings_, registry_, agenda_, deadlines_, notifier_, questions_, trace_, recorder_},
       events_{"e-", settings_.event_details},
       kept_events_{settings_.max_kept_events},
@@ -72,13 +73,18 @@ void Engine::Core::take(std::shared_ptr<Asked> const& asked, Instant now) {
     if (session == nullptr || session->rights != asked->rights) return asked->refuse(Refusal::no_session);
     session->lease.request_received(now.steady);
     auto const too_long = why_too_long(operation);
+    auto const turn = turn_of(*session, now);
     auto reply = std::visit(
         [&]<class Known>(Known const& known) -> Later {
             if (too_long) return refused<typename Known::Reply>(ReturnCode::bad_parameter, *too_long);
-            if constexpr (requires { perform(*session, known, asked, now); })
-                return perform(*session, known, asked, now);
-            else
-                return perform(*session, known, now);
+            try {
+                if constexpr (requires { perform(*session, known, asked, now); })
+                    return perform(*session, known, asked, now);
+                else
+                    return perform(*session, known, now);
+            } catch (TooMuchEffort const&) {
+                return too_much_effort<typename Known::Reply>();
+            }
         },
         operation);
     if (reply) answer(asked, *session, std::move(*reply));
@@ -136,12 +142,6 @@ void Engine::Core::begin(Instant now) {
 }
 
 // If a part of the tick fails, the others still run. Throws the first failure at the end; a later tick repeats the failed part.
-void Engine::Core::use(EngineSettings const& settings) {
-    settings_ = with_changes(settings_, settings);
-    events_.keep_for(settings_.event_details);
-    errors_.keep_for(settings_.error_details);
-}
-
 void Engine::Core::tick(Instant now) {
     Attempts attempts;
     if (unsettled_) attempts.note(std::exchange(unsettled_, nullptr));
@@ -471,6 +471,7 @@ EngineStatistics Engine::Core::statistics() const {
                       {"subscribed_predicates", settings_.max_subscribed_predicates, refused_.predicates},
                       {"predicates", settings_.max_predicates, refused_.all_predicates},
                       {"condition_bytes", settings_.max_condition_bytes, refused_.condition_bytes},
+                      {"condition_steps", settings_.max_condition_steps, effort_.refusals()},
                       {"waiting_notifications", waiting, notifier_.lost() + notifier_.overflows()}};
     if (memory_->total() == MemoryBudget::none().total()) return numbers;
     numbers.limits.push_back({"memory_budget", memory_->total(), memory_->refusals()});

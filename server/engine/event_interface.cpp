@@ -85,6 +85,9 @@ std::optional<std::string> Engine::Core::choose_details(Results& results, Detail
     if (details.found == Details::Found::unknown) return "unknown " + kind_text + "_id " + quoted(id);
     if (details.found == Details::Found::expired) return "the details of the " + kind_text + " " + quoted(id) + " have expired";
     results = *details.results;
+    auto const* const of = details.message == nullptr ? rois::find(results.parameters, "component_ref") : nullptr;
+    if (of != nullptr && hides_members(asker, of->values.front()))
+        std::erase_if(results.parameters, [](Parameter const& each) { return each.name == "text"; });
     return choose(results, condition, declared_details(details.message.get()), id, asker);
 }
 
@@ -134,15 +137,45 @@ bool Engine::Core::deliver(RegisteredComponent& component, std::string const& ev
         return subscription.filter.match(MessageCandidate{askers.candidate(component), *results}) == Match::yes;
     };
     bool begun = false;  // some subscriber may have been notified
-    auto const sees = [&](Subscription::Subscriber const& one) { return may_see(one.rights, component.ref().code); };
-    auto const deliver_to = [&](Subscription& subscription) {
+    ++event_;
+    // The session has no steps left: it is told that it has perhaps missed this event.
+    auto const miss = [&](Subscription::Subscriber const& one) {
+        if (std::exchange(one.session->missed, event_) == event_) return;
+        effort_.count_refusal();
+        begun = true;
+        deliveries([&] { notifier_.lose(*one.queue, component.answer_to(*one.session)); });
+    };
+    std::vector<Subscription::Subscriber const*> receivers, undecided;
+    // Those that may see everything have a match in common, for which the first one with steps left pays.
+    auto const find_receivers = [&](Subscription const& subscription) {
         bool const each = subscription.filter.depends_on_asker();
-        bool const all = !each && subscription.filter.match(candidate) == Match::yes;  // that may see everything
-        auto const is_for = [&](Subscription::Subscriber const& one) {
+        std::optional<bool> common = subscription.filter.restricts() ? std::nullopt : std::optional{true};
+        receivers.clear();
+        undecided.clear();
+        for (auto const& one : subscription.subscribers) {
+            if (!may_see(one.rights, component.ref().code)) continue;
             bool const alone = each || (subscription.filter.restricts() && !may_see_everything(one.rights));
-            return sees(one) && (alone ? matches(subscription, *one.session) : all);
-        };
-        if (std::ranges::none_of(subscription.subscribers, is_for)) return;
+            auto met = alone ? std::nullopt : common;
+            if (!met && effort_.has_left(one.session->effort, sessions_.size(), now.steady)) {
+                auto const turn = turn_of(*one.session, now);
+                try {
+                    met = alone ? matches(subscription, *one.session) : subscription.filter.match(candidate) == Match::yes;
+                } catch (TooMuchEffort const&) {  // it stays open
+                }
+            }
+            if (!met) (alone ? miss(one) : undecided.push_back(&one));
+            if (met && !alone) common = met;
+            if (met.value_or(false)) receivers.push_back(&one);
+        }
+        for (auto const* one : undecided)
+            if (!common)
+                miss(*one);
+            else if (*common)
+                receivers.push_back(one);
+    };
+    auto const deliver_to = [&](Subscription& subscription) {
+        find_receivers(subscription);
+        if (receivers.empty()) return;
         if (event_id.empty()) {
             auto const& profile = component.entry().profile;
             event_id = events_.add(results, {profile, find_message(*profile, MessageKind::event, event_type)}, now);
@@ -155,13 +188,11 @@ bool Engine::Core::deliver(RegisteredComponent& component, std::string const& ev
                                           .results = nullptr},
                                          results};
         begun = true;
-        auto const& subscribers = subscription.subscribers;
-        for (auto const& subscriber : subscribers) {
+        for (auto const* subscriber : receivers) {
             deliveries([&] {
-                if (!is_for(subscriber)) return;
-                events_.add_receiver(subscriber.slot);
-                notifier_.notify(*subscriber.queue, notifications.of(subscriber.inline_results),
-                                 component.answer_to(*subscriber.session));
+                events_.add_receiver(subscriber->slot);
+                notifier_.notify(*subscriber->queue, notifications.of(subscriber->inline_results),
+                                 component.answer_to(*subscriber->session));
             });
         }
     };

@@ -190,7 +190,14 @@ void Engine::Core::Inquiry::ask(std::size_t place, Steady due, Then then, Instan
 }
 
 void Engine::Core::Inquiry::end(Instant now) {
-    core_.answer_later(asked_, [&](Session& asker) { return (this->*then_)(asker, now); });
+    core_.answer_later(asked_, [&](Session& asker) -> Later {
+        auto const turn = core_.turn_of(asker, now);
+        try {
+            return (this->*then_)(asker, now);
+        } catch (TooMuchEffort const&) {
+            return core_.too_much_effort<Query::Reply>();
+        }
+    });
 }
 
 void Engine::Core::Inquiry::take(std::size_t place, std::optional<ComponentAnswer>&& answer) {

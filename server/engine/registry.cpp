@@ -274,7 +274,8 @@ void RegisteredComponent::restore_defaults(Instant now) {
 ParameterList RegisteredComponent::changed_parameters() const { return parameters == defaults_ ? ParameterList{} : parameters; }
 
 void RegisteredComponent::restore_parameters(ParameterList const& earlier, Instant now) {
-    if (earlier.empty() || why_not(settable_, earlier) || why_no_frame(earlier) || why_no_codebook(settable_, earlier)) return;
+    if (earlier.empty() || why_not(settable_, earlier) || why_no_frame(earlier, frames_) || why_no_codebook(settable_, earlier))
+        return;
     parameters = merged(std::move(parameters), earlier);
     notify_of_parameters(now);
 }
@@ -313,13 +314,13 @@ bool RegisteredComponent::to_engine_frame(Results& results, std::string_view mes
 
 bool RegisteredComponent::is_position(std::string_view parameter) const { return is_among(positions_, parameter); }
 
-std::optional<std::string> RegisteredComponent::why_no_frame(ParameterList const& normalized, Rights const* asker) const {
-    if (frames_.own().empty()) return {};
+std::optional<std::string> RegisteredComponent::why_no_frame(ParameterList const& normalized, Frames const& known) const {
+    if (known.own().empty()) return {};
     for (auto const& parameter : normalized) {
         auto const& crs = parameter.data_type_ref.codebook_ref;
-        if (is_position(parameter.name) && !frames_.know(crs))
-            return "parameter " + quoted(parameter.name) + ": the frame " + quoted(crs, 200) + " is not known here" +
-                   (may_see_everything(asker) ? "; expected one of " + first_listed(frames_.names()) : "");
+        if (is_position(parameter.name) && !known.know(crs))
+            return "parameter " + quoted(parameter.name) + ": the frame " + quoted(crs, 200) +
+                   " is not known here; expected one of " + first_listed(known.names());
     }
     return {};
 }

@@ -111,9 +111,8 @@ public:
     bool has_result(std::string_view name) const;
     std::optional<Located> const& location() const { return state_.location; }
 
-    // Returns which position is in an unknown frame, or nullopt. The parameters must be normalized.
-    // It lists the known frames to those who see everything.
-    std::optional<std::string> why_no_frame(ParameterList const& normalized, Rights const* asker = nullptr) const;
+    // Returns which position is in a frame that is not among `known`, or nullopt. The parameters must be normalized.
+    std::optional<std::string> why_no_frame(ParameterList const& normalized, Frames const& known) const;
 
     // Returns which identifier is from a codebook that the component does not know (decision 31), or nullopt. `profiles`: the
     // parameters' profiles. The parameters must be normalized.

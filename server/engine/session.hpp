@@ -15,6 +15,7 @@
 #include "engine/commands/command.hpp"
 #include "engine/commands/deadlines.hpp"
 #include "engine/commands/motion_lease.hpp"
+#include "engine/conditions/effort.hpp"
 #include "engine/journal/journal.hpp"
 #include "engine/notifications/details.hpp"
 #include "engine/notifications/notification_queue.hpp"
@@ -44,8 +45,10 @@ struct Session {
     std::set<RegisteredComponent*> bound;
     std::vector<StoredBinding> absent;  // bindings from before a restart, until their components have returned and confirmed them
     std::set<Subscription*> subscriptions;
-    std::size_t predicates = 0;                                                // total in the conditions of the subscriptions
-    std::size_t condition_bytes = 0;                                           // total length of the texts in these conditions
+    std::size_t predicates = 0;       // total in the conditions of the subscriptions
+    std::size_t condition_bytes = 0;  // total length of the texts in these conditions
+    Effort::Account effort;           // for matching conditions
+    std::uint64_t missed = 0;         // the last event (Core::event_) that was not compared with a condition of it
     std::unordered_map<CommandId, std::shared_ptr<Command>, IdHash> commands;  // all known commands (decision 17)
     std::list<std::shared_ptr<Command>> ended;  // the ended commands of `commands`, oldest end first
     std::size_t live_commands() const { return commands.size() - ended.size(); }

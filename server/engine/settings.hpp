@@ -18,6 +18,7 @@ struct EngineSettings {
     std::size_t max_subscribed_predicates = 10'000;  // total in the conditions of a session's subscriptions (docs/conditions.md)
     std::size_t max_predicates = 100'000;            // total in the conditions of all subscriptions
     std::size_t max_condition_bytes = 1 << 20;       // total text in the conditions of a session's subscriptions
+    std::size_t max_condition_steps = 40'000'000;    // a second, for matching conditions (engine/conditions/effort.hpp)
     std::chrono::milliseconds command_results = std::chrono::minutes{10};
     std::chrono::milliseconds event_details = std::chrono::seconds{60};     // `expire` (decision 21)
     std::chrono::milliseconds error_details = std::chrono::minutes{10};     // decision 24

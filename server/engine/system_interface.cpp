@@ -116,6 +116,7 @@ Reply Engine::Core::perform(Session& session, Connect const& connection, Instant
 Reply Engine::Core::perform(Session& session, Resume const& resume, Instant) {
     if (resume.last_sequence <= session.notifications->last_sequence()) {
         trace_->session_resumed(session.number);
+        if (session.is_engine && resume.last_sequence == 0) session.notifications->keep_unread();
         return Resume::Reply{};
     }
     return refused<Resume::Reply>(ReturnCode::bad_parameter, "last_sequence must be at most " +
@@ -242,7 +243,16 @@ void Engine::Core::publish(FoundError const& report, Instant now, Attempts& deli
     std::set<Session*> concerned;
     if (component != nullptr) {
         auto ever = perspective(nullptr, Perspective::Of::ever);
-        concerned = subscriptions_.possible_subscribers(*component, ever);
+        concerned = subscriptions_.possible_subscribers(*component, [&](Subscription const& subscription) {
+            auto& payer = *subscription.subscribers.front().session;
+            if (!effort_.has_left(payer.effort, sessions_.size(), now.steady)) return true;
+            auto const turn = turn_of(payer, now);
+            try {
+                return subscription.filter.match(ever.candidate(*component)) != Match::no;
+            } catch (TooMuchEffort const&) {
+                return true;
+            }
+        });
         if (component->bound_to != nullptr) concerned.insert(component->bound_to);
     }
     auto error = noted(report, now);
@@ -252,7 +262,8 @@ void Engine::Core::publish(FoundError const& report, Instant now, Attempts& deli
     auto const notify = [&](Session& session) {
         deliveries([&] {
             errors_.add_receiver(session.errors.slot);
-            notifier_.notify(session, session.is_engine ? for_engines : notification,
+            bool const gets_text = session.is_engine && (component == nullptr || !hides_members(session, component->ref().code));
+            notifier_.notify(session, gets_text ? for_engines : notification,
                              component == nullptr ? 0 : component->answer_to(session));
         });
     };

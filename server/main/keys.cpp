@@ -338,6 +338,10 @@ std::vector<Key> session_keys() {
         whole_number<std::size_t>(
             "max_condition_bytes", "maximum bytes of text in the conditions of a session's subscriptions, in total",
             [](GatewaySettings & s) -> auto& { return s.engine.max_condition_bytes; }, 1'024, 1 << 30),
+        whole_number<std::size_t>(
+            "max_condition_steps",
+            "maximum number of steps in a second, of some nanoseconds each, to compare values with conditions",
+            [](GatewaySettings & s) -> auto& { return s.engine.max_condition_steps; }, 1e6, 1e12),
     };
 }
 

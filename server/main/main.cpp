@@ -33,6 +33,7 @@
 #include "main/exposure.hpp"
 #include "main/gateway_journal.hpp"
 #include "main/health_check.hpp"
+#include "main/held_signals.hpp"
 #include "main/logging.hpp"
 #include "main/places.hpp"
 #include "main/profile_folder.hpp"
@@ -337,6 +338,7 @@ int serve(CommandLine const& command) {
         };
     if (journal) journal->restore(gateway.tokens());
     net::Server server{net_settings, gateway, telemetry, documents, schemas};
+    hold_signals(SIG_UNBLOCK);
     std::vector<Reloading::Part> files;
     auto const read_again = [&](bool is_used, std::string name, std::function<std::function<void()>()> prepare) {
         if (is_used) files.push_back({std::move(name), std::move(prepare)});
@@ -398,6 +400,7 @@ int serve(CommandLine const& command) {
     if (media) spdlog::info("media are served under {}", media->url());
     spdlog::info("listening on {}", server.url());
     auto const exit_code = server.run() ? done : not_halted;
+    hold_signals(SIG_BLOCK);
     end_in_any_case(exit_code);
     if (journal) journal->finish(exit_code);
     if (!reloading.finish(longest_reading)) {
@@ -447,6 +450,7 @@ int about_tokens(CommandLine const& command) {
 int run(int argc, char const* const* argv) {
     auto command = read_command_line(argc, argv);
     command.read_again = [=] { return read_command_line(argc, argv).settings; };
+    if (command.wish != CommandLine::Wish::serve) hold_signals(SIG_UNBLOCK);
     switch (command.wish) {
         case CommandLine::Wish::say:
             std::fputs(command.words.c_str(), stdout);
@@ -476,6 +480,7 @@ int complain(std::exception const& error, Exit code) {
 }  // namespace rois
 
 int main(int argc, char** argv) {
+    rois::hold_signals(SIG_BLOCK);
     rois::protect_standard_files();
     std::signal(SIGHUP, SIG_IGN);  // until there is something to read again
     try {

@@ -139,8 +139,9 @@ std::string version_of(std::string const& file) {
 std::shared_ptr<Principal> principal_of(TokenEntry const& entry) {
     auto principal = std::make_shared<Principal>();
     principal->role = entry.role;
-    principal->rights =
-        std::make_shared<Rights const>(entry.name, entry.components, entry.commands, to_text(sha256(object_of(entry).dump())));
+    principal->rights = std::make_shared<Rights const>(entry.name, entry.components,
+                                                       entry.role == Role::observer ? std::vector<std::string>{} : entry.commands,
+                                                       to_text(sha256(object_of(entry).dump())));
     principal->expires = entry.expires;
     principal->hash = entry.sha256;
     return principal;
@@ -227,7 +228,8 @@ bool is_pattern(std::string_view text) {
     constexpr std::size_t longest = 256;
     auto const bracket = text.rfind('[');
     bool const is_closed = bracket == std::string_view::npos || text.find(']', bracket + 2) != std::string_view::npos;
-    return !text.empty() && text.size() <= longest && is_closed && is_utf8(text);
+    bool const has_control = std::ranges::any_of(text, [](unsigned char c) { return c < ' ' || c == 0x7F; });
+    return !text.empty() && text.size() <= longest && is_closed && !has_control && is_utf8(text);
 }
 
 bool is_token_name(std::string_view name) {

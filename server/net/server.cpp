@@ -89,8 +89,6 @@ public:
         for (std::size_t i = 1; i < loops_.size(); ++i) threads.emplace_back([this, i] { loops_[i].run(); });
         first_.run();
         threads.clear();
-        hang_ups_.clear();
-        std::signal(SIGHUP, SIG_IGN);  // clear() has given it back to the system, which would end the process
         return await_halts(shared_.gateway, last_moment_, shared_.settings().tick);
     }
 

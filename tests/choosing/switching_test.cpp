@@ -165,4 +165,31 @@ TEST_F(TwoRobots, ReportSwitchesToThoseWhoAskForAll) {
     EXPECT_THAT(other.received(), IsEmpty());
 }
 
+// Only those who see its members, or may command it, learn their names.
+TEST_F(TwoRobots, HideTheirNamesFromThoseWhoSeeOnlyTheLogicalComponent) {
+    Connect connect;
+    connect.switches = true;
+    using Patterns = std::vector<std::string>;
+    auto const client = [&](Patterns sees, Patterns commands) {
+        auto made = world.connect_as(std::make_shared<Rights const>("client", std::move(sees), std::move(commands)), connect);
+        made.subscribe("reached_target");
+        return made;
+    };
+    auto sees_all = client({"*"}, {}), commands = client({"navigation"}, {"*"});
+    auto commands_another = client({"navigation", "speech"}, {"speech"}), observes = client({"navigation"}, {});
+    bind(desk, "navigation", Switching::restart);
+    desk.execute(drive_to("go", {"1000, 0, 0"}));
+    team.drive("robot1").reports(ErrorType::component_internal_error, "its wheel");
+    team.drive("robot1").finishes(CompletedStatus::error);
+    auto const switched = "2 switched navigation from robot1.navigation to robot2.navigation";
+    for (auto* each : {&sees_all, &commands, &commands_another, &observes}) {
+        bool const is_told = each == &sees_all || each == &commands;
+        auto const received = each->received();
+        EXPECT_THAT(received, Contains("1 COMPONENT_INTERNAL_ERROR navigation"));
+        EXPECT_EQ(std::ranges::find(received, switched) != received.end(), is_told);
+        auto const detail = each->detail_of(each->last_received<ReceiveError>().error_id);
+        EXPECT_EQ(find(detail.results.parameters, "text") != nullptr, is_told);
+    }
+}
+
 }  // namespace rois::choosing::test

@@ -397,6 +397,22 @@ class Unsent(ModuleTest):
         await until(lambda: self.link.values("switched") == ["2", "3", "4"])
         self.assertEqual({each.findtext(rois.M + "subscribe_id") for each in self.link.reports[2:]}, {self.service.subscribed["switched"]})
 
+    async def test_a_restarted_engine_that_first_asks_about_its_commands_misses_no_event(self):
+        await self.link.connect(window=patience * 1_000)
+        await self.link.subscribe("switched")
+        self.a.event("switched", {"number": 1})
+        await until(lambda: self.link.values("switched") == ["1"])
+        self.link.cut()
+        await until(lambda: self.service.socket is None)
+        self.a.event("switched", {"number": 2})
+        self.link = await self.engine.link()
+        await self.link.ask("resume", attributes=f'session="{self.service.session}" last_sequence="0"')
+        await self.link.ask("disconnect")
+        self.link.reports.clear()
+        await self.link.connect()
+        await self.link.subscribe("switched")
+        self.assertEqual(self.link.values("switched"), ["2"])
+
     async def test_events_after_the_end_of_the_session_wait_for_a_subscription(self):
         await self.link.connect(window=0)
         await self.link.subscribe("switched")

@@ -119,8 +119,11 @@ private:
 
     Opening run_accepted() {
         set_options();
-        stream_.set_option(websocket::stream_base::decorator(
-            [](websocket::response_type& response) { response.set(http::field::sec_websocket_protocol, subprotocol); }));
+        stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
+            response.set(http::field::sec_websocket_protocol, subprotocol);
+            response.set("X-Content-Type-Options", "nosniff");
+            response.set(http::field::server, "rois-gateway");
+        }));
         error_code error;
         co_await stream_.async_accept(asio::buffer(head_), into(error));
         if (error) {

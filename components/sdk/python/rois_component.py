@@ -486,10 +486,12 @@ class Service:
             attributes = f'code="no_session" request_id={quoteattr(request.get("request_id", ""))}'
             return self.answer(request, f"<fault {NAMES} {attributes}><reason>unknown session</reason></fault>")
         self.is_attached = True
-        self.written = self.sequence
+        last = int(request.get("last_sequence"))
+        if last > 0:  # otherwise the engine has restarted: it asks about its commands, and passes no events on
+            self.written = self.sequence
         self.reply("resume", request)
         for sequence, document, _ in self.sent:
-            if sequence > int(request.get("last_sequence")):
+            if sequence > last:
                 self.socket.send(document.encode())
 
     async def on_disconnect(self, request):

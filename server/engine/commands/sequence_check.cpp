@@ -104,7 +104,7 @@ std::optional<Objection> SequenceCheck::values(CommandMessage const& message, Re
                              "; it has " + command_types_of(component.profile()));
     if (auto problem = why_not(*profiles, message.arguments)) return bad_parameter(std::move(*problem));
     auto parameters = normalized(*profiles, message.arguments);
-    if (auto problem = component.why_no_frame(parameters, session_.rights.get())) return bad_parameter(std::move(*problem));
+    if (auto problem = component.why_no_frame(parameters, frames_)) return bad_parameter(std::move(*problem));
     if (auto problem = component.why_no_codebook(*profiles, parameters)) return bad_parameter(std::move(*problem));
     if (stores_arguments(message.command_type)) {
         bool const starts = message.command_type == "start";

@@ -36,7 +36,9 @@ struct Preparation {
 // Checks the units of one document in order. Takes into account what earlier units will have stored.
 class SequenceCheck {
 public:
-    SequenceCheck(Session const& session, Registry const& registry) : session_{session}, registry_{registry} {}
+    // `frames`: those that the session may name.
+    SequenceCheck(Session const& session, Registry const& registry, Frames const& frames)
+        : session_{session}, registry_{registry}, frames_{frames} {}
 
     // Returns the first objection, beginning with the path of the unit; nullopt if all commands may run.
     std::optional<Objection> objection(CommandUnitSequence const&);
@@ -67,6 +69,7 @@ private:
 
     Session const& session_;
     Registry const& registry_;
+    Frames const& frames_;
     std::vector<Preparation> preparations_;
     bool begins_something_ = false;
     bool delays_something_ = false;

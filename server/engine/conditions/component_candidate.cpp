@@ -1,5 +1,6 @@
 #include "engine/conditions/component_candidate.hpp"
 
+#include "engine/conditions/effort.hpp"
 #include "engine/conditions/referred.hpp"
 #include "engine/frames/perspective.hpp"
 #include "engine/frames/space.hpp"
@@ -111,6 +112,7 @@ Texts ComponentCandidate::location_texts(Part part) const {
     if (!location()) return {};
     if (part == Part::ref) return {location()->ref};
     if (part == Part::crs) return {location()->crs};
+    Effort::spend(40 * perspective_.named_places().all.size());
     Texts names;
     auto const here = point(*location());
     auto const is_within = [](Geometry const& a, Geometry const& b) { return holds(SpatialRelation::within, a, b); };
@@ -123,7 +125,10 @@ Texts ComponentCandidate::location_texts(Part part) const {
 Parameter const* ComponentCandidate::parameter(std::string_view name) const {
     if (auto const* stored = find(component_.parameters_for(perspective_.asker()), name)) return stored;
     if (!component_.has_parameter(name)) return nullptr;
-    if (!all_parameters_) all_parameters_ = component_.all_parameters(perspective_.asker()).value_or(ParameterList{});
+    if (!all_parameters_) {
+        all_parameters_ = component_.all_parameters(perspective_.asker()).value_or(ParameterList{});
+        Effort::spend(100 * all_parameters_->size());
+    }
     return find(*all_parameters_, name);
 }
 

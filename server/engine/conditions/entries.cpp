@@ -137,6 +137,7 @@ std::vector<bool> matching(Table const& table, Results const& results, Filter co
         for (auto const& list : table.lists) row.parameters[list.at].values = {list.items[entry]};
         row.located.resize(others);
         for (auto const i : table.located_of_entry[entry]) row.located.push_back(results.located[i]);
+        Effort::spend(20 * table.lists.size());
         matches[entry] = filter.match(candidate) == Match::yes;
     }
     return matches;

@@ -40,7 +40,11 @@ std::string Filter::meaning() const {
     return meaning;
 }
 
-Match Filter::match(Candidate const& candidate) const { return predicate_ ? predicate_->match(candidate) : Match::yes; }
+Match Filter::match(Candidate const& candidate) const {
+    if (!predicate_) return Match::yes;
+    Effort::spend(20);
+    return predicate_->match(candidate);
+}
 
 std::optional<Demand> Filter::demand() const {
     auto demand = predicate_ ? predicate_->demand() : std::nullopt;

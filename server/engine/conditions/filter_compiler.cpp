@@ -77,6 +77,15 @@ bool may_be_a_position(Reference const& reference) {
 
 }  // namespace
 
+void spend_for(Geometry const& a, Geometry const& b) {
+    auto const points = [](Geometry const& of) {
+        std::size_t sum = 1;
+        for (auto const& path : of.paths) sum += path.size();
+        return sum;
+    };
+    Effort::spend(20 + 4 * points(a) * points(b));
+}
+
 std::optional<Positions> SpatialOperand::of(Candidate const& candidate) const {
     if (auto const* known = std::get_if<Geometry>(&where_)) return Positions{*known};
     return candidate.positions(std::get<Reference>(where_));
@@ -91,7 +100,10 @@ std::optional<std::vector<double>> Distance::of(Candidate const& candidate) cons
     if (!one || !other) return {};
     std::vector<double> nearest;
     if (make_too_many_pairs(*one, *other)) return nearest;
-    auto const apart = [](Geometry const& a, Geometry const& b) { return rois::distance(a, b); };
+    auto const apart = [](Geometry const& a, Geometry const& b) {
+        spend_for(a, b);
+        return rois::distance(a, b);
+    };
     for (auto const& a : *one)
         for (auto const& b : *other)
             if (auto const length = in_one_frame(*frames, a, b, apart))

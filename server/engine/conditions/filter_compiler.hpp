@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/conditions/candidate.hpp"
+#include "engine/conditions/effort.hpp"
 #include "engine/conditions/filter.hpp"
 #include "engine/conditions/vocabulary.hpp"
 #include "engine/frames/frames.hpp"
@@ -29,6 +30,9 @@ public:
 };
 
 using PredicatePtr = std::unique_ptr<Predicate const>;
+
+// Counts the steps of comparing two geometries.
+void spend_for(Geometry const&, Geometry const&);
 
 // An operand of a spatial operator: a geometry of the condition, or a reference to positions of the candidate.
 class SpatialOperand {
@@ -55,11 +59,13 @@ struct Distance {
     std::string canonical() const;
 };
 
-// Two lists that form more pairs than this are not compared, and do not match.
+// Two lists that form more pairs than this are not compared, and do not match. Counts the steps of comparing them.
 inline constexpr std::size_t most_pairs = 100'000;
 template <class One, class Other>
 bool make_too_many_pairs(One const& one, Other const& other) {
-    return one.size() > 1 && other.size() > 1 && one.size() > most_pairs / other.size();
+    if (one.size() > 1 && other.size() > 1 && one.size() > most_pairs / other.size()) return true;
+    Effort::spend(20 + 4 * one.size() * other.size());
+    return false;
 }
 
 // Compiles a condition. If it is invalid, `problem` is the first reason, and all other results are meaningless.

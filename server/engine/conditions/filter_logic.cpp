@@ -28,6 +28,7 @@ public:
 
     Match match(Candidate const& candidate) const override {
         auto worst = Match::yes;
+        Effort::spend(5 * operands_.size());
         for (auto const& operand : operands_)
             if (worst = std::min(worst, operand->match(candidate)); worst == Match::no) break;
         return worst;
@@ -53,6 +54,7 @@ public:
 
     Match match(Candidate const& candidate) const override {
         auto best = Match::no;
+        Effort::spend(5 * operands_.size());
         for (auto const& operand : operands_)
             if (best = std::max(best, operand->match(candidate)); best == Match::yes) break;
         return best;

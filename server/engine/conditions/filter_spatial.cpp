@@ -46,7 +46,10 @@ public:
         if (!left || !right) return Match::maybe;
         if (make_too_many_pairs(*left, *right)) return Match::no;
         bool comparable = false, met = false;
-        auto const meets = [&](Geometry const& a, Geometry const& b) { return is_met(relation_, a, b); };
+        auto const meets = [&](Geometry const& a, Geometry const& b) {
+            spend_for(a, b);
+            return is_met(relation_, a, b);
+        };
         for (auto const& a : *left) {
             for (auto const& b : *right) {
                 auto const found = in_one_frame(frames_, a, b, meets);

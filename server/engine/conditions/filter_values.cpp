@@ -23,6 +23,7 @@ public:
         if (!texts) return Match::maybe;
         bool const met = std::ranges::any_of(*texts, [&](std::string_view text) {
             text = trimmed(text);
+            Effort::spend(pattern_.steps(text.size()));
             return letters_ == Case::ignored ? pattern_.matches(folded_case(text)) : pattern_.matches(text);
         });
         return met ? Match::yes : Match::no;

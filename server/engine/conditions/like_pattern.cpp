@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/conditions/effort.hpp"
 #include "types/text/texts.hpp"
 
 namespace rois {
@@ -34,6 +35,7 @@ std::variant<LikePattern, std::string> LikePattern::compile(std::string_view pat
     if (!escape) return not_one("escapeChar", characters.escape_char);
     if (wild == single || wild == escape || single == escape)
         return std::string{"wildCard, singleChar and escapeChar of PropertyIsLike are not three different characters"};
+    Effort::spend(10 * pattern.size());
     LikePattern made;
     while (auto character = take_character(pattern)) {
         if (character == wild) {

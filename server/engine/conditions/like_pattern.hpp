@@ -24,6 +24,9 @@ public:
     // Matches the whole text, in UTF-8.
     bool matches(std::string_view text) const;
 
+    // The cost of matching a text of this many bytes (Effort).
+    std::size_t steps(std::size_t bytes) const { return bytes * (6 + 2 * loops_.size()); }
+
     // Returns the same text for equivalent patterns.
     std::string canonical() const;
 

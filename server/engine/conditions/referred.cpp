@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "engine/conditions/effort.hpp"
 #include "engine/frames/space.hpp"
 #include "types/text/texts.hpp"
 
@@ -16,6 +17,7 @@ Parameter const* if_not_too_long(Parameter const* parameter) {
     if (parameter == nullptr) return nullptr;
     std::size_t length = 0;
     for (auto const& value : parameter->values) length += value.size();
+    Effort::spend(10 * (1 + parameter->values.size()) + length);
     return length <= longest_value ? parameter : nullptr;
 }
 
@@ -25,6 +27,7 @@ bool is_meant(Located const& located, Reference const& reference) {
 }
 
 std::vector<Located const*> located_in(Results const& results, Reference const& reference) {
+    Effort::spend(10 * (1 + results.located.size()));
     std::vector<Located const*> meant;
     for (auto const& located : results.located)
         if (is_meant(located, reference)) meant.push_back(&located);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/conditions/effort.hpp"
 #include "engine/registry.hpp"
 #include "engine/session.hpp"
 
@@ -56,6 +57,7 @@ bool Perspective::is_lacked(RegisteredComponent const& component) {
 
 std::vector<Candidate const*> const& Perspective::robot(std::string_view engine) {
     auto const* rights = asker_ == nullptr ? nullptr : asker_->rights.get();
+    if (robots_.empty()) Effort::spend(40 * registry_.all().size());
     if (robots_.empty())
         for (auto const& [ref, component] : registry_.all())
             if (may_see(rights, ref)) robots_[component->entry().engine].push_back(&candidate(*component));

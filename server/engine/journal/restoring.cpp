@@ -83,7 +83,8 @@ void Engine::Core::look_again(Asked const& asked, Reply& reply) const {
     auto const* const execute = std::get_if<Execute>(&asked.operation());
     auto const* const session = session_of(asked);
     if (execute == nullptr || session == nullptr || outcome_of(reply).return_code != ReturnCode::bad_parameter) return;
-    if (!SequenceCheck{*session, registry_}.objection(execute->command_unit_list)) reply = not_stored_reply(asked.operation());
+    SequenceCheck check{*session, registry_, frames_seen_by(*session)};
+    if (!check.objection(execute->command_unit_list)) reply = not_stored_reply(asked.operation());
 }
 
 Engine::Core::Later Engine::Core::run_when_stored(Session& session, SharedAsked const& asked, CommandUnitSequence const& sequence,

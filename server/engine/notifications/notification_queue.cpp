@@ -13,6 +13,13 @@ Numbered gap_until(std::uint64_t until, std::uint64_t count) {
 
 Lost const* as_lost(Numbered const& entry) { return std::get_if<Lost>(&entry.notification->body); }
 
+// If this is a `Lost`, lets it count one more.
+bool join(std::shared_ptr<OutgoingNotification const>& notification) {
+    auto const* lost = std::get_if<Lost>(&notification->body);
+    if (lost != nullptr) notification = std::make_shared<OutgoingNotification const>(Lost{lost->count + 1});
+    return lost != nullptr;
+}
+
 // The sequence before this entry; before the first one that it counts, for a `Lost`.
 std::uint64_t before(Numbered const& entry) {
     auto const* gap = as_lost(entry);
@@ -24,21 +31,28 @@ std::uint64_t before(Numbered const& entry) {
 NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotification const> notification, Hold cause,
                                                   ForCurrent for_current) {
     std::lock_guard const lock{mutex_};
-    if (waiting_ >= max_waiting_ && !make_room()) overflowed_ = true;
-    if (overflowed_ && std::holds_alternative<ReceiveEvent>(notification->body)) return Pushed::dropped;
+    bool const is_lost = std::holds_alternative<Lost>(notification->body);
+    if (!is_lost && waiting_ >= max_waiting_ && !make_room()) overflowed_ = true;
+    if (overflowed_ && (is_lost || std::holds_alternative<ReceiveEvent>(notification->body))) return Pushed::dropped;
+    ++(is_lost ? lost_ : waiting_);
     bool const has_cause = for_current == ForCurrent::does_not_wait || is_held(cause);
     auto const hold = has_cause ? cause : current_;
     reserve_for_held(1);
     bool const would_overtake = std::ranges::any_of(held_, [&](Held const& held) { return is_being_sent(held.by); });
     if (is_held(hold) || would_overtake) {
         bool const unless_delayed = !has_cause && for_current == ForCurrent::unless_delayed && is_being_sent(hold);
+        if (is_lost && !held_.empty() && held_.back().by == hold && join(held_.back().notification)) return Pushed::held;
         held_.push_back({hold, unless_delayed, std::move(notification)});
-        ++waiting_;
         return overflowed_ ? Pushed::overflow : Pushed::held;
     }
     bool const first = shown_ == all ? sent_ == entries_.size() : given_ == last_sequence_;
-    entries_.push_back({++last_sequence_, std::move(notification)});
-    ++waiting_;
+    ++last_sequence_;
+    if (is_lost && sent_ < entries_.size() && join(entries_.back().notification)) {
+        entries_.back().sequence = last_sequence_;
+        gaps_from_ = std::min(gaps_from_, last_sequence_);
+    } else {
+        entries_.push_back({last_sequence_, std::move(notification)});
+    }
     if (overflowed_) return Pushed::overflow;
     return first ? Pushed::first : Pushed::behind;
 }
@@ -158,6 +172,7 @@ NotificationQueue::Next NotificationQueue::read(std::uint64_t after, std::size_t
     if (into.size() == begin) return after_locked(after);
     mark_sent(into.back().sequence);
     read_ = std::max(read_, into.back().sequence);
+    if (read_ > kept_unread_.until) kept_unread_ = {};
     forget();
     return after_locked(into.back().sequence);
 }
@@ -247,13 +262,22 @@ std::size_t NotificationQueue::waiting() const {
     return waiting_;
 }
 
+void NotificationQueue::keep_unread() {
+    std::lock_guard const lock{mutex_};
+    kept_unread_ = {.after = kept_unread_.until == 0 ? read_ : kept_unread_.after, .until = last_sequence_};
+}
+
 std::vector<std::shared_ptr<OutgoingNotification const>> NotificationQueue::unread_events() const {
     std::lock_guard const lock{mutex_};
     std::vector<std::shared_ptr<OutgoingNotification const>> events;
     auto const add = [&](auto const& notification) {
         if (std::holds_alternative<ReceiveEvent>(notification->body)) events.push_back(notification);
     };
-    for (auto entry = sent_; entry < entries_.size(); ++entry) add(entries_[entry].notification);
+    for (auto entry = forgotten_; entry < entries_.size(); ++entry) {
+        auto const sequence = entries_[entry].sequence;
+        bool const is_kept = sequence > kept_unread_.after && sequence <= kept_unread_.until;
+        if (entry >= sent_ || is_kept) add(entries_[entry].notification);
+    }
     for (auto const& held : held_) add(held.notification);
     return events;
 }

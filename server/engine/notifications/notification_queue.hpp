@@ -67,7 +67,7 @@ public:
     // Numbers and stores the notification, or holds it if `cause`, or else the current hold, is not released yet, or if it would
     // overtake a held one whose answer is being sent (decision 22: notifications are numbered as things happen). If too many
     // wait, replaces the oldest waiting event by a `Lost`. If there is no event to replace, the queue overflows, and events are
-    // dropped from then on.
+    // dropped from then on. A `Lost` of 1 says that an event has perhaps been missed; it never waits for room.
     Pushed push(std::shared_ptr<OutgoingNotification const>, Hold cause = 0, ForCurrent = ForCurrent::waits);
 
     // Drops the sent notifications. Replaces the oldest waiting events by `Lost` until `events` are left.
@@ -83,6 +83,10 @@ public:
 
     // The number of notifications that were never read.
     std::size_t waiting() const;
+
+    // Another engine has restarted, and reads from the beginning what it does not pass on: what was unread until now stays so for
+    // `unread_events`, until something later is read.
+    void keep_unread();
 
     // Returns the events that were never read.
     std::vector<std::shared_ptr<OutgoingNotification const>> unread_events() const;
@@ -173,6 +177,10 @@ private:
     std::uint64_t given_ = 0;        // to the journal
     std::uint64_t gaps_from_ = all;  // the journal does not know the `Lost` from this sequence on
     std::uint64_t read_ = 0;         // the last one that was ever read
+    struct {
+        std::uint64_t after = 0;
+        std::uint64_t until = 0;  // 0: none
+    } kept_unread_;
     struct Held {
         Hold by;  // 0, or released: it only waits for those before it
         bool unless_delayed;

@@ -53,6 +53,11 @@ public:
         if (pushed == NotificationQueue::Pushed::first || pushed == NotificationQueue::Pushed::overflow) outbox_.notify(queue);
     }
 
+    // The session may have missed an event (`Lost`).
+    void lose(NotificationQueue& queue, NotificationQueue::Hold cause) {
+        notify(queue, std::make_shared<OutgoingNotification const>(Lost{1}), cause);
+    }
+
     // Drops the session's sent notifications, and the oldest waiting events until `events` are left.
     void keep_last(Session& session, std::size_t events) {
         auto const lost = session.notifications->lost();

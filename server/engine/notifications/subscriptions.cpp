@@ -157,12 +157,13 @@ std::vector<Subscription*> Subscriptions::possible(std::string_view event_type, 
     return all;
 }
 
-std::set<Session*> Subscriptions::possible_subscribers(RegisteredComponent const& component, Perspective& ever) const {
+std::set<Session*> Subscriptions::possible_subscribers(RegisteredComponent const& component,
+                                                       std::function<bool(Subscription const&)> const& may_ever_match) const {
     std::set<Session*> sessions;
     for (auto const& message : component.profile().messages) {
         if (message.kind != MessageKind::event) continue;
         for (auto const* subscription : possible(message.name, component))
-            if (subscription->filter.match(ever.candidate(component)) != Match::no)
+            if (may_ever_match(*subscription))
                 for (auto const& subscriber : subscription->subscribers)
                     if (may_see(subscriber.rights, component.ref().code)) sessions.insert(subscriber.session);
     }

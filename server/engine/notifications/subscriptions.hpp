@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -66,7 +67,8 @@ public:
     std::vector<Subscription*> possible(std::string_view event_type, RegisteredComponent const&) const;
 
     // Returns the sessions with a subscription that an event of this component may ever match.
-    std::set<Session*> possible_subscribers(RegisteredComponent const&, Perspective& ever) const;
+    std::set<Session*> possible_subscribers(RegisteredComponent const&,
+                                            std::function<bool(Subscription const&)> const& may_ever_match) const;
 
     std::size_t size() const { return all_.size(); }
     std::size_t predicates() const { return predicates_; }  // in the conditions of all subscriptions

@@ -116,6 +116,30 @@ TEST_F(TwoFrames, TargetsAreReadBackAsTheApplicationWroteThem) {
     EXPECT_EQ(find(far.started_with, "target_position")->values, std::vector<std::string>{"3000, 0, 30"});
 }
 
+// As if it did not exist.
+TEST_F(TwoFrames, TargetsMustBeInAFrameThatTheClientSees) {
+    Belongings of_two{.profiles = {},
+                      .frames = {{.crs = "two.lab", .base = "hall", .position = {}, .orientation = {}, .covariance = {}}},
+                      .places = {}};
+    world.change({}, {named("two.speech", in_engine("two", speech))});
+    world.engine->change({{}, {}, std::move(of_two), "two"}, world.now);
+    auto stranger = world.connect_as(
+        std::make_shared<Rights const>("desk", std::vector<std::string>{"navigation"}, std::vector<std::string>{"*"}));
+    desk.release("navigation");
+    stranger.bind("navigation");
+    auto const reason = [&](std::string const& frame) {
+        auto const set = stranger.set_parameter("navigation", target("1, 2", frame));
+        EXPECT_EQ(set.return_code, ReturnCode::bad_parameter);
+        return set.reason;
+    };
+    EXPECT_THAT(reason("two.lab"), HasSubstr("the frame 'two.lab' is not known here; expected one of hall"));
+    EXPECT_THAT(reason("two.lab"), testing::Not(HasSubstr("two.lab,")));
+    EXPECT_THAT(reason("no.lab"), HasSubstr("the frame 'no.lab' is not known here; expected one of hall"));
+    stranger.leave();
+    desk.bind("navigation");
+    EXPECT_EQ(desk.set_parameter("navigation", target("1, 2", "two.lab")).return_code, ReturnCode::ok) << "it sees all";
+}
+
 TEST_F(TwoFrames, TargetsMustBeInAKnownFrame) {
     auto const started = desk.execute(start("navigation", target("1, 2", "street")));
     EXPECT_EQ(started.return_code, ReturnCode::bad_parameter);

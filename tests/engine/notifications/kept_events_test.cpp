@@ -74,6 +74,33 @@ TEST_F(KeptEventsOfAnEngine, IncludeThoseThatALostSessionHasNotRead) {
     EXPECT_THAT(received(desk), ElementsAre("number=2", "number=3"));
 }
 
+// It has asked how its commands have ended, and then ends the earlier session.
+TEST_F(KeptEventsOfAnEngine, IncludeThoseThatARestartedEngineHasReadButNotPassedOn) {
+    for (bool const goes_on : {false, true}) {
+        auto engine = world.connect({.motion_lease = {}, .motion_lease_http = {}, .motion_proof = {}, .is_engine = true});
+        subscribe(engine);
+        detect(1);
+        auto const last = received(engine);
+        EXPECT_THAT(last, ElementsAre("number=1"));
+        lose_link_of(engine);
+        detect(2);
+        engine.ask(Resume{engine.session, 0});
+        EXPECT_THAT(received(engine), ElementsAre("number=1", "number=2"));
+        if (goes_on) {
+            detect(3);
+            EXPECT_THAT(received(engine), ElementsAre("number=1", "number=2", "number=3"));
+        }
+        engine.ask(Disconnect{});
+        auto desk = world.connect();
+        subscribe(desk);
+        if (goes_on)
+            EXPECT_THAT(received(desk), IsEmpty());
+        else
+            EXPECT_THAT(received(desk), ElementsAre("number=2"));
+        desk.ask(Disconnect{});
+    }
+}
+
 TEST_F(KeptEventsOfAnEngine, AreReceivedOnceIfTheNextSessionBeginsBeforeTheLostOneEnds) {
     auto lost = world.connect();
     subscribe(lost);

@@ -109,6 +109,37 @@ TEST_F(Queue, OverflowsByAnEventToo) {
     EXPECT_THAT(read(0), ElementsAre("1 c", "2 c", "3 c", "4 c"));
 }
 
+TEST_F(Queue, CountsMissedEventsTogether) {
+    events(1);
+    push(Lost{1});
+    push(Lost{1});
+    completed(1);
+    push(Lost{1});
+    EXPECT_EQ(queue.waiting(), 2U);
+    EXPECT_EQ(queue.lost(), 3U);
+    EXPECT_THAT(read(0), ElementsAre("1 e", "3 lost 2", "4 c", "5 lost 1"));
+    push(Lost{1});
+    EXPECT_THAT(read(5), ElementsAre("6 lost 1")) << "what was read is not changed";
+    EXPECT_EQ(queue.waiting(), 0U);
+}
+
+TEST_F(Queue, CountsMissedEventsThatAreHeldTogether) {
+    auto const hold = queue.hold();
+    EXPECT_EQ(push(Lost{1}, hold), Pushed::held);
+    EXPECT_EQ(push(Lost{1}, hold), Pushed::held);
+    push(Completed{}, hold);
+    EXPECT_THAT(read(0), IsEmpty());
+    queue.release(hold);
+    EXPECT_THAT(read(0), ElementsAre("2 lost 2", "3 c"));
+    EXPECT_EQ(queue.waiting(), 0U);
+}
+
+TEST_F(Queue, NeedsNoRoomForMissedEvents) {
+    events(4);
+    push(Lost{1});
+    EXPECT_THAT(read(0), ElementsAre("1 e", "2 e", "3 e", "4 e", "5 lost 1"));
+}
+
 TEST_F(Queue, HasALostForEachGap) {
     events(1);
     completed(1);

@@ -2,10 +2,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <cstdint>
+#include <fstream>
+#include <string>
 #include <thread>
 
+#include "kit/gateway_process.hpp"
+#include "kit/process.hpp"
 #include "kit/profile_folder.hpp"
 #include "kit/vocabulary.hpp"
 #include "server/websocket_client.hpp"
@@ -41,6 +47,43 @@ TEST(Shutdown, EndsWithZeroAlsoIfHangUpsArriveAtItsEnd) {
     gateway.log_with("stopped");
     for (int i = 0; i < 1'000; ++i) gateway.signal(SIGHUP);
     EXPECT_EQ(gateway.wait().exit_code, 0);
+}
+
+// Its end takes longer than a signal needs to arrive.
+TEST(Shutdown, IsNotDisturbedByHangUpsThatGoOn) {
+    for (int i = 0; i < 10; ++i) {
+        GatewayProcess gateway;
+        gateway.signal(SIGTERM);
+        std::jthread const others{[&](std::stop_token const& end) {
+            while (!end.stop_requested()) gateway.signal(SIGHUP);
+        }};
+        gateway.log_with("stopped");
+        std::this_thread::sleep_for(std::chrono::milliseconds{50});
+        ASSERT_EQ(gateway.wait().exit_code, 0);
+    }
+}
+
+// The signals that this process holds back (proc(5)).
+std::uint64_t held_back_by(pid_t process) {
+    std::ifstream status{"/proc/" + std::to_string(process) + "/status"};
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("SigBlk:")) return std::stoull(line.substr(line.find('\t')), nullptr, 16);
+    return 0;
+}
+
+TEST(Shutdown, BeginsAfterTheStartIfTheSignalComesBefore) {
+    kit::Pipe errors;
+    auto const gateway = kit::start(kit::gateway_program, {"--listen", "127.0.0.1:0"}, {}, {.error = errors.to_write});
+    ::close(errors.to_write);
+    auto const patience = std::chrono::steady_clock::now() + std::chrono::seconds{10};
+    while ((held_back_by(gateway) & 1U << (SIGTERM - 1)) == 0 && std::chrono::steady_clock::now() < patience)
+        std::this_thread::yield();
+    ::kill(gateway, SIGTERM);
+    std::string log;
+    while (kit::read_some(errors.to_read, log)) continue;
+    ::close(errors.to_read);
+    EXPECT_EQ(kit::exit_code(gateway), 0) << log;
+    EXPECT_THAT(log, testing::HasSubstr("shutting down after SIGTERM"));
 }
 
 TEST(Shutdown, SendsTheLastNotificationsToAWebSocketAndCloses) {
