@@ -229,7 +229,7 @@ private:
     ReceiveError noted(FoundError const&, Instant now);
 
     // Conditions (conditions.cpp)
-    // The session pays for what is matched during this turn.
+    // The session pays for the comparisons during this turn.
     Effort::Turn turn_of(Session& session, Instant now) { return {effort_, session.effort, sessions_.size(), now.steady}; }
     // The answer to a request whose condition needs more steps than the session has now.
     template <class R>

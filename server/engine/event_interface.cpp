@@ -138,7 +138,7 @@ bool Engine::Core::deliver(RegisteredComponent& component, std::string const& ev
     };
     bool begun = false;  // some subscriber may have been notified
     ++event_;
-    // The session has no steps left: it is told that it has perhaps missed this event.
+    // The session has no steps left. It receives a `Lost`: perhaps it has missed this event.
     auto const miss = [&](Subscription::Subscriber const& one) {
         if (std::exchange(one.session->missed, event_) == event_) return;
         effort_.count_refusal();
@@ -146,7 +146,7 @@ bool Engine::Core::deliver(RegisteredComponent& component, std::string const& ev
         deliveries([&] { notifier_.lose(*one.queue, component.answer_to(*one.session)); });
     };
     std::vector<Subscription::Subscriber const*> receivers, undecided;
-    // Those that may see everything have a match in common, for which the first one with steps left pays.
+    // All subscribers that may see everything share one match. The first of them with steps left pays for it.
     auto const find_receivers = [&](Subscription const& subscription) {
         bool const each = subscription.filter.depends_on_asker();
         std::optional<bool> common = subscription.filter.restricts() ? std::nullopt : std::optional{true};

@@ -23,7 +23,7 @@ class Effort {
 public:
     static constexpr std::chrono::milliseconds window{100};
 
-    // What a session has used.
+    // The steps that a session has used.
     struct Account {
         std::uint64_t window = 0;  // the last one in which it used some
         std::size_t used = 0;      // in that window

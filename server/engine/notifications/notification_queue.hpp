@@ -84,8 +84,8 @@ public:
     // The number of notifications that were never read.
     std::size_t waiting() const;
 
-    // Another engine has restarted, and reads from the beginning what it does not pass on: what was unread until now stays so for
-    // `unread_events`, until something later is read.
+    // Another engine has restarted. It reads from the beginning, but passes no events on. So the events that are unread now stay
+    // unread for `unread_events`, until a later notification is read.
     void keep_unread();
 
     // Returns the events that were never read.

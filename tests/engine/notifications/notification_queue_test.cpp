@@ -119,7 +119,7 @@ TEST_F(Queue, CountsMissedEventsTogether) {
     EXPECT_EQ(queue.lost(), 3U);
     EXPECT_THAT(read(0), ElementsAre("1 e", "3 lost 2", "4 c", "5 lost 1"));
     push(Lost{1});
-    EXPECT_THAT(read(5), ElementsAre("6 lost 1")) << "what was read is not changed";
+    EXPECT_THAT(read(5), ElementsAre("6 lost 1")) << "entries that were read are not changed";
     EXPECT_EQ(queue.waiting(), 0U);
 }
 

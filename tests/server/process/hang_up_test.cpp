@@ -72,11 +72,11 @@ TEST_F(HangUp, ChangesTheLimitsOfTokens) {
     EXPECT_EQ(guess(), 429);
 }
 
-// A query with a condition of so many comparisons, and so many blanks behind it.
-std::string query_with(int comparisons, std::size_t blanks = 0) {
+// A query with a condition of so many comparisons, followed by so many spaces.
+std::string query_with(int comparisons, std::size_t spaces = 0) {
     auto condition = equal("component_ref", "navigation");
     for (int i = 1; i < comparisons; ++i) condition = either(condition, equal("component_ref", "navigation"));
-    return kit::request("search", where(condition)) + std::string(blanks, ' ');
+    return kit::request("search", where(condition)) + std::string(spaces, ' ');
 }
 
 TEST_F(HangUp, ChangesTheLimitsOfDocuments) {
@@ -90,17 +90,17 @@ TEST_F(HangUp, ChangesTheLimitsOfDocuments) {
         socket.send_raw(0x81, document);
         return socket.next_document();
     };
-    for (auto const blanks : {0, 40'000}) {  // another thread reads long documents
-        EXPECT_EQ(client.post(query_with(20, blanks)).status, 200);
-        EXPECT_STREQ(by_socket(query_with(20, blanks)).name(), "search_response");
+    for (auto const spaces : {0, 40'000}) {  // another thread reads long documents
+        EXPECT_EQ(client.post(query_with(20, spaces)).status, 200);
+        EXPECT_STREQ(by_socket(query_with(20, spaces)).name(), "search_response");
     }
     put(R"({"max_elements": 20, "max_body": 50000})");
     gateway.signal(SIGHUP);
     EXPECT_THAT(gateway.log_with("the settings read again"), HasSubstr("max_elements is now 20"));
-    for (auto const blanks : {0, 40'000}) {
-        EXPECT_THAT(client.post(query_with(20, blanks)).reason(), HasSubstr("too many elements"));
-        EXPECT_STREQ(by_socket(query_with(20, blanks)).name(), "fault");
-        EXPECT_EQ(client.post(query_with(2, blanks)).status, 200);
+    for (auto const spaces : {0, 40'000}) {
+        EXPECT_THAT(client.post(query_with(20, spaces)).reason(), HasSubstr("too many elements"));
+        EXPECT_STREQ(by_socket(query_with(20, spaces)).name(), "fault");
+        EXPECT_EQ(client.post(query_with(2, spaces)).status, 200);
     }
     EXPECT_EQ(client.post(query_with(2, 50'000)).status, 413);
     socket.send_raw(0x81, query_with(2, 50'000));
