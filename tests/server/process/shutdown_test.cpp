@@ -54,11 +54,13 @@ TEST(Shutdown, IsNotDisturbedByHangUpsThatGoOn) {
     for (int i = 0; i < 10; ++i) {
         GatewayProcess gateway;
         gateway.signal(SIGTERM);
-        std::jthread const others{[&](std::stop_token const& end) {
-            while (!end.stop_requested()) gateway.signal(SIGHUP);
-        }};
-        gateway.log_with("stopped");
-        std::this_thread::sleep_for(std::chrono::milliseconds{50});
+        {
+            std::jthread const others{[&](std::stop_token const& end) {
+                while (!end.stop_requested()) gateway.signal(SIGHUP);
+            }};
+            gateway.log_with("stopped");
+            std::this_thread::sleep_for(std::chrono::milliseconds{50});
+        }
         ASSERT_EQ(gateway.wait().exit_code, 0);
     }
 }
