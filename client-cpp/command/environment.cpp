@@ -15,7 +15,7 @@ namespace rois::command {
 namespace {
 
 // The configuration keys of rois-gateway (server/main/keys.cpp) as variables.
-constexpr std::array<std::string_view, 81> keys{"ROIS_ALLOWED_ORIGINS",
+constexpr std::array<std::string_view, 82> keys{"ROIS_ALLOWED_ORIGINS",
                                                 "ROIS_ALLOW_ANYONE",
                                                 "ROIS_AUDIT_LOG",
                                                 "ROIS_AUDIT_LOG_BYTES",
@@ -42,6 +42,7 @@ constexpr std::array<std::string_view, 81> keys{"ROIS_ALLOWED_ORIGINS",
                                                 "ROIS_MAX_BODY",
                                                 "ROIS_MAX_COMMAND_RESULTS",
                                                 "ROIS_MAX_CONDITION_BYTES",
+                                                "ROIS_MAX_CONDITION_STEPS",
                                                 "ROIS_MAX_CONNECTIONS",
                                                 "ROIS_MAX_CONNECTIONS_PER_ADDRESS",
                                                 "ROIS_MAX_CONTROL_FRAMES",

@@ -156,7 +156,7 @@ TEST(FileOfTokens, MustBeValidAndForItsOwnerOnly) {
             "expires must be a time");
     refused(R"({"tokens": [{"name": "x", "role": "observer", "sha256": ")" + hash + R"(", "components": "a"}]})",
             "components must be a list of patterns");
-    for (auto const* pattern : {"", "robot[12", "["})
+    for (auto const* pattern : {"", "robot[12", "[", R"(a\nb)"})
         refused(
             R"({"tokens": [{"name": "x", "role": "observer", "sha256": ")" + hash + R"(", "components": [")" + pattern + "\"]}]}",
             "of 1 to 256 characters, with a ']' for each '['");
