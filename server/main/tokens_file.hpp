@@ -37,9 +37,8 @@ bool is_token_name(std::string_view);
 // Whether the text can be a pattern of refs, such as "robot1.*" or "robot[23].*".
 bool is_pattern(std::string_view);
 constexpr std::string_view expected_pattern =
-    "expected patterns of refs such as 'robot1.*' or 'robot[23].*', of 1 to 256 characters, with a ']' for each '[', without "
-    "line "
-    "ends";
+    "expected patterns of refs such as 'robot1.*' or 'robot[23].*', of 1 to 256 characters, with a ']' for each '[', "
+    "without line ends";
 
 // Returns the token that a file holds, without white space around it: one to send. Throws BadSettings.
 std::string token_in(std::string const& file);
