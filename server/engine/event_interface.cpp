@@ -160,7 +160,8 @@ bool Engine::Core::deliver(RegisteredComponent& component, std::string const& ev
                 auto const turn = turn_of(*one.session, now);
                 try {
                     met = alone ? matches(subscription, *one.session) : subscription.filter.match(candidate) == Match::yes;
-                } catch (TooMuchEffort const&) {  // it stays open
+                } catch (TooMuchEffort const&) {
+                    met.reset();
                 }
             }
             if (!met) (alone ? miss(one) : undecided.push_back(&one));
