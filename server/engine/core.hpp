@@ -231,6 +231,17 @@ private:
     // Conditions (conditions.cpp)
     // The session pays for the comparisons during this turn.
     Effort::Turn turn_of(Session& session, Instant now) { return {effort_, session.effort, sessions_.size(), now.steady}; }
+    // Compares on behalf of the session. nullopt: it has no steps left.
+    template <class Compare>
+    std::optional<bool> paid_by(Session& session, Instant now, Compare const& compare) {
+        if (!effort_.has_left(session.effort, sessions_.size(), now.steady)) return {};
+        auto const turn = turn_of(session, now);
+        try {
+            return compare();
+        } catch (TooMuchEffort const&) {
+            return {};
+        }
+    }
     // The answer to a request whose condition needs more steps than the session has now.
     template <class R>
     R too_much_effort();

@@ -156,14 +156,10 @@ bool Engine::Core::deliver(RegisteredComponent& component, std::string const& ev
             if (!may_see(one.rights, component.ref().code)) continue;
             bool const alone = each || (subscription.filter.restricts() && !may_see_everything(one.rights));
             auto met = alone ? std::nullopt : common;
-            if (!met && effort_.has_left(one.session->effort, sessions_.size(), now.steady)) {
-                auto const turn = turn_of(*one.session, now);
-                try {
-                    met = alone ? matches(subscription, *one.session) : subscription.filter.match(candidate) == Match::yes;
-                } catch (TooMuchEffort const&) {
-                    met.reset();
-                }
-            }
+            if (!met)
+                met = paid_by(*one.session, now, [&] {
+                    return alone ? matches(subscription, *one.session) : subscription.filter.match(candidate) == Match::yes;
+                });
             if (!met) (alone ? miss(one) : undecided.push_back(&one));
             if (met && !alone) common = met;
             if (met.value_or(false)) receivers.push_back(&one);

@@ -104,12 +104,12 @@ void Engine::Core::call_owners(Instant now) {
     pushed_at_last_call_ = pushed;
 }
 
+// A client that sees the present members may still not know one that has left.
 bool Engine::Core::hides_members(Session const& asker, std::string const& ref) const {
     auto const* const rights = asker.rights.get();
     if (may_see_everything(rights) || may_command(rights, ref)) return false;
     auto const* const component = registry_.find(ref);
-    if (component == nullptr) return true;  // it has gone, and was perhaps a logical one
-    return !std::ranges::all_of(component->members(), [&](std::string const& member) { return rights->sees(member); });
+    return component == nullptr || component->is_logical();  // null: it has gone, and was perhaps a logical one
 }
 
 // Notifies the session that has agreed on switching, and those that receive all switches.
@@ -120,7 +120,8 @@ void Engine::Core::publish(RegisteredComponent const& component, MemberSwitched&
         bool const agreed = component.bound_to == session.get() && component.switching != Switching::none;
         auto const* rights = session->rights.get();
         auto const& ref = component.ref().code;
-        bool const sees = may_see(rights, ref) && !hides_members(*session, ref);
+        bool const sees_members = may_see(rights, switched.from) && may_see(rights, switched.to);
+        bool const sees = may_command(rights, ref) || (may_see(rights, ref) && sees_members);
         if (agreed || (session->receives_switches && sees))
             notifier_.notify(*session, notification, component.answer_to(*session));
     }

@@ -244,14 +244,8 @@ void Engine::Core::publish(FoundError const& report, Instant now, Attempts& deli
     if (component != nullptr) {
         auto ever = perspective(nullptr, Perspective::Of::ever);
         concerned = subscriptions_.possible_subscribers(*component, [&](Subscription const& subscription) {
-            auto& payer = *subscription.subscribers.front().session;
-            if (!effort_.has_left(payer.effort, sessions_.size(), now.steady)) return true;
-            auto const turn = turn_of(payer, now);
-            try {
-                return subscription.filter.match(ever.candidate(*component)) != Match::no;
-            } catch (TooMuchEffort const&) {
-                return true;
-            }
+            auto const may_match = [&] { return subscription.filter.match(ever.candidate(*component)) != Match::no; };
+            return paid_by(*subscription.subscribers.front().session, now, may_match).value_or(true);
         });
         if (component->bound_to != nullptr) concerned.insert(component->bound_to);
     }

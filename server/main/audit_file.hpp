@@ -63,7 +63,7 @@ private:
     void begin_again();
     void begin_another();
 
-    Limits const limits_;  // without the next two
+    Limits const limits_;  // its bytes and files: the next two, which may change
     std::atomic<std::size_t> bytes_;
     std::atomic<std::size_t> files_;
     std::string const name_;

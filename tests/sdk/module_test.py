@@ -382,7 +382,7 @@ class Unsent(ModuleTest):
         self.link = await self.engine.link()
         await self.link.connect()
 
-    async def test_events_of_the_time_without_a_link_reach_a_restarted_engine(self):
+    async def report_two_events_and_cut_between(self):
         await self.link.connect(window=patience * 1_000)
         await self.link.subscribe("switched")
         self.a.event("switched", {"number": 1})
@@ -390,6 +390,9 @@ class Unsent(ModuleTest):
         self.link.cut()
         await until(lambda: self.service.socket is None)
         self.a.event("switched", {"number": 2})
+
+    async def test_events_of_the_time_without_a_link_reach_a_restarted_engine(self):
+        await self.report_two_events_and_cut_between()
         await self.restart()
         self.a.event("switched", {"number": 3})
         await self.link.subscribe("switched")
@@ -398,13 +401,7 @@ class Unsent(ModuleTest):
         self.assertEqual({each.findtext(rois.M + "subscribe_id") for each in self.link.reports[2:]}, {self.service.subscribed["switched"]})
 
     async def test_a_restarted_engine_that_first_asks_about_its_commands_misses_no_event(self):
-        await self.link.connect(window=patience * 1_000)
-        await self.link.subscribe("switched")
-        self.a.event("switched", {"number": 1})
-        await until(lambda: self.link.values("switched") == ["1"])
-        self.link.cut()
-        await until(lambda: self.service.socket is None)
-        self.a.event("switched", {"number": 2})
+        await self.report_two_events_and_cut_between()
         self.link = await self.engine.link()
         await self.link.ask("resume", attributes=f'session="{self.service.session}" last_sequence="0"')
         await self.link.ask("disconnect")

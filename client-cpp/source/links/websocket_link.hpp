@@ -122,7 +122,7 @@ private:
         stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
             response.set(http::field::sec_websocket_protocol, subprotocol);
             response.set("X-Content-Type-Options", "nosniff");
-            response.set(http::field::server, "rois-gateway");
+            response.set(http::field::server, "rois-gateway");  // otherwise the name of the library
         }));
         error_code error;
         co_await stream_.async_accept(asio::buffer(head_), into(error));

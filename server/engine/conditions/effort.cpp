@@ -1,7 +1,5 @@
 #include "engine/conditions/effort.hpp"
 
-#include <algorithm>
-
 namespace rois {
 
 thread_local Effort::Turn* Effort::present_ = nullptr;
@@ -17,11 +15,11 @@ void Effort::begin_window(Account& account, Steady now) {
 
 bool Effort::has_left(Account& account, std::size_t sessions, Steady now) {
     begin_window(account, now);
-    return !is_used_up(account, most_ / std::max<std::size_t>(sessions, 1));
+    return !is_used_up(account, share(sessions));
 }
 
 Effort::Turn::Turn(Effort& effort, Account& payer, std::size_t sessions, Steady now)
-    : of_{effort}, payer_{payer}, share_{effort.most_ / std::max<std::size_t>(sessions, 1)}, outer_{present_} {
+    : of_{effort}, payer_{payer}, share_{effort.share(sessions)}, outer_{present_} {
     effort.begin_window(payer, now);
     present_ = this;
 }

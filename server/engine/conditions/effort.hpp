@@ -1,6 +1,7 @@
 // How much matching conditions costs, counted in steps, so that no session takes the engine's time from the others.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -11,10 +12,7 @@
 namespace rois {
 
 // Thrown when the conditions of a session have needed too many steps.
-class TooMuchEffort final : public std::exception {
-public:
-    char const* what() const noexcept override { return "the conditions of this session need too many comparisons"; }
-};
+class TooMuchEffort final : public std::exception {};
 
 // A step takes some nanoseconds: it looks at a character of a value, for instance. The engine has a number of steps for each
 // tenth of a second. When they are used up, a session that has used more than its share of them gets no more in that tenth; the
@@ -60,6 +58,7 @@ public:
 
 private:
     void begin_window(Account&, Steady now);
+    std::size_t share(std::size_t sessions) const { return most_ / std::max<std::size_t>(sessions, 1); }
     bool is_used_up(Account const& payer, std::size_t share) const { return used_ > most_ && payer.used > share; }
 
     static thread_local Turn* present_;

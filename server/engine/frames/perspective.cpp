@@ -57,10 +57,11 @@ bool Perspective::is_lacked(RegisteredComponent const& component) {
 
 std::vector<Candidate const*> const& Perspective::robot(std::string_view engine) {
     auto const* rights = asker_ == nullptr ? nullptr : asker_->rights.get();
-    if (robots_.empty()) Effort::spend(40 * registry_.all().size());
-    if (robots_.empty())
+    if (robots_.empty()) {
+        Effort::spend(40 * registry_.all().size());
         for (auto const& [ref, component] : registry_.all())
             if (may_see(rights, ref)) robots_[component->entry().engine].push_back(&candidate(*component));
+    }
     static std::vector<Candidate const*> const none;
     auto const found = robots_.find(engine);
     return found == robots_.end() ? none : found->second;
