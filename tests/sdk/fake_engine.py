@@ -65,9 +65,9 @@ class Link:
         except (asyncio.IncompleteReadError, OSError):
             pass
 
-    def send(self, payload, opcode=1):
+    def send(self, payload, opcode=1, is_end=True):
         size = len(payload)
-        self.writer.write(bytes([0x80 | opcode]) + (bytes([size]) if size < 126 else b"\x7e" + size.to_bytes(2, "big")) + payload)
+        self.writer.write(bytes([0x80 * is_end | opcode]) + (bytes([size]) if size < 126 else b"\x7e" + size.to_bytes(2, "big")) + payload)
 
     def request(self, name, content="", attributes=""):
         """Sends a request. Returns the future of its answer."""

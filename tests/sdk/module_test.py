@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 import unittest
+import unittest.mock
 
 from fake_engine import patience, rois
 from machines import TYPES, Machine, ModuleTest, fail_with, halts_slowly, until, wait_for
@@ -374,6 +375,29 @@ class Tokens(unittest.TestCase):
             self.assertTrue(rois.is_safe(url), url)
         for url in ("ws://127.0.0.1.example", "ws://127.robot.example", "ws://localhost.example", "ws://10.0.0.1", "ws://[::2]", "ws://"):
             self.assertFalse(rois.is_safe(url), url)
+
+
+class Memory(ModuleTest):
+    """An engine cannot make a program grow without limit."""
+
+    async def asyncSetUp(self):
+        self.enterContext(unittest.mock.patch.object(rois, "MOST_BYTES", 100_000))
+        await super().asyncSetUp()
+        await self.link.connect()
+
+    async def test_a_message_without_an_end_ends_the_link(self):
+        self.link.send(b"<", is_end=False)
+        for _ in range(3):
+            self.link.send(b"x" * 60_000, opcode=0, is_end=False)
+        await self.engine.link()
+
+    async def test_an_engine_that_asks_and_does_not_read_loses_the_link(self):
+        self.link.reading.cancel()
+        while self.service.socket:
+            for _ in range(1_000):
+                self.link.send(b"x" * 125, opcode=9)
+            await asyncio.sleep(0)
+        await self.engine.link()
 
 
 class Unsent(ModuleTest):

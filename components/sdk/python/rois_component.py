@@ -41,6 +41,9 @@ LONGEST_HALT = 0.5  # for which an answer waits
 LONGEST_QUERY = 2
 EVENT_LIFE = 60
 
+# Bytes: of a message from the engine, and of those that it has not read.
+MOST_BYTES = 16_000_000
+
 LINK_ERRORS = (
     OSError,
     EOFError,
@@ -331,6 +334,9 @@ class WebSocket:
         key = (mask * (size // 4 + 1))[:size]
         masked = (int.from_bytes(payload, "big") ^ int.from_bytes(key, "big")).to_bytes(size, "big")
         self.writer.write(bytes([0x80 | opcode]) + length + mask + masked)
+        if self.writer.transport.get_write_buffer_size() > MOST_BYTES:
+            log.warning("the engine does not read: the link is cut")
+            self.writer.transport.abort()
 
     async def next(self):
         """The next text message. Raises ConnectionError at the end."""
@@ -340,8 +346,8 @@ class WebSocket:
             size = second & 0x7F
             if size > 125:
                 size = int.from_bytes(await self.reader.readexactly(2 if size == 126 else 8), "big")
-            if size > 16_000_000:
-                raise ConnectionError(f"received a message of {size} bytes: expected at most 16000000")
+            if len(message) + size > MOST_BYTES:
+                raise ConnectionError(f"received a message of {len(message) + size} bytes: expected at most {MOST_BYTES}")
             payload = await self.reader.readexactly(size)
             self.last_received = time.monotonic()
             opcode = first & 0x0F

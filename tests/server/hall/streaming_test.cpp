@@ -220,6 +220,21 @@ TEST(StreamingAddress, IsThePublicAddress) {
     EXPECT_GE(address.size(), std::string{"https://robots.example/media/"}.size() + 22) << "128 bits or more";
 }
 
+TEST(StreamingTarget, IsOnThisMachineUnlessTheKeyMediaRtpAllowsOthers) {
+    for (bool const all : {false, true}) {
+        GatewayProcess const gateway{{"--media", "127.0.0.1:0", "--media-rtp", all ? "any" : "loopback"}};
+        Application desk{Transport::http, gateway};
+        desk.connect();
+        desk.bind("audio_streaming");
+        auto const answer = desk.set_parameter("audio_streaming", {{"encoding_parameters", "string", {"audio/L16"}},
+                                                                   {"transport_parameters", "string", {"rtp://192.0.2.1:5004"}}});
+        if (all)
+            EXPECT_THAT(answer, IsOk());
+        else
+            EXPECT_THAT(answer, IsRefused("BAD_PARAMETER", "media_rtp"));
+    }
+}
+
 // Under a name of their own site that points to this machine (DNS rebinding), or across sites.
 TEST_P(Streaming, IsNotForPagesOfOtherSites) {
     ASSERT_THAT(desk.bind("video_streaming"), IsOk());

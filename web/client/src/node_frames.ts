@@ -127,7 +127,7 @@ export class FrameReader {
   }
 
   private piece(final: boolean, payload: Buffer): void {
-    this.fragments.push(payload);
+    if (payload.length > 0 || final) this.fragments.push(payload);
     this.fragments_size += payload.length;
     this.in_message = !final;
     if (!final) return;

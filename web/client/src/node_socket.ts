@@ -70,7 +70,8 @@ class NodeSocket implements Socket {
     this.stream = stream;
     const reader = new FrameReader({
       text: (message) => this.listening && this.listener.received(message),
-      ping: (payload) => stream.write(frame(Opcode.pong, payload)),
+      // A server that does not read its answers receives no more of them.
+      ping: (payload) => stream.writableNeedDrain || stream.write(frame(Opcode.pong, payload)),
       close: (code, reason) => {
         stream.end(frame(Opcode.close, Buffer.alloc(0)));
         const why = `the gateway closed the link with ${code ?? 'no code'}${reason && `, ${reason}`}`;

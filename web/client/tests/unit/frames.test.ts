@@ -137,6 +137,25 @@ test('a socket answers pings, and closes on a protocol violation', async () => {
   assert.equal(received[6]! ^ received[2]!, 'a'.charCodeAt(0));
 });
 
+test('a server that sends pings and does not read does not make the client grow', async () => {
+  const pings = 200_000;
+  const many = Buffer.concat(Array.from({ length: 1_000 }, () => sent(Opcode.ping, 'x'.repeat(125))));
+  let received = 0;
+  await calls_of(welcome, (socket) => {
+    socket.pause();
+    let written = 0;
+    const more = () => {
+      let room = true;
+      for (; written < pings && room; written += 1_000) room = socket.write(many);
+      if (written < pings) socket.once('drain', more);
+      else socket.end(() => socket.on('data', (bytes) => (received += bytes.length)).resume());
+    };
+    more();
+  });
+  assert.ok(received > 0);
+  assert.ok(received < (pings * 131) / 2, `${received} bytes waited in the client`);
+});
+
 test('an invalid handshake is final', async () => {
   const wrong = ['final: the server does not speak rois.xml.v1'];
   assert.deepEqual(await calls_of(() => welcome('bm90IHJpZ2h0')), wrong);
