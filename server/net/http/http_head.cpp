@@ -78,8 +78,13 @@ bool is_one_word(std::string_view text) {
 // Returns a fault for what Beast accepts and this gateway rejects (RFC 9112, 3.2, 5.2, 6.3).
 std::optional<Fault> find_fault(std::string_view text, Settings const& settings, RequestHead const& head) {
     auto const& fields = head.message;
-    auto const hosts = fields.count(http::field::host);
-    std::string_view const host = fields[http::field::host];
+    std::size_t hosts = 0, lengths = 0;
+    std::string_view host, length;
+    for (auto const& field : fields) {
+        if (field.name() == http::field::host) ++hosts, host = field.value();
+        if (field.name() == http::field::content_length) ++lengths, length = field.value();
+        if (field.name() == http::field::transfer_encoding) return no_transfer_encoding();
+    }
     if (static_cast<std::size_t>(std::distance(fields.begin(), fields.end())) > settings.max_header_fields)
         return Fault{FaultCode::header_too_large,
                      "more than " + std::to_string(settings.max_header_fields) + " header fields (max_header_fields)"};
@@ -88,9 +93,7 @@ std::optional<Fault> find_fault(std::string_view text, Settings const& settings,
     if (!may_be_authority(host)) return broken("Host " + quoted(host) + " is not a name or an address with an optional port");
     if (!may_be_authority(head.target_authority))
         return broken("the target's host is not a name or an address with an optional port");
-    if (fields.count(http::field::transfer_encoding) > 0) return no_transfer_encoding();
-    if (fields.count(http::field::content_length) > 1 || fields[http::field::content_length].contains(','))
-        return broken("expected one Content-Length header, with one number");
+    if (lengths > 1 || length.find(',') != length.npos) return broken("expected one Content-Length header, with one number");
     return {};
 }
 
