@@ -65,11 +65,9 @@ protected:
     // missing.
     HttpReply anew(std::string const& operation, Xml const& children = {}) {
         return on_new_connection([&](HttpClient client) {
-            client.session = desk->session;
-            client.notifications(0, 0);
-            auto reply = client.call(operation, children);
-            client.session.clear();
-            return reply;
+            client.get("/rois/notifications?after=0&wait=0", {{"RoIS-Session", desk->session}});
+            return client.post(request(operation, children),
+                               {{"RoIS-Session", desk->session}, {"Content-Type", "application/xml"}});
         });
     }
 
