@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
-# The Python module for component programs, with an engine that module_test.py plays.
+# The Python module for component programs, with an engine that the tests play.
 set -euo pipefail
-exec python3 -B "$(dirname "${BASH_SOURCE[0]}")/module_test.py"
+cd "$(dirname "${BASH_SOURCE[0]}")"
+exec python3 -B -W ignore -m unittest module_test values_test
