@@ -64,6 +64,22 @@ void keep_common(ComponentProfile& profile, ComponentProfile const& other, Note 
     keep_common(profile.parameters, other.parameters, [&](std::string const& name) { note("parameter " + quoted(name)); });
 }
 
+// The positions of a logical component are in the engine's own frame, and not in that of its first member.
+void leave_out_frames(ComponentProfile& profile, ComponentDescription const& member) {
+    auto const leave_out = [&](std::vector<ParameterProfile>& list) {
+        for (auto& each : list) {
+            auto& codebook = each.data_type_ref.codebook_ref;
+            if (codebook == member.crs || std::ranges::find(member.positions, each.name) != member.positions.end())
+                codebook.clear();
+        }
+    };
+    leave_out(profile.parameters);
+    for (auto& message : profile.messages) {
+        leave_out(message.arguments);
+        leave_out(message.results);
+    }
+}
+
 }  // namespace
 
 bool is_within(ComponentProfile const& small, ComponentProfile const& large) {
@@ -88,6 +104,7 @@ Common common(std::string const& ref, std::vector<ComponentDescription const*> c
             if (std::ranges::find(description.positions, position) == description.positions.end())
                 description.positions.push_back(position);
     }
+    leave_out_frames(profile, first);
     description.codebooks = first.codebooks;
     description.alternatives = first.alternatives;
     description.status_when_stopped = first.status_when_stopped;

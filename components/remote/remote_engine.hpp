@@ -131,6 +131,7 @@ private:
     void forget_session();
     void ask_about_earlier_commands();
     void take_earlier(xml::Answered const&);
+    void lose_earlier_session();
     void end_earlier_session();
     void reject(std::string const& problem);
     void send_again();

@@ -144,7 +144,7 @@ void RemoteEngine::ask_about_earlier_commands() {
 void RemoteEngine::take_earlier(xml::Answered const& answered) {
     auto const& [reply, id] = answered;
     if (auto const* resume = std::get_if<Resume::Reply>(&reply))
-        return resume->return_code == ReturnCode::ok ? ask_about_earlier_commands() : end_earlier_session();
+        return resume->return_code == ReturnCode::ok ? ask_about_earlier_commands() : lose_earlier_session();
     if (std::holds_alternative<ClearStop::Reply>(reply)) return note_stop_there({});
     if (std::holds_alternative<Disconnect::Reply>(reply)) return end_earlier_session();
     auto const* result = std::get_if<GetCommandResult::Reply>(&reply);
@@ -166,6 +166,12 @@ void RemoteEngine::take_earlier(xml::Answered const& answered) {
     ended_.push_back(std::move(ended));
 }
 
+// It has ended there, but its stop of everything may last: a gateway that could not go on has not stored it.
+void RemoteEngine::lose_earlier_session() {
+    if (!stop_there_) note_stop_there(ClearStop::own);
+    end_earlier_session();
+}
+
 void RemoteEngine::end_earlier_session() {
     earlier_.id = {};
     ++era_;
@@ -174,7 +180,7 @@ void RemoteEngine::end_earlier_session() {
 }
 
 void RemoteEngine::take(Fault const& fault) {
-    if (fault.code == FaultCode::no_session && !earlier_.id.text.empty()) return end_earlier_session();
+    if (fault.code == FaultCode::no_session && !earlier_.id.text.empty()) return lose_earlier_session();
     if (fault.code == FaultCode::no_session && !session_.text.empty()) return session_ended();
     if (!is_open_) return give_up_link("no session: " + fault.reason);
     auto const number = to_number<std::uint64_t>(fault.request_id);

@@ -360,6 +360,9 @@ Engine::Core::Later Engine::Core::prepare(Session& session, SharedAsked const& a
                                           Instant now) {
     auto const questions = static_cast<std::size_t>(std::ranges::count_if(list, &Preparation::asks));
     if (questions == 0) return then(session, std::move(list), now);
+    // This may fail: no question may be open then.
+    for (auto const& each : list)
+        if (each.asks() && each.component->preference) order_members(*each.component, session);
     auto const prepared = std::make_shared<std::vector<Preparation>>(std::move(list));
     auto const round = questions_.begin(
         now.steady + settings_.question_deadline, questions,
@@ -380,7 +383,6 @@ Engine::Core::Later Engine::Core::prepare(Session& session, SharedAsked const& a
         auto const ticket =
             questions_.add(round, place++, component, "the component did not answer whether a command is possible");
         auto changed = component.in_own_frame(each.parameters);
-        if (component.preference) order_members(component, session);
         component.hosted().prepare(ticket, each.command_type, changed ? std::move(*changed) : each.parameters, now);
     }
     return {};
@@ -411,7 +413,7 @@ Engine::Core::Later Engine::Core::perform(Session& session, Execute const& execu
     SequenceCheck check{session, registry_, frames_seen_by(session)};
     if (auto problem = check.objection(execute.command_unit_list))
         return refused<Execute::Reply>(problem->return_code, std::move(problem->reason));
-    bool const begins = check.begins_something(), lasts = begins || check.delays_something();
+    bool const begins = check.begins_something(), lasts = begins || check.delays_something() || check.sets_something();
     if (auto problem = why_not_now(session, begins, lasts, check.commands()))
         return refused<Execute::Reply>(problem->return_code, std::move(problem->reason));
     auto then = [this, asked, begins, lasts, ids = check.ids()](Session& asker, std::vector<Preparation> prepared,

@@ -272,17 +272,36 @@ std::vector<std::string> Engine::Core::add_space(Places& all, BelongingsOf const
     return left_out;
 }
 
+namespace {
+
+// Removes the frames and places of an engine, whose names begin with its own (`prefix`).
+void leave_out(Space& space, std::string const& prefix) {
+    std::erase_if(space.frames, [&](Frame const& frame) {
+        return std::string_view{frame.crs}.substr(frame.crs.rfind(':') + 1).starts_with(prefix);
+    });
+    std::erase_if(space.places, [&](NamedPlace const& place) { return place.name.starts_with(prefix); });
+}
+
+}  // namespace
+
 // The frames and places for another engine. Places that are not boxes are left out: messages have no form for them.
 Places const& Engine::Core::places_seen_by(Rights const* rights) const {
     if (may_see_everything(rights)) return places_;
     if (auto const known = places_seen_.find(rights->seen()); known != places_seen_.end()) return known->second;
     auto seen = belongings_;
+    auto const sees_one = [&](auto const& is_meant) {
+        return std::ranges::any_of(registry_.all(),
+                                   [&](auto const& each) { return is_meant(*each.second) && rights->sees(each.first); });
+    };
     std::erase_if(seen, [&](auto const& each) {
-        auto const is_seen = [&](auto const& component) {
-            return component.second->provider() == each.first && rights->sees(component.first);
-        };
-        return !each.first.empty() && std::ranges::none_of(registry_.all(), is_seen);
+        return !each.first.empty() && !sees_one([&](auto const& component) { return component.provider() == each.first; });
     });
+    for (auto& [provider, brought] : seen)
+        for (auto const& [engine, parameters] : brought.engines) {
+            auto const prefix = engine + ".";
+            if (!sees_one([&](auto const& component) { return component.ref().code.starts_with(prefix); }))
+                leave_out(brought.space, prefix);
+        }
     Places places;
     try {
         places = places_of(seen);

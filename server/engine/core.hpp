@@ -43,7 +43,7 @@ public:
 
     void use(EngineSettings const& settings) {
         settings_ = with_changes(settings_, settings);
-        effort_.limit(settings_.max_condition_steps);
+        for (auto* effort : {&effort_, &delivery_effort_}) effort->limit(settings_.max_condition_steps);
         events_.keep_for(settings_.event_details);
         errors_.keep_for(settings_.error_details);
     }
@@ -85,6 +85,7 @@ public:
     std::vector<std::string> not_halted() const;
     std::vector<std::string> not_ready() const;
     void shut_down(Instant now);
+    void halt_everything(Instant now);
     std::shared_ptr<NotificationQueue> note_request(SessionId const&, Instant now, Rights const*);
     void note_pong(SessionId const&, Instant now);
     void link_opened(SessionId const&, LinkKind, Instant now);
@@ -218,7 +219,8 @@ private:
     // Delivers to every receiver, even if one delivery throws. `deliveries` keeps the first exception.
     void publish(RegisteredComponent&, EventOccurred const&, Instant now, Attempts& deliveries);
     using SharedResults = std::shared_ptr<Results const>;
-    // Returns whether a subscription matches the event.
+    // Returns whether a subscription matches the event (delivery.cpp).
+    class Delivery;
     bool deliver(RegisteredComponent&, std::string const& event_type, SharedResults const&, Instant now, Attempts& deliveries);
     void deliver_or_keep(KeptEvents::Event, Instant now, Attempts& deliveries);
     void deliver_kept(std::string const& event_type, Instant now);
@@ -369,6 +371,7 @@ private:
     Deadlines::Ticket last_due_ = Deadlines::first();  // of the deadlines that were carried out since the last tick
     Notifier notifier_;
     Effort effort_;
+    Effort delivery_effort_;   // of events to subscriptions with a condition
     std::uint64_t event_ = 0;  // number of the event that is being delivered
     Executor executor_;
     Details events_;
@@ -384,6 +387,7 @@ private:
     bool sessions_must_end_ = false;
     bool shutting_down_ = false;
     bool everything_is_stopped_ = false;
+    bool halts_only_ = false;                // by halt_everything
     std::vector<std::string> ended_owners_;  // of the present stop (owner_of); they have not cleared it
     std::uint64_t last_stop_ = 0;            // a number that no other stop has, also not one before the engine was started
     std::function<void(bool)> on_stop_ = [](bool) {};

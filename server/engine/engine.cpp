@@ -20,6 +20,7 @@ Engine::Core::Core(EngineProfile profile, std::vector<ComponentProfile> known_pr
       recorder_{outbox, sessions_},
       notifier_{recorder_},
       effort_{settings_.max_condition_steps},
+      delivery_effort_{settings_.max_condition_steps},
       executor_{settings_, registry_, agenda_, deadlines_, notifier_, questions_, trace_, recorder_},
       events_{"e-", settings_.event_details},
       kept_events_{settings_.max_kept_events},
@@ -309,7 +310,7 @@ void Engine::Core::begin_stop_of_everything(Instant now) {
     stop_unreported_ = true;
     ended_owners_.clear();
     ++last_stop_;
-    recorder_.changed_engine();
+    recorder_.changed_stop(true);
     Attempts attempts;
     attempts([&] { on_stop_(true); });  // before the components are halted
     attempts([&] { executor_.stop_all("everything was stopped", now); });
@@ -320,7 +321,7 @@ void Engine::Core::begin_stop_of_everything(Instant now) {
 
 void Engine::Core::clear() {
     if (!std::exchange(everything_is_stopped_, false)) return;
-    recorder_.changed_engine();
+    recorder_.changed_stop(false);
     on_stop_(false);
 }
 

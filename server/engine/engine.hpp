@@ -248,6 +248,9 @@ public:
 
     // Ends every session. Later operations are refused.
     void shut_down(Instant now);
+    // Halts all components, of the sub engines too, and begins no command. For a process that cannot go on: unlike
+    // `stop_everything`, it does not stop the next one.
+    void halt_everything(Instant now);
 
     // Without the members of logical components, and what the client may not see.
     std::shared_ptr<EngineProfile const> profile(Rights const* = nullptr) const;

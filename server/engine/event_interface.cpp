@@ -91,32 +91,6 @@ std::optional<std::string> Engine::Core::choose_details(Results& results, Detail
     return choose(results, condition, declared_details(details.message.get()), id, asker);
 }
 
-namespace {
-
-// The notifications of one event for one subscription: one shared by all sessions with inline results, one by the others.
-class EventNotifications {
-public:
-    EventNotifications(ReceiveEvent plain, std::shared_ptr<Results const> results)
-        : plain_{std::move(plain)}, results_{std::move(results)} {}
-
-    SharedNotification const& of(bool inline_results) {
-        auto& made = inline_results ? with_results_ : without_results_;
-        if (made) return made;
-        auto event = plain_;
-        if (inline_results) event.results = results_;
-        made = std::make_shared<OutgoingNotification const>(std::move(event));
-        return made;
-    }
-
-private:
-    ReceiveEvent plain_;
-    std::shared_ptr<Results const> results_;
-    SharedNotification with_results_;
-    SharedNotification without_results_;
-};
-
-}  // namespace
-
 void Engine::Core::publish(RegisteredComponent& component, EventOccurred const& event, Instant now, Attempts& deliveries) {
     auto const results = component.accepted(event);
     if (!results) return;
@@ -124,82 +98,6 @@ void Engine::Core::publish(RegisteredComponent& component, EventOccurred const& 
     ++events_published_;
     if (!matched && kept_events_.keeps_any())
         kept_events_.add({now.steady + events_.kept_for(), event.event_type, component.ref().code, results});
-}
-
-bool Engine::Core::deliver(RegisteredComponent& component, std::string const& event_type, SharedResults const& results,
-                           Instant now, Attempts& deliveries) {
-    auto const subscriptions = subscriptions_.possible(event_type, component);
-    std::string event_id;  // made when a subscriber matches
-    auto no_asker = perspective(nullptr, Perspective::Of::present);
-    MessageCandidate const candidate{no_asker.candidate(component), *results};
-    auto const matches = [&](Subscription const& subscription, Session const& asker) {
-        auto askers = perspective(&asker, Perspective::Of::present);
-        return subscription.filter.match(MessageCandidate{askers.candidate(component), *results}) == Match::yes;
-    };
-    bool begun = false;  // some subscriber may have been notified
-    ++event_;
-    // The session has no steps left. It receives a `Lost`: perhaps it has missed this event.
-    auto const miss = [&](Subscription::Subscriber const& one) {
-        if (std::exchange(one.session->missed, event_) == event_) return;
-        effort_.count_refusal();
-        begun = true;
-        deliveries([&] { notifier_.lose(*one.queue, component.answer_to(*one.session)); });
-    };
-    std::vector<Subscription::Subscriber const*> receivers, undecided;
-    // All subscribers that may see everything share one match. The first of them with steps left pays for it.
-    auto const find_receivers = [&](Subscription const& subscription) {
-        bool const each = subscription.filter.depends_on_asker();
-        std::optional<bool> common = subscription.filter.restricts() ? std::nullopt : std::optional{true};
-        receivers.clear();
-        undecided.clear();
-        for (auto const& one : subscription.subscribers) {
-            if (!may_see(one.rights, component.ref().code)) continue;
-            bool const alone = each || (subscription.filter.restricts() && !may_see_everything(one.rights));
-            auto met = alone ? std::nullopt : common;
-            if (!met)
-                met = paid_by(*one.session, now, [&] {
-                    return alone ? matches(subscription, *one.session) : subscription.filter.match(candidate) == Match::yes;
-                });
-            if (!met) (alone ? miss(one) : undecided.push_back(&one));
-            if (met && !alone) common = met;
-            if (met.value_or(false)) receivers.push_back(&one);
-        }
-        for (auto const* one : undecided)
-            if (!common)
-                miss(*one);
-            else if (*common)
-                receivers.push_back(one);
-    };
-    auto const deliver_to = [&](Subscription& subscription) {
-        find_receivers(subscription);
-        if (receivers.empty()) return;
-        if (event_id.empty()) {
-            auto const& profile = component.entry().profile;
-            event_id = events_.add(results, {profile, find_message(*profile, MessageKind::event, event_type)}, now);
-        }
-        EventNotifications notifications{{.event_id = {event_id},
-                                          .event_type = event_type,
-                                          .subscribe_id = subscription.id,
-                                          .expire = now.utc + events_.kept_for(),
-                                          .component_ref = component.ref(),
-                                          .results = nullptr},
-                                         results};
-        begun = true;
-        for (auto const* subscriber : receivers) {
-            deliveries([&] {
-                events_.add_receiver(subscriber->slot);
-                notifier_.notify(*subscriber->queue, notifications.of(subscriber->inline_results),
-                                 component.answer_to(*subscriber->session));
-            });
-        }
-    };
-    for (auto* subscription : subscriptions) {
-        if (begun)
-            deliveries([&] { deliver_to(*subscription); });
-        else
-            deliver_to(*subscription);
-    }
-    return !event_id.empty();
 }
 
 void Engine::Core::deliver_or_keep(KeptEvents::Event event, Instant now, Attempts& deliveries) {

@@ -70,6 +70,7 @@ void Engine::link_closed(SessionId const& id, LinkKind link, Closing closing, In
 void Engine::end(SessionId const& id, Instant now) { core_->end(id, now); }
 void Engine::end_withdrawn(Instant now) { core_->end_withdrawn(now); }
 void Engine::shut_down(Instant now) { core_->shut_down(now); }
+void Engine::halt_everything(Instant now) { core_->halt_everything(now); }
 
 void Engine::stop_everything(Instant now) { core_->stop_everything(now); }
 void Engine::clear() { core_->clear(); }

@@ -242,6 +242,7 @@ void RegisteredComponent::accept(ComponentState state) {
             report_failure("invalid location: " + *problem, Report::once);
             state.location.reset();
         }
+    if (state.location && is_logical()) state.location->ref = entry_.engine;  // it stands for several robots
     std::erase_if(state.parameters, [&](Parameter const& each) { return profile_for(readable_, each.name) == nullptr; });
     auto const problem = why_not(readable_, state.parameters);
     if (problem) report_failure("invalid parameters: " + *problem, Report::once);

@@ -48,6 +48,7 @@ struct Session {
     std::size_t predicates = 0;       // total in the conditions of the subscriptions
     std::size_t condition_bytes = 0;  // total length of the texts in these conditions
     Effort::Account effort;           // for matching conditions
+    Effort::Account deliveries;       // of events to its subscriptions with a condition
     std::uint64_t missed = 0;         // the last event (Core::event_) that was not compared with a condition of it
     std::unordered_map<CommandId, std::shared_ptr<Command>, IdHash> commands;  // all known commands (decision 17)
     std::list<std::shared_ptr<Command>> ended;  // the ended commands of `commands`, oldest end first

@@ -288,4 +288,13 @@ ReceiveError Engine::Core::noted(FoundError const& report, Instant now) {
     return error;
 }
 
+void Engine::Core::halt_everything(Instant now) {
+    halts_only_ = !std::exchange(everything_is_stopped_, true);
+    Attempts attempts;
+    attempts([&] { on_stop_(true); });  // before the components are halted
+    attempts([&] { executor_.stop_all("the gateway cannot go on", now); });
+    attempts([&] { settle(now); });
+    attempts.rethrow();
+}
+
 }  // namespace rois

@@ -124,12 +124,14 @@ public:
 
     Operation const& operation() const override { return request_.operation; }
 
-    // Called with the engine locked.
+    // Called with the engine locked. The first answer counts: memory may have been short after a question was asked.
     void answer(Reply&& reply) override {
+        if (has_come()) return;
         reply_ = std::move(reply);
         come();
     }
     void refuse(Refusal refusal) override {
+        if (has_come()) return;
         fault_ = gateway_.fault_of(refusal);
         fault_->request_id = request_.request_id;
         auto const* bind = std::get_if<Bind>(&operation());
@@ -420,7 +422,7 @@ void Gateway::halt_at_last() noexcept {
     for (int tries = 0; tries < 100 && !lock.try_lock(); ++tries) std::this_thread::sleep_for(std::chrono::milliseconds{10});
     if (!lock.owns_lock()) return;
     Attempts attempts;  // a failure of one component does not keep the others from halting
-    attempts([&] { engine_.stop_everything(present()); });
+    attempts([&] { engine_.halt_everything(present()); });
     attempts([&] { engine_.work(lock, present(), Provider::Runner::clock); });
     readers_.flush();
 }

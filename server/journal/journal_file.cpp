@@ -16,6 +16,7 @@
 
 #include "journal/log_check.hpp"
 #include "types/text/texts.hpp"
+#include "types/text/to_number.hpp"
 #include "types/unique_descriptor.hpp"
 
 namespace rois::journal {
@@ -103,6 +104,12 @@ bool make_file(std::string const& name) {
     return found.st_size == 0;
 }
 
+std::unique_ptr<StopFile> opened_stop(std::string const& name) {
+    make_file(name);
+    keep_to_owner(name);
+    return std::make_unique<StopFile>(UniqueDescriptor{::open(name.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC)}, name);
+}
+
 // SQLite itself does not notice other bytes at the beginning of the file while its log has the first page.
 void require_database(std::string const& name) {
     using namespace std::literals;
@@ -123,7 +130,7 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
     : name_{folder + "/journal.db"},
       log_{name_ + "-wal"},
       reserve_{folder + "/reserve"},
-      in_use_{folder + "/in_use"},
+      mark_{folder + "/in_use"},
       log_pages_{longest_log} {  // an earlier process may have left a long log
     make_folder(folder);
     bool const is_new = make_file(name_);
@@ -146,27 +153,25 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
     end_ = prepared("DELETE FROM record WHERE kind IN ('command', 'notification', 'session', 'subscription') AND session = ?");
     pages_ = prepared("PRAGMA page_count");
     free_pages_ = prepared("PRAGMA freelist_count");
+    check_step(is_new);
     count_pages();
     if (::lstat(reserve_.c_str(), &found) == 0 && !S_ISREG(found.st_mode))
         throw BadJournal{"state: " + rois::quoted(reserve_) + " is not a file"};
     keep_reserve(Steady::clock::now());
-    open_stop(folder + "/stop");
+    stop_ = opened_stop(folder + "/stop");
     sqlite3_db_config(database_.get(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, nullptr);
 }
 
 // SQLite then moves its log into the database, and removes it.
-JournalFile::~JournalFile() { ::unlink(in_use_.c_str()); }
+JournalFile::~JournalFile() { mark_.remove(); }
 
 void JournalFile::refuse(std::string const& why) const { throw BadJournal{"state: " + rois::quoted(name_) + " " + why}; }
 
-// SQLite itself drops all steps behind a damaged place in its log, as after a write that was cut short, and does not miss a log
-// that was removed.
+// SQLite itself drops all steps behind a damaged place in its log, as after a write that was cut short.
 void JournalFile::check_log(bool is_new) const {
     UniqueDescriptor const file{::open(log_.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
     struct stat found {};
     bool const is_missing = file.get() < 0 ? errno == ENOENT : ::fstat(file.get(), &found) == 0 && found.st_size == 0;
-    if (is_missing && !is_new && ::access(in_use_.c_str(), F_OK) == 0)
-        refuse("is incomplete: the gateway did not end in order, and the log " + rois::quoted(log_) + " was removed or emptied");
     if (is_missing) return;
     if (file.get() < 0 || ::fstat(file.get(), &found) != 0 || !S_ISREG(found.st_mode))
         throw BadJournal{"state: cannot read " + rois::quoted(log_)};
@@ -196,7 +201,10 @@ void JournalFile::check_header(bool is_new) {
     if (!run("PRAGMA locking_mode = EXCLUSIVE; BEGIN EXCLUSIVE")) refuse_by(sqlite3_extended_errcode(database_.get()));
     auto const found = number("PRAGMA application_id");
     auto const found_version = number("PRAGMA user_version");
-    if (is_new) {
+    // What a process has begun that was killed while it made the database is undone now.
+    struct stat now {};
+    bool const is_empty = is_new || (::stat(name_.c_str(), &now) == 0 && now.st_size == 0);
+    if (is_empty) {
         auto const mark = "PRAGMA application_id = " + std::to_string(application) +
                           "; PRAGMA user_version = " + std::to_string(version) + ";" + table;
         if (!run(mark.c_str())) refuse("cannot be written: " + said());
@@ -211,7 +219,7 @@ void JournalFile::check_header(bool is_new) {
         return SQLITE_OK;
     };
     sqlite3_wal_hook(database_.get(), note_log, this);
-    if (!is_new) check_pages();
+    if (!is_empty) check_pages();
 }
 
 void JournalFile::check_pages() {
@@ -221,6 +229,21 @@ void JournalFile::check_pages() {
     auto const parts = prepared("SELECT sql FROM sqlite_schema");
     bool const is_ours = sqlite3_step(parts.get()) == SQLITE_ROW && text_at(parts.get(), 0) == table;
     if (!is_ours || sqlite3_step(parts.get()) != SQLITE_DONE) refuse("has other tables than a journal of rois-gateway");
+}
+
+void JournalFile::check_step(bool is_new) {
+    auto const found = prepared("SELECT key, value FROM record WHERE kind = 'engine_step'");
+    if (sqlite3_step(found.get()) == SQLITE_ROW) {
+        step_ = {.journal = text_at(found.get(), 0), .number = to_number<std::uint64_t>(text_at(found.get(), 1)).value_or(0)};
+    } else {
+        std::array<unsigned char, 16> random{};
+        sqlite3_randomness(random.size(), random.data());
+        for (auto const byte : random) step_.journal += {"0123456789abcdef"[byte / 16], "0123456789abcdef"[byte % 16]};
+    }
+    auto const& left = mark_.left();
+    if (left && !is_new && (left->journal != step_.journal || left->number > step_.number))
+        refuse("is incomplete: the gateway did not end in order, and its log " + rois::quoted(log_) +
+               " was removed, emptied or replaced");
 }
 
 // What SQLite says about its last failure. It may repeat bytes of the file, so it is quoted.
@@ -242,8 +265,9 @@ JournalFile::Statement JournalFile::prepared(char const* sql) {
 
 std::vector<Record> JournalFile::read() {
     std::vector<Record> records;
-    auto const all =
-        prepared("SELECT kind, session, key, value, sum FROM record WHERE kind <> 'room' ORDER BY kind, session, key");
+    auto const all = prepared(
+        "SELECT kind, session, key, value, sum FROM record WHERE kind NOT IN ('engine_step', 'room')"
+        " ORDER BY kind, session, key");
     int result = SQLITE_ROW;
     while ((result = sqlite3_step(all.get())) == SQLITE_ROW) {
         auto* const row = all.get();
@@ -290,13 +314,16 @@ bool JournalFile::write(RecordChanges const& changes) {
         put(forget_.get(), 4, last);
         if (!step(forget_)) return false;
     }
-    for (auto const& record : changes.set) {
+    auto const set = [this](Record const& record) {
         put(set_.get(), 1, record.key);
         put(set_.get(), 4, record.value);
         put(set_.get(), 5, sum_of(record));
-        if (!step(set_)) return false;
-    }
-    return step(commit_);
+        return step(set_);
+    };
+    if (!std::ranges::all_of(changes.set, set)) return false;
+    if (!set({{"engine_step", 0, step_.journal}, std::to_string(step_.number + 1)}) || !step(commit_)) return false;
+    ++step_.number;
+    return true;
 }
 
 void JournalFile::roll_back() {
@@ -324,8 +351,9 @@ JournalFile::Result JournalFile::store(RecordChanges const& changes) {
         give_up_reserve();
         result = attempt(changes);
     }
-    if (result == Result::stored) count_pages();
-    if (result == Result::stored && !std::exchange(is_marked_, true)) mark_as_used();
+    if (result != Result::stored) return result;
+    count_pages();
+    mark_.set(step_);
     return result;
 }
 
@@ -334,11 +362,6 @@ void JournalFile::grow() {
     for (auto const& changes : {RecordChanges{.set = {filling}}, RecordChanges{.gone = {filling.key}}})
         if (attempt(changes) == Result::broken) refuse("cannot be written: " + problem_);
     count_pages();
-}
-
-// From the first step on, SQLite's log is not empty.
-void JournalFile::mark_as_used() const {
-    UniqueDescriptor const file{::open(in_use_.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR)};
 }
 
 // Begins no step behind a long log, so that the log stays short. The step before may have ended for lack of memory.
@@ -385,23 +408,6 @@ bool JournalFile::is_in_place() {
     bool const has_log = ::lstat(log_.c_str(), &named) == 0;
     if (log_inode_ == 0 && has_log) log_inode_ = named.st_ino;
     return log_inode_ == 0 || (has_log && named.st_ino == log_inode_);
-}
-
-// Its only byte is 1 or 0.
-void JournalFile::open_stop(std::string const& name) {
-    make_file(name);
-    keep_to_owner(name);
-    stop_ = UniqueDescriptor{::open(name.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC)};
-    char kept = '0';
-    if (::pread(stop_.get(), &kept, 1, 0) == 1)
-        is_stopped_ = kept == '1';
-    else if (::pwrite(stop_.get(), &kept, 1, 0) != 1)
-        throw BadJournal{"state: cannot write " + rois::quoted(name) + ": " + std::strerror(errno)};
-}
-
-void JournalFile::keep_stop(bool is_stopped) {
-    if (is_stopped == is_stopped_) return;
-    if (::pwrite(stop_.get(), is_stopped ? "1" : "0", 1, 0) == 1 && ::fdatasync(stop_.get()) == 0) is_stopped_ = is_stopped;
 }
 
 void JournalFile::give_up_reserve() {

@@ -10,11 +10,13 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "journal/records.hpp"
+#include "journal/step_mark.hpp"
+#include "journal/stop_file.hpp"
 #include "types/instant.hpp"
-#include "types/unique_descriptor.hpp"
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -62,9 +64,9 @@ public:
     // Why the last `store` or `tidy` did not succeed.
     std::string const& problem() const { return problem_; }
 
-    // Whether everything is stopped, in a file of its own that never grows: also a full disk takes a change of it.
-    void keep_stop(bool is_stopped);
-    bool is_stopped() const { return is_stopped_; }
+    // The file beside it that keeps a stop. The writer takes it: it is not written by the same thread.
+    StopFile& stop() { return *stop_; }
+    std::unique_ptr<StopFile> take_stop() { return std::move(stop_); }
 
     // Whether the file and SQLite's log still have their names: otherwise the next start would not find them.
     bool is_in_place();
@@ -85,6 +87,7 @@ private:
     void open();
     void check_header(bool is_new);
     void check_pages();
+    void check_step(bool is_new);
     std::string said() const;
     bool run(char const* sql);
     std::int64_t number(char const* pragma);
@@ -93,23 +96,20 @@ private:
     bool write(RecordChanges const&);
     bool step(Statement&);
     void count_pages();
-    void open_stop(std::string const& name);
     Result judged();
     bool note_failure() noexcept;
     void roll_back();
-    void mark_as_used() const;
     void give_up_reserve();
     [[noreturn]] void refuse(std::string const& why) const;
 
     std::string const name_;
     std::string const log_;  // of SQLite
     std::string const reserve_;
-    std::string const in_use_;  // exists while SQLite's log is needed
-    bool is_marked_ = false;    // `in_use_` was made
-    UniqueDescriptor stop_;
-    bool is_stopped_ = false;  // as kept
-    ::ino_t inode_ = 0;        // of the database
-    ::ino_t log_inode_ = 0;    // of SQLite's log; 0: not seen yet
+    StepMark mark_;
+    Step step_;  // the last one that was stored
+    std::unique_ptr<StopFile> stop_;
+    ::ino_t inode_ = 0;      // of the database
+    ::ino_t log_inode_ = 0;  // of SQLite's log; 0: not seen yet
     ::dev_t device_ = 0;
     std::unique_ptr<sqlite3, Close> database_;
     int log_pages_ = 0;

@@ -17,9 +17,10 @@ constexpr auto no_room =
 }  // namespace
 
 JournalWriter::JournalWriter(std::unique_ptr<JournalFile> file, Calls calls)
-    : file_{std::move(file)}, calls_{std::move(calls)}, has_room_{file_->has_reserve()} {
+    : stop_{file->take_stop()}, file_{std::move(file)}, calls_{std::move(calls)}, has_room_{file_->has_reserve()} {
     if (!has_room_) calls_.say(no_room);
     thread_ = std::jthread{[this](std::stop_token const& stop) { run(stop); }};
+    stops_thread_ = std::jthread{[this](std::stop_token const& stop) { run_stops(stop); }};
 }
 
 JournalWriter::~JournalWriter() = default;
@@ -28,6 +29,14 @@ void JournalWriter::store(std::shared_ptr<Changes const> changes) noexcept {
     {
         std::lock_guard const lock{mutex_};
         next_ = std::move(changes);
+    }
+    news_.notify_all();
+}
+
+void JournalWriter::keep_stop(bool is_stopped) noexcept {
+    {
+        std::lock_guard const lock{mutex_};
+        next_stop_ = is_stopped;
     }
     news_.notify_all();
 }
@@ -42,8 +51,9 @@ void JournalWriter::limit(std::size_t bytes) {
 
 bool JournalWriter::finish(std::chrono::milliseconds longest) {
     thread_.request_stop();
+    stops_thread_.request_stop();
     std::unique_lock lock{mutex_};
-    return news_.wait_for(lock, longest, [this] { return is_closed_; });
+    return news_.wait_for(lock, longest, [this] { return is_closed_ && !next_stop_; });
 }
 
 std::string JournalWriter::why_no_commands() const {
@@ -74,6 +84,18 @@ void JournalWriter::run(std::stop_token const& stop) {
     news_.notify_all();
 }
 
+void JournalWriter::run_stops(std::stop_token const& stop) {
+    std::unique_lock lock{mutex_};
+    while (news_.wait(lock, stop, [this] { return next_stop_.has_value(); })) {
+        auto const is_stopped = *next_stop_;
+        lock.unlock();
+        if (!stop_->keep(is_stopped)) calls_.broken("the file that keeps a stop could not be written");
+        lock.lock();
+        if (next_stop_ == is_stopped) next_stop_.reset();
+        news_.notify_all();
+    }
+}
+
 // False: there is no memory.
 bool JournalWriter::uses(std::size_t limit) {
     try {
@@ -87,7 +109,6 @@ void JournalWriter::write(Changes const& changes) {
     auto const begin = std::chrono::steady_clock::now();
     auto result = JournalFile::Result::no_room;
     try {
-        file_->keep_stop(changes.engine.is_stopped);
         result = file_->store(records_of(changes));
         if (result == JournalFile::Result::no_room && !std::exchange(is_failing_, true))
             calls_.say("not stored, and tried again: " + file_->problem());

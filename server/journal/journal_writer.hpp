@@ -36,13 +36,14 @@ public:
     JournalWriter& operator=(JournalWriter const&) = delete;
 
     void store(std::shared_ptr<Changes const>) noexcept override;
+    void keep_stop(bool is_stopped) noexcept override;
     std::string why_no_commands() const override;
 
     // From now on, all files together take at most `bytes`. Thread-safe.
     void limit(std::size_t bytes);
 
-    // Waits until everything that was given is written and the file is closed. Changes that are given later are ignored. Returns
-    // false if the disk needs longer than this.
+    // Waits until everything that was given is written and the files are closed. Changes that are given later are ignored.
+    // Returns false if the disk needs longer than this.
     bool finish(std::chrono::milliseconds longest);
 
     // For /metrics. Thread-safe.
@@ -55,12 +56,14 @@ public:
 
 private:
     void run(std::stop_token const& stop);
+    void run_stops(std::stop_token const& stop);
     bool uses(std::size_t limit);
     void write(Changes const&);
     void note_broken(std::string_view problem);
     void note_room();
 
-    std::unique_ptr<JournalFile> file_;  // used only by the thread, which closes it at its end
+    std::unique_ptr<StopFile> const stop_;  // used only by its thread
+    std::unique_ptr<JournalFile> file_;     // used only by the other thread, which closes it at its end
     Calls const calls_;
     std::atomic<bool> has_room_ = true;
     bool is_failing_ = false;  // the last step was not stored
@@ -70,8 +73,10 @@ private:
     std::condition_variable_any news_;
     std::shared_ptr<Changes const> next_;
     std::optional<std::size_t> next_limit_;
+    std::optional<bool> next_stop_;  // until it is kept
     bool is_closed_ = false;
     std::jthread thread_;
+    std::jthread stops_thread_;  // a stop does not wait for a step that the disk is storing
 };
 
 }  // namespace rois::journal

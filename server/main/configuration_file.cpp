@@ -29,11 +29,19 @@ void set(GatewaySettings& settings, std::string const& name, json const& value, 
 
 }  // namespace
 
+namespace {
+
+constexpr std::uintmax_t most_bytes = 10'000'000;  // of a file, which is read while the gateway serves
+
+}  // namespace
+
 std::string text_of_file(std::string const& file) {
     if (std::filesystem::is_directory(file)) throw BadSettings{file + ": cannot be read: this is a directory; name a file in it"};
     std::error_code error;
     if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
         throw BadSettings{file + ": cannot be read: this is not a regular file"};
+    if (auto const size = std::filesystem::file_size(file, error); !error && size > most_bytes)
+        throw BadSettings{file + ": has " + std::to_string(size) + " bytes: expected at most " + std::to_string(most_bytes)};
     std::ifstream stream{file, std::ios::binary};
     std::string text{std::istreambuf_iterator<char>{stream}, {}};
     if (!stream.is_open() || stream.bad()) throw BadSettings{file + ": cannot be read: " + std::strerror(errno)};

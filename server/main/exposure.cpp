@@ -15,8 +15,8 @@ namespace rois {
 
 namespace {
 
-// Also true for a name that cannot be resolved: the gateway does not start then.
-bool is_only_here(std::string const& host) {
+// Nothing for a name that cannot be resolved.
+std::optional<bool> is_only_here(std::string const& host) {
     if (auto const address = read_address(host)) return is_loopback(*address);
     addrinfo const hints{.ai_flags = 0,
                          .ai_family = AF_UNSPEC,
@@ -27,7 +27,7 @@ bool is_only_here(std::string const& host) {
                          .ai_canonname = nullptr,
                          .ai_next = nullptr};
     addrinfo* found = nullptr;
-    if (::getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0) return true;
+    if (::getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0) return {};
     std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> const all{found, &::freeaddrinfo};
     for (auto const* each = all.get(); each != nullptr; each = each->ai_next) {
         std::array<char, NI_MAXHOST> text{};
@@ -43,7 +43,7 @@ bool is_only_here(std::string const& host) {
 
 std::vector<std::string> check_exposure(GatewaySettings const& settings) {
     auto const where = host_and_port(settings.net.host, settings.net.port);
-    bool const needs_token = !settings.tokens.empty(), is_reachable = !is_only_here(settings.net.host);
+    bool const needs_token = !settings.tokens.empty(), is_reachable = is_only_here(settings.net.host) == false;
     std::vector<std::string> warnings;
     if (is_reachable && needs_token && settings.tls.certificate.empty())
         warnings.push_back("clients send their tokens to " + where + " without TLS: others on the network can read them");
@@ -58,7 +58,10 @@ std::vector<std::string> check_exposure(GatewaySettings const& settings) {
                            " may command this robot: with wss:// it must have a certificate");
     if (needs_token || settings.allow_anyone) return warnings;
     auto const check = [](std::string const& key, std::string const& host, std::uint16_t port) {
-        if (host.empty() || is_only_here(host)) return;
+        auto const only_here = host.empty() ? true : is_only_here(host);
+        if (!only_here)
+            throw BadSettings{key + ": " + quoted(host) + " cannot be resolved: expected an address, or a name that has one"};
+        if (*only_here) return;
         throw BadSettings{
             key + ": other machines can reach " + host_and_port(host, port) +
             ", and no client needs a token: make one with 'rois-gateway token add NAME --role operator --tokens FILE' and "

@@ -25,7 +25,7 @@ std::optional<OpenedJournal> opened_journal(GatewaySettings const& settings, std
     OpenedJournal opened{std::make_unique<journal::JournalFile>(settings.state, settings.state_bytes), {}};
     try {
         opened.state = journal::state_of(opened.file->read(), schemas);
-        opened.state.engine.is_stopped = opened.state.engine.is_stopped || opened.file->is_stopped();
+        opened.state.engine.is_stopped = opened.state.engine.is_stopped || opened.file->stop().is_stopped();
     } catch (journal::BadRecord const& problem) {
         throw journal::BadJournal{"state: " + rois::quoted(opened.file->name()) + " is damaged: " + problem.what()};
     }

@@ -356,6 +356,7 @@ int serve(CommandLine const& command) {
             auto const before = std::exchange(present, with_changes(present, wanted));
             report_changes(before, present, wanted);
             auto next = with_all_hosts(wanted);
+            next.credentials = credentials;
             make_room_for_connections(next, wanted.media);
             server.use(next);
             gateway.use(client_limits(next), wanted.engine);

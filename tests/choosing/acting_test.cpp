@@ -1,6 +1,8 @@
 #include <algorithm>
 
+#include "choosing/common_profile.hpp"
 #include "choosing/team.hpp"
+#include "engine/conditions/conditions.hpp"
 
 namespace rois::choosing::test {
 
@@ -8,6 +10,21 @@ namespace {
 
 using testing::Contains;
 using testing::Not;
+
+// A component whose positions are in the frame of its engine.
+ComponentDescription const& with_own_frame(std::string const& ref) {
+    static ComponentDescription description;
+    description.ref = Application::identifier(ref);
+    description.crs = "urn:x-example:robot1";
+    description.positions = {"target_position"};
+    auto profile = std::make_shared<ComponentProfile>();
+    profile->parameters.push_back({.name = "target_position",
+                                   .data_type_ref = {"string[]", {}, description.crs, {}},
+                                   .default_value = {},
+                                   .description = {}});
+    description.profile = std::move(profile);
+    return description;
+}
 
 }  // namespace
 
@@ -119,6 +136,16 @@ TEST(ATeam, OffersWhatAllItsMembersHave) {
     EXPECT_EQ(desk.bind("navigation"), ReturnCode::ok) << "it was replaced";
 }
 
+// A client that does not see the members would learn from these which one acts.
+TEST_F(TwoRobots, DoNotShowInThePositionOrTheProfile) {
+    EXPECT_THAT(desk.search(equal("location/@ref", "robot1")), IsEmpty());
+    EXPECT_THAT(desk.search(equal("location/@ref", "main")), ElementsAre("navigation", "speech"));
+    EXPECT_EQ(common("navigation", {&with_own_frame("robot1.navigation")})
+                  .description.profile->parameters.front()
+                  .data_type_ref.codebook_ref,
+              "");
+}
+
 // --- Choosing ---
 
 TEST_F(TwoRobots, ActIfTheyAreNearest) {
@@ -193,6 +220,24 @@ TEST_F(TwoRobots, AreChosenInTheOrderOfTheCondition) {
     team.place("robot1", 20'000, 0);
     desk.execute(drive_to("on", {"1000, 0, 0"}));
     EXPECT_EQ(team.starts_of("robot1"), 1) << "as the members are now";
+}
+
+// The order of the members is needed before one is asked: comparing them may take more steps than the session has.
+TEST(ATeam, IsNotAskedAfterARefusal) {
+    EngineSettings settings;
+    settings.max_condition_steps = 1'000'000;
+    Team team{{"robot1", "robot2"}, {}, settings};
+    auto desk = team.world.connect();
+    QueryExpression nearest{equal("component_type", "urn:x-rois:def:component:OMG::Navigation"),
+                            {{{Function{"distance", {{ValueReference{"location"}}, {Literal{"0, 0"}}}}}, SortOrder::descending}}};
+    ASSERT_EQ(desk.bind_any(nearest), "navigation");
+    std::vector<Condition> many(250, like("component_type", "*" + std::string(900, 'n')));
+    while (desk.ask(Search{either(many)}).return_code == ReturnCode::ok) continue;
+    EXPECT_EQ(desk.execute(drive_to("go", {"1000, 0, 0"})).return_code, ReturnCode::out_of_resources);
+    team.world.advance(3s);
+    EXPECT_THAT(desk.received(), IsEmpty()) << "no error";
+    EXPECT_EQ(desk.ask(Release{Application::identifier("navigation")}).return_code, ReturnCode::ok);
+    EXPECT_THAT(desk.search(equal("status", "READY")), Contains("navigation"));
 }
 
 TEST(ATeam, PrefersRobotsWhoseAreaHasTheTarget) {

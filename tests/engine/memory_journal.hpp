@@ -25,6 +25,7 @@ public:
         gone = changes->ended.size() + changes->unsubscribed.size() + changes->forgotten_commands.size();
         waiting_ = std::move(changes);
     }
+    void keep_stop(bool is_stopped) noexcept override { is_stopped_ = is_stopped; }
     std::string why_no_commands() const override { return full; }
 
     bool has_waiting() const { return waiting_ != nullptr; }
@@ -43,6 +44,7 @@ public:
     StoredState take_state() {
         waiting_.reset();
         StoredState state{.engine = kept_.engine};
+        state.engine.is_stopped = state.engine.is_stopped || is_stopped_;
         for (auto const& [number, each] : kept_.sessions) state.sessions.push_back(each);
         for (auto const& [key, each] : kept_.subscriptions) state.subscriptions.push_back(each);
         for (auto const& [key, each] : kept_.commands) state.commands.push_back(each);
@@ -104,6 +106,7 @@ private:
 
     std::shared_ptr<Changes const> waiting_;
     Kept kept_;
+    bool is_stopped_ = false;
 };
 
 }  // namespace rois

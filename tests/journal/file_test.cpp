@@ -137,10 +137,10 @@ TEST_F(JournalsFile, KeepsAStopWithoutNeedingRoom) {
     for (bool const stopped : {true, false}) {
         {
             JournalFile file{folder.name(), plenty};
-            EXPECT_NE(file.is_stopped(), stopped);
-            file.keep_stop(stopped);
+            EXPECT_NE(file.stop().is_stopped(), stopped);
+            EXPECT_TRUE(file.stop().keep(stopped));
         }
-        EXPECT_EQ((JournalFile{folder.name(), plenty}.is_stopped()), stopped);
+        EXPECT_EQ((JournalFile{folder.name(), plenty}.stop().is_stopped()), stopped);
         EXPECT_EQ(std::filesystem::file_size(folder.name() + "/stop"), 1U);
     }
 }
@@ -149,6 +149,24 @@ TEST_F(JournalsFile, IsMadeWithItsFolder) {
     auto const below = folder.name() + "/below";
     EXPECT_EQ(why_refused(below), "");
     EXPECT_THAT(why_refused(below + "/missing/folder"), HasSubstr("cannot make the folder"));
+}
+
+// The first start was killed while it made the database.
+TEST_F(JournalsFile, IsMadeAgainIfItWasOnlyBegun) {
+    StateFolder const begun;
+    sqlite3* database = nullptr;
+    ASSERT_EQ(sqlite3_open(begun.file().c_str(), &database), SQLITE_OK);
+    auto const sql =
+        "PRAGMA cache_size = 1; BEGIN EXCLUSIVE; CREATE TABLE t (x); INSERT INTO t"
+        " WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 10000) SELECT randomblob(100) FROM n";
+    ASSERT_EQ(sqlite3_exec(database, sql, nullptr, nullptr, nullptr), SQLITE_OK);
+    std::filesystem::copy(begun.name(), folder.name(), std::filesystem::copy_options::recursive);
+    sqlite3_close(database);
+    std::fstream{folder.file(), std::ios::in | std::ios::out} << "SQLite format 3";
+    ASSERT_GT(std::filesystem::file_size(folder.file()), 0U);
+    EXPECT_EQ(why_refused(folder.name()), "");
+    store({.set = {record(1, "a", "x")}});
+    EXPECT_THAT(keys_in(folder.name()), testing::ElementsAre("1 a=x"));
 }
 
 TEST_F(JournalsFile, BelongsToOneGatewayAtATime) {
@@ -217,9 +235,33 @@ TEST_F(JournalsLog, IsLeftAloneIfTheJournalIsRefused) {
     EXPECT_EQ(keys_in(crashed.name()).size(), 20U);
 }
 
-TEST_F(JournalsLog, MayEndInTheMiddleOfAStep) {
+TEST_F(JournalsLog, ThatWasCutShortIsMissed) {
     std::filesystem::resize_file(log(), std::filesystem::file_size(log()) - 100);
+    EXPECT_THAT(why_refused(crashed.name()), HasSubstr("is incomplete"));
+}
+
+TEST_F(JournalsLog, MayEndInTheMiddleOfAStepThatWasNotStored) {
+    std::filesystem::resize_file(log(), std::filesystem::file_size(log()) - 100);
+    std::fstream{crashed.name() + "/in_use"}.seekp(33) << "19";
     EXPECT_EQ(keys_in(crashed.name()).size(), 19U);
+}
+
+TEST_F(JournalsLog, ThatWasReplacedIsMissed) {
+    StateFolder const another;
+    JournalFile file{another.name(), plenty};
+    for (int i = 0; i < 50; ++i) file.store({.set = {record(1, "another", "x")}});
+    std::filesystem::copy_file(another.file() + "-wal", log(), std::filesystem::copy_options::overwrite_existing);
+    EXPECT_NE(why_refused(crashed.name()), "");
+    for (auto const& text : {std::string(50'000, '\0'), std::string(50'000, 'x'), std::string{"text"}}) {
+        write(log(), text);
+        EXPECT_NE(why_refused(crashed.name()), "") << text.substr(0, 4);
+    }
+}
+
+TEST_F(JournalsLog, MayBeMovedIntoTheDatabaseByAnotherProgram) {
+    run_sql(crashed.file(), "SELECT kind FROM record");
+    EXPECT_FALSE(std::filesystem::exists(log()));
+    EXPECT_EQ(keys_in(crashed.name()).size(), 20U);
 }
 
 TEST_F(JournalsLog, ThatIsDamagedIsRefused) {

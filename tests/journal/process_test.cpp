@@ -151,6 +151,19 @@ TEST_F(GatewayWithJournal, StaysStopped) {
     EXPECT_THAT(client().get("/readyz").body, Not(HasSubstr("stopped")));
 }
 
+// The stop that was answered does not wait for the step that the disk is storing.
+TEST_F(GatewayWithJournal, StaysStoppedThoughTheDiskIsSlow) {
+    start();
+    let_disk_be("slow");
+    WebSocketClient opening{gateway->address()};
+    opening.ask("connect");
+    EXPECT_EQ(client().get("/rois/stop", {}, "POST").status, 200);
+    kill();
+    let_disk_be("fine");
+    start();
+    EXPECT_THAT(client().get("/readyz").body, HasSubstr("stopped"));
+}
+
 TEST_F(GatewayWithJournal, RefusesCommandsOnAFullDiskAndRecovers) {
     start();
     auto& desk = connected();
@@ -162,6 +175,7 @@ TEST_F(GatewayWithJournal, RefusesCommandsOnAFullDiskAndRecovers) {
     auto const refused = desk.call("execute", list(next));
     EXPECT_EQ(refused.return_code(), "OUT_OF_RESOURCES") << refused.body;
     EXPECT_THAT(refused.reason(), HasSubstr("journal"));
+    EXPECT_EQ(desk.call("execute", list(set_volume("v"))).return_code(), "OUT_OF_RESOURCES");
     EXPECT_EQ(desk.call("get_profile").return_code(), "OK");
     EXPECT_EQ(desk.call("execute", list({.component = "speech_synthesis", .type = "stop", .id = "s"})).return_code(), "OK");
     EXPECT_EQ(client().get("/rois/stop", {}, "POST").status, 200);
@@ -284,6 +298,9 @@ TEST_F(GatewayWithJournal, HaltsAndEndsWhenTheDiskDoesNotWrite) {
     EXPECT_THAT(ended.error, HasSubstr("journal"));
     EXPECT_THAT(ended.error, HasSubstr("all components were halted"));
     gateway.reset();
+    let_disk_be("fine");
+    start();
+    EXPECT_THAT(client().get("/readyz").body, Not(HasSubstr("stopped"))) << "a halt is not a stop of everything";
 }
 
 // One call of the system fails, the n-th of its kind: a write ("full 3") or an fdatasync ("broken 3").

@@ -6,6 +6,7 @@ namespace rois {
 
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 
 constexpr auto floor_here = "urn:x:def:crs:map::hall.floor";
@@ -116,6 +117,29 @@ TEST_F(ASubEngineWithASpace, HidesItsSpaceFromClientsThatSeeNoneOfItsComponents)
     }
     EXPECT_FALSE(of_hall.ask(GetProfile{}).space.places.empty());
     EXPECT_EQ(other.ask(GetProfile{}).space, Space{});
+}
+
+// The hall has a sub engine `robot2`.
+TEST_F(ASubEngineWithASpace, HidesTheSpaceOfAnEngineOfWhichTheClientSeesNoComponent) {
+    begin();
+    Belongings of_robot{
+        .profiles = {},
+        .frames = {{.crs = "urn:x:def:crs:map::robot2.own", .base = "crs1", .position = {}, .orientation = {}, .covariance = {}}},
+        .places = {{"robot2.lab", box(5'000, 0, 6'000, 1'000, "crs1")}}};
+    of_robot.engines["robot2"];
+    engines->hall.engine->change({{}, {}, std::move(of_robot), "robot2"}, engines->hall.now);
+    engines->hall.change({}, {detection});
+    engines->advance(2s);
+    auto const seen_by = [&](std::string const& pattern) {
+        std::vector<std::string> const patterns{pattern};
+        auto client = engines->main.connect_as(std::make_shared<Rights const>("desk", patterns, patterns));
+        std::string reasons;
+        for (auto const& where : {Expression{Literal{"nowhere"}}, Expression{spot(0, 0, "nowhere")}})
+            reasons += client.ask(Search{within("location", where)}).reason;
+        return reasons;
+    };
+    EXPECT_THAT(seen_by("hall.robot2.*"), AllOf(HasSubstr("hall.robot2.lab"), HasSubstr("hall.robot2.own")));
+    EXPECT_THAT(seen_by("hall.navigation"), AllOf(HasSubstr("hall.lab"), testing::Not(HasSubstr("robot2"))));
 }
 
 TEST_F(ASubEngineWithASpace, GivesConditionsItsPlacesAlsoWithoutAPlacement) {

@@ -153,6 +153,25 @@ TEST_F(AStopOfEverything, IsClearedThereAfterTheMainEngineHasDiedAndTheSessionTh
     }
 }
 
+// A halt is not stored, and the next start is not stopped.
+TEST_F(AStopOfEverything, IsClearedThereIfItWasTheHaltOfAGatewayThatCouldNotGoOn) {
+    engines.main.keep_journal();
+    stop(engines.main);
+    engines.advance(200ms);
+    clear(engines.main);
+    engines.advance(200ms);
+    EXPECT_FALSE(hall_is_stopped());
+    engines.main.journal->then = MemoryJournal::Then::not_stored;  // from now on
+    engines.main.engine->halt_everything(engines.main.now);
+    engines.settle();
+    EXPECT_TRUE(hall_is_stopped());
+    engines.cut();
+    engines.restart_main([&] { engines.hall.advance(31s); });
+    engines.advance(10s);
+    EXPECT_FALSE(engines.main.engine->everything_is_stopped());
+    EXPECT_FALSE(hall_is_stopped());
+}
+
 TEST_F(AStopOfEverything, IsClearedOnceTheHallCanBeUsedAgain) {
     std::string const instance = engines.instance_of_main;
     stop(engines.main);

@@ -23,7 +23,7 @@ BUGS = [
     ("two clients bind one component", f"{ENGINE}/registry.cpp", "if (component.bound_to != nullptr && component.bound_to != &session) return Bound::taken;", ""),
     ("commands begin while everything is stopped", f"{ENGINE}/command_interface.cpp", "if (everything_is_stopped_ && begins)", "if (begins && false)"),
     ("observers may bind", f"{ENGINE}/command_interface.cpp", "if (!may_command(session.rights.get(), component->ref().code)) {", "if (false) {"),
-    ("events go to clients that may not see them", f"{ENGINE}/event_interface.cpp", "            if (!may_see(one.rights, component.ref().code)) continue;\n", ""),
+    ("events go to clients that may not see them", f"{ENGINE}/delivery.cpp", " || !is_seen_with(one.rights)", ""),
     ("motion without signs of life goes on", f"{ENGINE}/engine.cpp", "attempts([&] { hold_unproven_motion(now); });", ""),
     ("a command ends twice", f"{ENGINE}/commands/executor.cpp", "    if (command->state == Command::State::ended) return;\n    command->state = Command::State::ended;\n    command->status", "    command->state = Command::State::ended;\n    command->reported = false;\n    command->status"),
     ("what the disk did not take is forgotten", f"{JOURNAL}/recorder.cpp", "        changed_.add(given_);  // which could not be stored\n", ""),

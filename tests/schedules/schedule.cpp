@@ -170,8 +170,7 @@ void Schedule::crash() {
     tell("the engine dies");
     ++deaths_;
     take_answers(false);
-    bool const was_promised = stops_ == Stops::promised;
-    stop_was_lost_ = stop_was_lost_ || stops_ == Stops::asked;
+    bool const was_stopped = is_stopped_;
     for (auto& client : clients_) client.asked.clear();
     if (engines_) {
         engines_->restart_main();
@@ -181,8 +180,8 @@ void Schedule::crash() {
     }
     journal().then = Then::later;
     watch_robots();
-    expect(engine().everything_is_stopped() || !was_promised, "a stop of everything survives the death of the process");
-    stops_ = engine().everything_is_stopped() ? Stops::promised : Stops::no;
+    expect(engine().everything_is_stopped() || !was_stopped, "a stop of everything survives the death of the process");
+    is_stopped_ = engine().everything_is_stopped();
     for (auto& client : clients_)
         if (!client.is_stored && !client.session.text.empty()) forget_session(client);
     for (auto& client : clients_)
@@ -190,17 +189,10 @@ void Schedule::crash() {
 }
 
 void Schedule::stop_or_clear() {
-    tell(stops_ == Stops::no ? "everything is stopped" : "the stop is cleared");
-    if (stops_ != Stops::no) {
-        main().engine->and_work([&] { engine().clear(); }, main().now);
-        stops_ = Stops::no;
-        return;
-    }
+    tell(is_stopped_ ? "the stop is cleared" : "everything is stopped");
+    is_stopped_ = !is_stopped_;
+    if (!is_stopped_) return main().engine->and_work([&] { engine().clear(); }, main().now);
     main().engine->stop_everything(main().now);
-    stops_ = Stops::asked;
-    engine().when_stored([this, stop = ++stops_asked_] {
-        if (is_written_ && stops_ == Stops::asked && stop == stops_asked_) stops_ = Stops::promised;
-    });
     for (auto const& ref : refs_)
         expect(is_in_hall(ref) || motions_[ref].command == 0, "a stop of everything stops everything", ref);
 }
@@ -214,10 +206,8 @@ void Schedule::write(bool stored) {
     tell("the disk", stored ? "writes" : "does not write");
     disk_has_failed_ = disk_has_failed_ || !stored;
     journal().settle(stored);
-    is_written_ = stored;
     auto& engine = *main().engine;
     engine.and_work([&] { stored ? engine.stored(main().now) : engine.not_stored(main().now); }, main().now);
-    is_written_ = false;
     for (auto& client : clients_) client.is_stored = client.is_stored || stored;
     take_answers(stored);
 }
@@ -269,7 +259,7 @@ void Schedule::robot_called(std::string const& ref, ScriptedComponent const& com
         expect(!command.is_refused, "a refused command does not run");
         expect(command.by->role != Role::observes, "an observer moves nothing");
         expect(command.by->rights->commands(ref), "a client moves only what it may command", ref);
-        expect(is_in_hall(ref) || stops_ == Stops::no, "nothing begins while everything is stopped", ref);
+        expect(is_in_hall(ref) || !is_stopped_, "nothing begins while everything is stopped", ref);
         motion = {.command = started(component), .unattended_since = main().now.steady};
     } else if (call == "halt") {
         motion = {};
@@ -296,14 +286,14 @@ void Schedule::finish() {
     journal().then = Then::stored;
     main().engine->and_work([] {}, main().now);
     take_answers(true);
-    if (stops_ != Stops::no) stop_or_clear();
+    if (is_stopped_) stop_or_clear();
     for (auto& client : clients_) {
         read(client);
         while (!client.is_linked || !client.is_alive) leave_or_return(client);
     }
     journal().then = Then::stored;
     // A stop that it has passed on may stay there until someone clears it, if this engine has died before it could store it.
-    if (engines_ && (stop_was_lost_ || (disk_has_failed_ && deaths_ > 0))) engines_->hall.engine->clear();
+    if (engines_ && disk_has_failed_ && deaths_ > 0) engines_->hall.engine->clear();
     auto const is_back = [&] { return !engines_ || engines_->shown.is == EngineState::Is::present; };
     for (int i = 0; i < 100 && !is_back(); ++i) pass(700ms);  // the longest pause between two attempts is 30 s
     for (auto const& ref : refs_) {

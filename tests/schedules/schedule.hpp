@@ -153,13 +153,10 @@ private:
         bool is_refused = false;
     };
     std::map<std::uint64_t, Command> commands_;
-    enum class Stops : std::uint8_t { no, asked, promised } stops_ = Stops::no;
-    unsigned stops_asked_ = 0;
-    bool stop_was_lost_ = false;  // the engine died before it was stored
-    int deaths_ = 0;              // of the engine
+    bool is_stopped_ = false;  // everything
+    int deaths_ = 0;           // of the engine
     bool disk_has_failed_ = false;
     std::chrono::milliseconds disk_is_slow_for_{0};
-    bool is_written_ = false;  // while the engine learns that the disk has written
     std::vector<std::string> broken_;
 };
 

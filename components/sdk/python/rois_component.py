@@ -304,6 +304,8 @@ class WebSocket:
 
     @classmethod
     async def open(cls, url, token=""):
+        if token and not is_safe(url):
+            raise ValueError("a token is not sent to another machine without TLS: expected wss://...")
         parts = urllib.parse.urlsplit(url)
         secure = parts.scheme in ("wss", "https")
         port = parts.port or (443 if secure else 80)

@@ -87,6 +87,7 @@ std::optional<Objection> SequenceCheck::objection(CommandMessage const& message)
 
 std::optional<Objection> SequenceCheck::command(CommandMessage const& message, std::string const& path) {
     begins_something_ = begins_something_ || begins_action(message.command_type);
+    sets_something_ = sets_something_ || message.command_type == "set_parameter";
     // First: a client that repeats a command must learn that it was accepted, also while the component is away.
     if (auto problem = id(message.command_id)) return problem;
     auto [component, problem_of_ref] = registry_.meant(message.component_ref, session_);

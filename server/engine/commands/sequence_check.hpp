@@ -56,6 +56,9 @@ public:
     // Returns whether a unit has a delay. A sequence without delays that begins nothing is over soon.
     bool delays_something() const { return delays_something_; }
 
+    // Returns whether one of the commands sets parameters.
+    bool sets_something() const { return sets_something_; }
+
     // The ids that the application chose.
     std::set<CommandId> const& ids() const { return ids_; }
 
@@ -73,6 +76,7 @@ private:
     std::vector<Preparation> preparations_;
     bool begins_something_ = false;
     bool delays_something_ = false;
+    bool sets_something_ = false;
     std::set<CommandId> ids_;
     std::map<RegisteredComponent const*, ParameterList> stored_;  // for components whose parameters an earlier unit changes
 };

@@ -18,6 +18,13 @@ bool Effort::has_left(Account& account, std::size_t sessions, Steady now) {
     return !is_used_up(account, share(sessions));
 }
 
+bool Effort::take(Account& account, std::size_t sessions, Steady now, std::size_t steps) {
+    if (!has_left(account, sessions, now)) return false;
+    used_ += steps;
+    account.used += steps;
+    return true;
+}
+
 Effort::Turn::Turn(Effort& effort, Account& payer, std::size_t sessions, Steady now)
     : of_{effort}, payer_{payer}, share_{effort.share(sessions)}, outer_{present_} {
     effort.begin_window(payer, now);

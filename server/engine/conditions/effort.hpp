@@ -34,6 +34,9 @@ public:
     // Whether the session may use more. `sessions`: those that share the steps.
     bool has_left(Account&, std::size_t sessions, Steady now);
 
+    // The session uses these steps. False: it may not use more.
+    bool take(Account&, std::size_t sessions, Steady now, std::size_t steps);
+
     // While it exists, the session pays for the steps of this thread. Turns may be nested.
     class Turn {
     public:

@@ -60,6 +60,8 @@ Selection& Selection::operator=(Selection&&) noexcept = default;
 std::variant<Selection, std::string> Selection::compile(QueryExpression const& query, Vocabulary const& vocabulary) {
     auto filter = Filter::compile(query.filter, vocabulary);
     if (auto* problem = std::get_if<std::string>(&filter)) return std::move(*problem);
+    if (query.sort_by.size() > FilterCompiler::most_predicates)
+        return "the condition has more than " + std::to_string(FilterCompiler::most_predicates) + " sort keys";
     Selection selection;
     selection.filter_ = std::get<Filter>(std::move(filter));
     FilterCompiler compiler{vocabulary};

@@ -78,12 +78,14 @@ bool may_be_a_position(Reference const& reference) {
 }  // namespace
 
 void spend_for(Geometry const& a, Geometry const& b) {
+    constexpr std::size_t steps_of_a_pair = 400;
     auto const points = [](Geometry const& of) {
         std::size_t sum = 1;
         for (auto const& path : of.paths) sum += path.size();
         return sum;
     };
-    Effort::spend(20 + 4 * points(a) * points(b));
+    Effort::spend(20 + points(a) * points(b) / 4);
+    Effort::spend(steps_of_a_pair * meeting_edges(a, b));
 }
 
 std::optional<Positions> SpatialOperand::of(Candidate const& candidate) const {
@@ -117,10 +119,16 @@ std::string Distance::canonical() const {
 }
 
 PredicatePtr FilterCompiler::compile(Condition const& condition) {
-    if (++predicates_ > most_predicates) refuse("the condition has more than " + std::to_string(most_predicates) + " predicates");
+    count(1);
     if (problem_) return nullptr;
     text_bytes_ += std::visit(TextBytes{}, condition.predicate);
     return std::visit(*this, condition.predicate);
+}
+
+void FilterCompiler::count(std::size_t predicates, std::string const& explanation) {
+    predicates_ += predicates;
+    if (predicates_ > most_predicates)
+        refuse("the condition has more than " + std::to_string(most_predicates) + " predicates" + explanation);
 }
 
 std::optional<Reference> FilterCompiler::resolve(std::string_view path) {
@@ -140,12 +148,15 @@ std::optional<SpatialOperand> FilterCompiler::spatial_operand(Expression const& 
     if (auto const* geometry = std::get_if<Geometry>(&expression.value)) {
         auto const& frames = places.frames;
         Geometry here = *geometry;
-        for (auto const& path : here.paths) predicates_ += path.size() / points_of_a_predicate;
-        if (predicates_ > most_predicates)
-            return refuse("the condition has more than " + std::to_string(most_predicates) + " predicates; " +
-                          std::to_string(points_of_a_predicate) + " points of a line or polygon count as one");
-        if (auto const problem = here.shape == Geometry::Shape::box ? std::nullopt : why_invalid(here))
-            return refuse("the condition has a " + *problem);
+        auto counted = std::max<std::size_t>(here.paths.size(), 1) - 1;
+        for (auto const& path : here.paths) counted += path.size() / points_of_a_predicate;
+        count(counted,
+              "; " + std::to_string(points_of_a_predicate) + " points of a line or polygon count as one, as does a hole");
+        if (problem_) return {};
+        if (here.shape != Geometry::Shape::box) {
+            spend_for(here, here);
+            if (auto const problem = why_invalid(here)) return refuse("the condition has a " + *problem);
+        }
         if (here.crs.empty()) here.crs = frames.own();
         if (!frames.own().empty() && !frames.know(here.crs))
             return refuse("the condition has the frame " + quoted(here.crs, 200) + ", which is not known here; expected one of " +

@@ -113,6 +113,9 @@ public:
     PredicatePtr operator()(NotUnderstood const&);
 
 private:
+    // Refuses a condition with too many predicates. `explanation` ends the reason.
+    void count(std::size_t predicates, std::string const& explanation = {});
+
     Vocabulary vocabulary_;
     std::vector<std::string> aliases_;  // of the group whose filter is being compiled
     bool in_and_ = false;               // inside of an And, a group is the type of a unr:ComponentCondition (types/condition.hpp)

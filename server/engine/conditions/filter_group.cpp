@@ -28,6 +28,7 @@ bool is_robot(std::string_view type, std::string_view engine, std::string_view r
 
 // Returns whether the component has the type, or its robot has. Every robot belongs to the main engine.
 bool is_of(std::string_view type, Candidate const& component, std::string_view main_engine) {
+    Effort::spend(40);
     if (!main_engine.empty() && (equal_ignoring_case(type, main_engine) || equal_ignoring_case(last_part(type), main_engine)))
         return true;
     auto const own = text_of(component, Reference::To::component_type);
@@ -219,6 +220,8 @@ PredicatePtr FilterCompiler::operator()(ComponentGroup const& group) {
         refuse("the condition has ComponentCondition or ComponentGroupCondition, which a condition on results does not support");
         return nullptr;
     }
+    count(group.types.size() + group.aliases.size(), "; each type and each alias counts as one");
+    if (problem_) return nullptr;
     for (auto const& [what, names] : {std::pair{"the type of a component", &group.types}, {"an alias", &group.aliases}}) {
         for (auto const& name : *names) {
             if (auto problem = why_too_long(what, name)) {

@@ -8,6 +8,7 @@ namespace rois {
 
 // If there are several values, uses the first.
 std::optional<SortKey::Value> SortKey::value(Candidate const& candidate) const {
+    Effort::spend(60);
     if (auto const* distance = std::get_if<Distance>(&by_)) {
         auto const length = distance->of(candidate);
         if (!length || length->empty()) return {};

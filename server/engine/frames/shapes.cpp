@@ -4,8 +4,10 @@
 #include <boost/geometry/algorithms/correct.hpp>
 #include <boost/geometry/algorithms/covered_by.hpp>
 #include <boost/geometry/algorithms/distance.hpp>
+#include <boost/geometry/algorithms/intersects.hpp>
 #include <boost/geometry/algorithms/is_valid.hpp>
 #include <boost/geometry/algorithms/relation.hpp>
+#include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/linestring.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
@@ -234,6 +236,27 @@ double distance_in_plane(Geometry const& a, Geometry const& b) {
     return std::max(0.0, distance(without_radius(a), without_radius(b)) - a.radius - b.radius);
 }
 
+namespace {
+
+using Box = bg::model::box<Point>;
+
+// The bounding boxes of its edges; four times the same one for a box.
+std::vector<Box> edges_of(Geometry const& geometry) {
+    auto const around = [](double x, double y, double to_x, double to_y) {
+        return Box{at(std::min(x, to_x), std::min(y, to_y)), at(std::max(x, to_x), std::max(y, to_y))};
+    };
+    auto const whole = around(geometry.low[0], geometry.low[1], geometry.high[0], geometry.high[1]);
+    if (geometry.shape == Geometry::Shape::box) return std::vector<Box>(4, whole);
+    if (is_circle(geometry)) return {whole};
+    std::vector<Box> edges;
+    for (auto const& path : geometry.paths)
+        for (std::size_t i = 1; i < path.size(); ++i)
+            edges.push_back(around(path[i - 1][0], path[i - 1][1], path[i][0], path[i][1]));
+    return edges;
+}
+
+}  // namespace
+
 std::optional<std::string> why_invalid(Geometry const& geometry) {
     for (std::size_t axis = 0; axis < 2; ++axis)
         if (!(geometry.low[axis] >= -farthest) || !(geometry.high[axis] <= farthest))
@@ -249,6 +272,15 @@ std::optional<std::string> why_invalid(Geometry const& geometry) {
     }
     if (bg::is_valid(polygon_of(geometry.paths), failure)) return {};
     return "polygon " + std::string{what_is_wrong(failure)};
+}
+
+std::size_t meeting_edges(Geometry const& a, Geometry const& b) {
+    auto const ones = edges_of(a), others = edges_of(b);
+    std::size_t pairs = 0;
+    for (auto const& one : ones)
+        for (auto const& other : others)
+            if (bg::intersects(one, other)) ++pairs;
+    return pairs;
 }
 
 }  // namespace rois

@@ -122,6 +122,9 @@ public:
     // Begins to store the changes, and returns at once. Afterwards calls Engine::stored or Engine::not_stored, on another thread
     // and with the engine locked. The engine gives no more changes before that, and those that are not stored again later.
     virtual void store(std::shared_ptr<Changes const>) noexcept = 0;
+    // Keeps at once whether everything is stopped: a stop that was answered must outlive the process, also if the disk takes long
+    // to store the changes. Returns at once.
+    virtual void keep_stop(bool is_stopped) noexcept = 0;
     // Why no command may begin, because it might not be possible to store its end; empty: commands may begin.
     virtual std::string why_no_commands() const = 0;
 };

@@ -49,6 +49,10 @@ public:
         given_.commands.erase(command);
     }
     void changed_engine() { changed_.engine = is_on(); }
+    void changed_stop(bool is_stopped) {
+        changed_engine();
+        if (is_on()) journal_->keep_stop(is_stopped);
+    }
 
     // Whether the session's commands and answers wait for the journal.
     bool stores(Session const& session) const { return is_on() && session.is_stored; }

@@ -39,7 +39,7 @@ StoredEngine Engine::Core::stored_engine() const {
             .last_handle = executor_.last_handle(),
             .next_event = events_.next(),
             .next_error = errors_.next(),
-            .is_stopped = everything_is_stopped_,
+            .is_stopped = everything_is_stopped_ && !halts_only_,
             .last_stop = last_stop_,
             .ended_owners = ended_owners_,
             .sessions_there = sessions_there_,

@@ -83,6 +83,7 @@ public:
 
     // The number of notifications that were never read.
     std::size_t waiting() const;
+    bool is_full() const { return waiting() >= max_waiting_; }
 
     // Another engine has restarted. It reads from the beginning, but passes no events on. So the events that are unread now stay
     // unread for `unread_events`, until a later notification is read.

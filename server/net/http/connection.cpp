@@ -341,10 +341,10 @@ Connection::Then Connection::serve_upgrade() {
     if (shared.gateway.shutting_down()) return reply(answer_of(shutting_down()));
     bool const joins = route_.endpoint == Endpoint::engines;
     bool const is_trusted = client_->principal != nullptr || is_loopback(place_.address());
-    if (joins && !(shared.settings().join && is_trusted))
-        return reply(answer_of({FaultCode::not_allowed, std::string{"joining is not allowed: expected "} +
-                                                            (shared.settings().join ? "a connection from this machine, or tokens"
-                                                                                    : "the key engines in the configuration")}));
+    if (joins && !(shared.settings().join && is_trusted)) {
+        shared.gateway.note_refusal(*client_, name_of(route_.endpoint), FaultCode::not_allowed);
+        return reply(answer_of({FaultCode::not_allowed, "joining needs the key engines, and a token or this machine"}));
+    }
     auto const answer = upgrade(head_);
     if (answer.status != http::status::switching_protocols) return reply(answer);
     if (joins) return Then::engine;  // client::accepted_link sends the answer to the handshake

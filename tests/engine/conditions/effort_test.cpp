@@ -88,6 +88,81 @@ TEST_F(CostlyConditions, ThatOthersShareArePaidByOneOfThem) {
     EXPECT_THAT(desk.received(), ElementsAre("2 person_localized localization"));
 }
 
+namespace {
+
+// A polygon like a comb, whose teeth all lie across one another's bounding boxes.
+Geometry comb(int teeth, double from) {
+    Geometry polygon;
+    polygon.shape = Geometry::Shape::polygon;
+    auto& border = polygon.paths.emplace_back();
+    for (int tooth = 0; tooth < teeth; ++tooth) {
+        border.push_back({from + tooth * 10, 0});
+        border.push_back({50'000 - from + tooth * 10, 90'000});
+    }
+    border.insert(border.end(), {{95'000, -10}, {-10, -10}, border.front()});
+    polygon.fit_corners();
+    return polygon;
+}
+
+}  // namespace
+
+TEST_F(CostlyConditions, HaveAreasWhoseEdgesCannotBeToldApart) {
+    EXPECT_EQ(desk.ask(Search{within("location", {comb(5, 0)})}).return_code, ReturnCode::ok);
+    world.advance(100ms);
+    EXPECT_EQ(desk.ask(Search{within("location", {comb(100, 0)})}).return_code, ReturnCode::out_of_resources);
+    EXPECT_EQ(desk.query("component_status", within("location", {comb(100, 0)})).return_code, ReturnCode::out_of_resources);
+    world.advance(100ms);
+    EXPECT_EQ(desk.ask(Search{spatial(SpatialRelation::intersects, {{comb(6, 0)}, {comb(6, 50'000)}})}).return_code,
+              ReturnCode::out_of_resources)
+        << "valid, but too much to compare";
+}
+
+TEST_F(CostlyConditions, CountHolesTypesAndSortKeys) {
+    auto ring = [](double x) { return Geometry::Points{{x, 1}, {x, 2}, {x + 1, 2}, {x + 1, 1}, {x, 1}}; };
+    Geometry holes;
+    holes.shape = Geometry::Shape::polygon;
+    holes.paths.push_back({{0, 0}, {0, 9}, {9'999, 9}, {9'999, 0}, {0, 0}});
+    for (int hole = 0; hole < 256; ++hole) holes.paths.push_back(ring(10 + 2 * hole));
+    holes.fit_corners();
+    ComponentGroup types;
+    for (int type = 0; type < 256; ++type) types.types.push_back("type" + std::to_string(type));
+    QueryExpression keys;
+    for (int key = 0; key < 257; ++key) keys.sort_by.push_back({reference("component_type"), SortOrder::ascending});
+    for (auto const& [query, what] : {std::pair{QueryExpression{within("location", {holes})}, "as does a hole"},
+                                      {QueryExpression{Condition{types}}, "each type and each alias counts as one"},
+                                      {keys, "more than 256 sort keys"}}) {
+        auto const refused = desk.ask(Search{query});
+        EXPECT_EQ(refused.return_code, ReturnCode::bad_parameter);
+        EXPECT_THAT(refused.reason, HasSubstr(what));
+    }
+}
+
+TEST_F(CostlyConditions, AreGroupsOfManyTypes) {
+    ComponentGroup types;
+    for (int type = 0; type < 200; ++type) types.types.push_back("type" + std::to_string(type));
+    auto reply = desk.ask(Search{Condition{types}});
+    for (int i = 0; i < 10 && reply.return_code == ReturnCode::ok; ++i) reply = desk.ask(Search{Condition{types}});
+    EXPECT_EQ(reply.return_code, ReturnCode::out_of_resources);
+    EXPECT_EQ(hall.ask(Search{equal("component_ref", "speech")}).return_code, ReturnCode::ok) << "it has its share";
+}
+
+// Each of many subscriptions to one event receives it.
+TEST_F(CostlyConditions, AreManySubscriptionsToOneEvent) {
+    constexpr int many = 5'000;
+    hall.subscribe("person_localized", equal("component_ref", "localization"));
+    for (int i = 0; i < many; ++i) {
+        EXPECT_EQ(desk.subscribe("person_localized", not_equal("component_ref", "x" + std::to_string(i))).return_code,
+                  ReturnCode::ok);
+        if (i % 50 == 0) world.advance(100ms);
+    }
+    world.advance(100ms);
+    locate_a_crowd();
+    EXPECT_THAT(hall.received(), ElementsAre("1 person_localized localization"));
+    auto const received = desk.received();
+    EXPECT_LT(received.size(), many);
+    EXPECT_THAT(received.back(), HasSubstr(" lost 1"));
+}
+
 TEST_F(CostlyConditions, DoNotKeepErrorsAway) {
     hall.subscribe("person_localized", costly(3, "person_ref"));
     hall.ask(Search{costly(20)});

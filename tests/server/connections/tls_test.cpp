@@ -245,6 +245,21 @@ TEST_F(Tls, IsSpokenByTheMediaServer) {
     EXPECT_THAT(kit::HttpClient{plain}.get("/unknown").body, HasSubstr("this port expects TLS"));
 }
 
+TEST_F(Tls, IsRequiredOfPagesThatUseTheMediaPortAlsoAfterASighup) {
+    GatewayProcess gateway{with({"--media", "127.0.0.1:0"})};
+    auto address = certificates.trusting("own", gateway);
+    address.port = gateway.media_address().port;
+    auto const status = [&](std::string const& scheme) {
+        return kit::HttpClient{address}.get("/unknown", {{"Origin", scheme + "://" + address.authority}}).status;
+    };
+    EXPECT_EQ(status("https"), 404);
+    EXPECT_EQ(status("http"), 403);
+    gateway.signal(SIGHUP);
+    gateway.log_with("read again");
+    EXPECT_EQ(status("https"), 404);
+    EXPECT_EQ(status("http"), 403);
+}
+
 // The receiver neither closes the connection nor reads.
 TEST_F(Tls, EndsWithTheStreamOnTheMediaPort) {
     GatewayProcess gateway{with({"--media", "127.0.0.1:0", "--max-media-connections", "1"})};

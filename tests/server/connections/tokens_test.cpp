@@ -239,6 +239,23 @@ TEST_F(Tokens, WithoutRoomForASessionAreInTheAuditLog) {
     EXPECT_THAT(text, HasSubstr(R"("what":"refused","token":"other","operation":"connect","outcome":"too_many")"));
 }
 
+TEST_F(Tokens, OfEnginesThatMayNotJoinAreInTheAuditLog) {
+    auto const token = file.add("robot", "engine");
+    auto const log = file.folder() + "/audit.log";
+    {
+        GatewayProcess const gateway{file.of_gateway({"--audit-log", log})};
+        kit::HttpClient robot{with_token(token, gateway)};
+        auto const refused = robot.get("/rois/engines", {{"Upgrade", "websocket"},
+                                                         {"Connection", "Upgrade"},
+                                                         {"Sec-WebSocket-Version", "13"},
+                                                         {"Sec-WebSocket-Key", "AAAAAAAAAAAAAAAAAAAAAA=="},
+                                                         {"Sec-WebSocket-Protocol", "rois.xml.v1"}});
+        EXPECT_EQ(refused.status, 403);
+        EXPECT_THAT(refused.reason(), HasSubstr("joining needs the key engines"));
+    }
+    EXPECT_THAT(run_shell("cat " + log).out, HasSubstr(R"("what":"refused","token":"robot")"));
+}
+
 TEST_F(Tokens, ThatAreWrongGet429AfterTenInAMinute) {
     auto const token = file.add("desk", "operator");
     GatewayProcess const gateway{file.of_gateway()};

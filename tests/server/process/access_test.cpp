@@ -199,6 +199,8 @@ TEST(WithoutTokens, OnlyThisMachineIsServed) {
             expect_complaint(run_gateway({flag, address}), wanted);
             expect_complaint(run_gateway({flag, address, "--check-config"}), wanted);
         }
+    expect_complaint(run_gateway({"--listen", "robot.invalid:0", "--check-config"}),
+                     "listen: 'robot.invalid' cannot be resolved");
     TokenFile const file;
     file.add("desk", "operator");
     auto const with_tokens = run_gateway({"--listen", "0.0.0.0:0", "--check-config", "--tokens", file.name()});

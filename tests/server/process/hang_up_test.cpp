@@ -148,6 +148,14 @@ TEST_F(HangUp, ChangesNothingIfOneFileIsInvalid) {
     EXPECT_THAT(metrics, HasSubstr("rois_reloads_total{outcome=\"done\"} 0"));
 }
 
+TEST_F(HangUp, ReadsNoFileThatIsTooLarge) {
+    put("{}");
+    GatewayProcess gateway{{"--config", file()}};
+    std::filesystem::resize_file(file(), 10'000'001);
+    gateway.signal(SIGHUP);
+    EXPECT_THAT(gateway.log_with("nothing is changed: the settings"), HasSubstr("has 10000001 bytes: expected at most 10000000"));
+}
+
 // Opening it would wait for a program that writes.
 TEST_F(HangUp, ReadsNoPipe) {
     put("{}");

@@ -33,7 +33,7 @@ async function post(url: string, what: string, { token, deadline = 10_000 }: Eve
   const to = `${socket_url(url, token).replace('ws', 'http')}/${what}`;
   const headers: Record<string, string> = token === undefined ? {} : { Authorization: `Bearer ${token}` };
   try {
-    const answer = await fetch(to, { method: 'POST', headers, signal: AbortSignal.timeout(deadline) });
+    const answer = await fetch(to, { method: 'POST', headers, redirect: 'error', signal: AbortSignal.timeout(deadline) });
     if (answer.ok) return read_stop_state(await answer_text(answer));
     throw new RoisError('fault', `${to} answers with HTTP status ${answer.status}`);
   } catch (error) {
