@@ -292,7 +292,7 @@ void Engine::Core::halt_everything(Instant now) {
     halts_only_ = !std::exchange(everything_is_stopped_, true);
     Attempts attempts;
     attempts([&] { on_stop_(true); });  // before the components are halted
-    attempts([&] { executor_.stop_all("the gateway cannot go on", now); });
+    attempts([&] { executor_.stop_all("everything was stopped", now); });
     attempts([&] { settle(now); });
     attempts.rethrow();
 }

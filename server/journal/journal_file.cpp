@@ -201,7 +201,7 @@ void JournalFile::check_header(bool is_new) {
     if (!run("PRAGMA locking_mode = EXCLUSIVE; BEGIN EXCLUSIVE")) refuse_by(sqlite3_extended_errcode(database_.get()));
     auto const found = number("PRAGMA application_id");
     auto const found_version = number("PRAGMA user_version");
-    // What a process has begun that was killed while it made the database is undone now.
+    // SQLite has just undone the work of a process that was killed while it made the database.
     struct stat now {};
     bool const is_empty = is_new || (::stat(name_.c_str(), &now) == 0 && now.st_size == 0);
     if (is_empty) {

@@ -23,7 +23,7 @@ public:
     // What was left by a gateway that did not end in order; nullopt: nothing.
     std::optional<Step> const& left() const { return left_; }
 
-    // To be called when the step is on the disk. A mark that cannot be written tells of an earlier step.
+    // To be called when the step is on the disk. If that fails, the mark has an earlier one.
     void set(Step const&) noexcept;
     void remove() noexcept;
 

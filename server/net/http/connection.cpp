@@ -343,7 +343,8 @@ Connection::Then Connection::serve_upgrade() {
     bool const is_trusted = client_->principal != nullptr || is_loopback(place_.address());
     if (joins && !(shared.settings().join && is_trusted)) {
         shared.gateway.note_refusal(*client_, name_of(route_.endpoint), FaultCode::not_allowed);
-        return reply(answer_of({FaultCode::not_allowed, "joining needs the key engines, and a token or this machine"}));
+        auto const* const needs = "joining needs the key engines, and a token or a connection from this machine";
+        return reply(answer_of({FaultCode::not_allowed, needs}));
     }
     auto const answer = upgrade(head_);
     if (answer.status != http::status::switching_protocols) return reply(answer);

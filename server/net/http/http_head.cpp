@@ -77,15 +77,14 @@ bool is_one_word(std::string_view text) {
 
 // Returns a fault for what Beast accepts and this gateway rejects (RFC 9112, 3.2, 5.2, 6.3).
 std::optional<Fault> find_fault(std::string_view text, Settings const& settings, RequestHead const& head) {
-    auto const& fields = head.message;
     std::size_t hosts = 0, lengths = 0;
     std::string_view host, length;
-    for (auto const& field : fields) {
+    for (auto const& field : head.message) {
         if (field.name() == http::field::host) ++hosts, host = field.value();
         if (field.name() == http::field::content_length) ++lengths, length = field.value();
         if (field.name() == http::field::transfer_encoding) return no_transfer_encoding();
     }
-    if (static_cast<std::size_t>(std::distance(fields.begin(), fields.end())) > settings.max_header_fields)
+    if (static_cast<std::size_t>(std::distance(head.message.begin(), head.message.end())) > settings.max_header_fields)
         return Fault{FaultCode::header_too_large,
                      "more than " + std::to_string(settings.max_header_fields) + " header fields (max_header_fields)"};
     if (is_folded(text)) return broken("a folded header line: send each header field in one line");
