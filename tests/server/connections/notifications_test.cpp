@@ -67,6 +67,17 @@ TEST(LongPoll, ReturnsWaitingNotificationsAtOnce) {
     EXPECT_THAT(sequences(client.get("/rois/notifications?other=x&after=2")), ElementsAre(3));
 }
 
+TEST(LongPoll, ReturnsAsManyAgainAsTheKeyKeeps) {
+    GatewayProcess const gateway{{"--max-sent-notifications", "16"}};
+    HttpClient client{gateway};
+    bind_and_complete(client, 20);
+    EXPECT_THAT(sequences(client.notifications(0, 30)), testing::SizeIs(20));
+    auto const again = client.notifications(0, 30);
+    EXPECT_STREQ(again.root().first_child().name(), "lost");
+    EXPECT_EQ(sequences(again).front(), 4);
+    EXPECT_THAT(sequences(again), testing::SizeIs(17));
+}
+
 TEST(LongPoll, WaitsForTheNext) {
     HttpClient client, waiting;
     bind_and_complete(client, 1);

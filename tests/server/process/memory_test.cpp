@@ -105,6 +105,19 @@ TEST_F(Memory, IsBoundedForSessionsWithinTheirPredicates) {
     EXPECT_LT(gateway->resident_bytes(), 300 * mib);
 }
 
+TEST(Conditions, TakeAtMostAsManyStepsAsTheKeyAllows) {
+    Xml all;
+    for (int i = 0; i < 250; ++i) all += is_equal("RobotId", "robot-" + std::to_string(i));
+    auto const condition =
+        element("condition", element("fes:Filter", {{"xmlns:fes", "http://www.opengis.net/fes/2.0"}}, element("fes:Or", all)));
+    for (auto const& [steps, code] : {std::pair{"1000000", "OUT_OF_RESOURCES"}, {"40000000", "OK"}}) {
+        GatewayProcess const gateway{{"--max-condition-steps", steps}};
+        HttpClient client{gateway};
+        client.call("connect");
+        EXPECT_EQ(client.call("search", condition).return_code(), code) << steps;
+    }
+}
+
 TEST_F(Memory, IsBoundedForLongLiterals) {
     start(512);
     auto& client = another();
