@@ -32,7 +32,7 @@ StepMark::StepMark(std::string name) : name_{std::move(name)} {
 
 void StepMark::set(Step const& step) noexcept {
     if (file_.get() < 0)
-        file_ = UniqueDescriptor{::open(name_.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR)};
+        file_ = UniqueDescriptor{::open(name_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR)};
     if (file_.get() < 0 || step.journal.size() != digits_of_journal) return;
     std::array<char, digits_of_journal + 1 + longest_number> text{};
     std::memcpy(text.data(), step.journal.data(), digits_of_journal);

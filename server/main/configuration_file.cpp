@@ -17,6 +17,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::uintmax_t most_bytes = 10'000'000;  // of a file, which is read while the gateway serves
+
 void set(GatewaySettings& settings, std::string const& name, json const& value, std::string const& where) {
     auto const key = std::ranges::find(keys(), name, &Key::name);
     if (key == keys().end()) throw BadSettings{where + rois::quoted(name) + " is not a configuration key; --help lists the keys"};
@@ -26,12 +28,6 @@ void set(GatewaySettings& settings, std::string const& name, json const& value, 
         throw BadSettings{where + name + " must be " + key->must_be + ", not " + rois::quoted(value.dump())};
     }
 }
-
-}  // namespace
-
-namespace {
-
-constexpr std::uintmax_t most_bytes = 10'000'000;  // of a file, which is read while the gateway serves
 
 }  // namespace
 

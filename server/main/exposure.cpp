@@ -15,7 +15,7 @@ namespace rois {
 
 namespace {
 
-// Nothing for a name that cannot be resolved.
+// nullopt: a name that cannot be resolved.
 std::optional<bool> is_only_here(std::string const& host) {
     if (auto const address = read_address(host)) return is_loopback(*address);
     addrinfo const hints{.ai_flags = 0,

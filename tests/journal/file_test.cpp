@@ -258,6 +258,19 @@ TEST_F(JournalsLog, ThatWasReplacedIsMissed) {
     }
 }
 
+TEST_F(JournalsLog, HasNoStepOfAnEarlierJournal) {
+    std::filesystem::remove(crashed.file());
+    std::filesystem::remove(log());
+    write(crashed.name() + "/in_use", std::string(32, '0') + " 1000");
+    StateFolder const again;
+    {
+        JournalFile file{crashed.name(), plenty};
+        file.store({.set = {record(1, "a", "x")}});
+        std::filesystem::copy(crashed.name(), again.name(), std::filesystem::copy_options::recursive);
+    }
+    EXPECT_THAT(keys_in(again.name()), testing::ElementsAre("1 a=x"));
+}
+
 TEST_F(JournalsLog, MayBeMovedIntoTheDatabaseByAnotherProgram) {
     run_sql(crashed.file(), "SELECT kind FROM record");
     EXPECT_FALSE(std::filesystem::exists(log()));
