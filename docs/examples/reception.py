@@ -2,7 +2,9 @@
 """The reception scenario of the specification (figure 1): wait for a person, go there, find out who it is, give this visitor their message
 or ask, bow, say goodbye, return to the start. The history goes to standard output, one line a visitor.
 
-    reception.py [VISITORS]     the number of visitors to receive, default 1; ROIS_URL is the URL of the gateway"""
+    reception.py [VISITORS]     the number of visitors to receive, default 1
+
+ROIS_URL is the URL of the gateway, and ROIS_TOKEN the token that it expects, if it expects one."""
 import math, os, re, sys, time
 from rois import Engine, NoAnswer, Refused
 
@@ -93,7 +95,7 @@ given = sys.argv[1] if len(sys.argv) > 1 else "1"
 if not re.fullmatch("[1-9][0-9]{0,5}", given):
     sys.exit(f"reception.py: VISITORS is a whole number, 1 to 999999, not '{given}'")
 try:
-    with Engine(os.environ.get("ROIS_URL", "http://127.0.0.1:8080")) as engine:
+    with Engine(os.environ.get("ROIS_URL", "http://127.0.0.1:8080"), token=os.environ.get("ROIS_TOKEN")) as engine:
         receive(int(given))
 except (NoAnswer, Refused, ValueError) as wrong:
     sys.exit(f"reception.py: {wrong}")

@@ -7,6 +7,7 @@ set -eu
 
 use='use: reception.sh [VISITORS]     the number of visitors to receive; default: 1
 ROIS_URL is the URL of the gateway; default: http://127.0.0.1:8080 (started by ./dev run).
+ROIS_TOKEN is the token that it expects, if it expects one.
 The history goes to standard output, one line a visitor; each step goes to standard error.'
 visitors=${1-1}
 case $visitors in
@@ -18,6 +19,10 @@ case $visitors in
 esac
 url=${ROIS_URL:-http://127.0.0.1:8080}
 url=${url%/}
+if [ -n "${ROIS_TOKEN-}" ] && ! printf '%s\n' "$url" | grep -qE '^(https://|http://(localhost|127\.0\.0\.1|\[::1\])(:[0-9]+)?(/|$))'; then
+    printf 'reception.sh: a token cannot be sent to %s: use https\n' "$url" >&2
+    exit 2
+fi
 names='xmlns="urn:x-rois:psm:xml:message:1" xmlns:rois="http://www.omg.org/spec/RoIS/20240801" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"'
 session=
 answer=         # the last answer
@@ -25,6 +30,7 @@ after=0         # the sequence of the last notification that was handled
 notification=   # the last notification that was handled
 broken=         # the time since which no request is answered; after ten seconds the script ends
 news=$(mktemp)  # fetched notifications that are not handled yet, one a line
+secret=$(mktemp)  # the header with the token: other users can read the arguments of curl
 
 # The message for a visitor, by permanent id.
 message_for() {
@@ -38,12 +44,13 @@ log() { printf '%s  %s\n' "$(date +%H:%M:%S)" "$*" >&2; }
 
 # --- Speaking to the engine -----------------------------------------------------------------------------------------
 
+http() { curl -sS --noproxy '*' ${ROIS_TOKEN:+-H "@$secret"} ${session:+-H "RoIS-Session: $session"} "$@"; }
+
 # ask OPERATION [CHILDREN [ATTRIBUTES]]: sends one document, and repeats it if the link breaks. Fails if the answer, $answer, is not OK.
 ask() {
     document="<$1 $names ${3:-}>${2:-}</$1>"
     # curl takes a truncated head for one without a body.
-    until answer=$(curl -sS -m 10 --data-binary "$document" -H 'Content-Type: application/xml' \
-        ${session:+-H "RoIS-Session: $session"} "$url/rois") && [ -n "$answer" ]; do pause; done
+    until answer=$(http -m 10 --data-binary "$document" -H 'Content-Type: application/xml' "$url/rois") && [ -n "$answer" ]; do pause; done
     broken=
     case $answer in *return_code=\"OK\"*) return 0 ;; esac
     return 1
@@ -98,7 +105,7 @@ execute() {
 # notifications that are complete in it; the next call fetches the rest.
 fetch() {
     whole=yes
-    fetched=$(curl -sS -m $(($1 + 10)) -H "RoIS-Session: $session" "$url/rois/notifications?after=$after&wait=$1") || whole=
+    fetched=$(http -m $(($1 + 10)) "$url/rois/notifications?after=$after&wait=$1") || whole=
     case $fetched in
         *'</fault>'*) answer=$fetched; refused notifications ;;
         *'<notifications '*) ;;
@@ -297,13 +304,13 @@ go_back() {
 }
 
 leave() {
-    [ -z "$session" ] || curl -sS -m 10 -o /dev/null --data-binary "<disconnect $names/>" -H 'Content-Type: application/xml' \
-        -H "RoIS-Session: $session" "$url/rois" || true
-    rm -f "$news" "$news.rest"
+    [ -z "$session" ] || http -m 10 -o /dev/null --data-binary "<disconnect $names/>" -H 'Content-Type: application/xml' "$url/rois" || true
+    rm -f "$news" "$news.rest" "$secret"
 }
 trap leave EXIT
 trap 'exit 130' INT TERM
 
+printf 'Authorization: Bearer %s\n' "${ROIS_TOKEN-}" >"$secret"
 request connect
 session=$(text_of session "$answer")
 for component in person_detection person_localization person_identification speech_recognition speech_synthesis reaction navigation; do

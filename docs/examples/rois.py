@@ -1,10 +1,12 @@
 """A client of a RoIS gateway over HTTP, with Python's standard library only. docs/clients.md explains how to write a client."""
 import http.client
+import ipaddress
 import itertools
 import math
 import sys
 import time
 import urllib.error
+import urllib.parse
 import urllib.request
 from xml.etree import ElementTree
 from xml.sax.saxutils import escape
@@ -22,6 +24,13 @@ class NoAnswer(Exception):
     """The gateway did not answer within the deadline. It is unknown whether the request was performed."""
 
 
+class NoRedirects(urllib.request.HTTPRedirectHandler):
+    """The token is for the gateway alone."""
+
+    def redirect_request(self, *_):
+        return None
+
+
 class Status(str):
     """The status of a completed command: OK, ERROR, ABORT, OUT_OF_RESOURCES or TIMEOUT. If it is not OK, `reason` is the engine's reason."""
 
@@ -33,14 +42,20 @@ class Engine:
     twice.
 
     The gateway holds a robot that moves for this session if it receives no request for `motion_lease` seconds: from 1 up to the
-    gateway's own value, which is the default (None) and usually 10. While `run` waits, it sends a request once a second."""
+    gateway's own value, which is the default (None) and usually 10. While `run` waits, it sends a request once a second.
+
+    `token`: for a gateway with tokens. It is sent only with https, or to this machine."""
 
     most_kept = 1000  # notifications that no call has wanted yet; the oldest are dropped first
 
     longest_poll = 1  # seconds: a waiting poll counts as a sign of life, even if this program has been stopped
 
-    def __init__(self, url, deadline=10, motion_lease=None):
+    def __init__(self, url, deadline=10, motion_lease=None, token=None):
+        if token and not is_safe(url):
+            raise ValueError(f"a token cannot be sent to {url}: use https")
         self.url, self.deadline = url.rstrip("/"), deadline
+        self.opener = urllib.request.build_opener(NoRedirects, urllib.request.ProxyHandler({}))
+        self.headers = {"Content-Type": "application/xml"} | ({"Authorization": f"Bearer {token}"} if token else {})
         self.session = ""
         self.after = 0  # the sequence of the last received notification
         self.lost = 0  # notifications that the engine has dropped
@@ -144,13 +159,13 @@ class Engine:
                     self.news.append(one)
 
     def _fetch(self, path, body=None, patience=10):
-        headers = {"Content-Type": "application/xml", "RoIS-Session": self.session}
+        headers = self.headers | {"RoIS-Session": self.session}
         end = None  # of the attempts
         for pause in itertools.chain((0.01, 0.1), itertools.repeat(1)):
             came = bytearray()
             latest = time.monotonic() + patience
             try:
-                with urllib.request.urlopen(urllib.request.Request(self.url + path, body, headers), timeout=patience) as answer:
+                with self.opener.open(urllib.request.Request(self.url + path, body, headers), timeout=patience) as answer:
                     while piece := answer.read1(65536):
                         came += piece
                         if len(came) > LONGEST:
@@ -168,6 +183,15 @@ class Engine:
                     raise NoAnswer(f"{self.url} does not answer: {trouble}") from None
                 print(f"asking again after {trouble!r}", file=sys.stderr)
                 time.sleep(pause)
+
+
+def is_safe(url):
+    """Whether nobody else on the network can read what is sent there."""
+    parts = urllib.parse.urlsplit(url)
+    try:
+        return parts.scheme == "https" or ipaddress.ip_address(parts.hostname or "").is_loopback
+    except ValueError:
+        return parts.hostname == "localhost"
 
 
 def reason_of(error):

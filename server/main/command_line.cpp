@@ -107,7 +107,7 @@ TokenEntry token_of(Flags const& flags) {
     entry.expires = read_expiry(given.expires, now);
     if (!entry.expires || *entry.expires <= now)
         throw BadSettings{
-            "--expires must be a time in the future: 30d, 12h, 45min, a day such as 2027-01-31, or a time such as "
+            "--expires must be a time in the future, before 2262: 30d, 12h, 45min, a day such as 2027-01-31, or a time such as "
             "2027-01-31T18:00:00Z, not " +
             rois::quoted(given.expires)};
     return entry;

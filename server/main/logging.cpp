@@ -45,7 +45,8 @@ void protect_standard_files() {
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);  // writing beyond the limit of a file then fails
     for (int file = STDIN_FILENO; file <= STDERR_FILENO; ++file)
-        if (::fcntl(file, F_GETFD) < 0) ::open("/dev/null", O_RDWR);  // takes the lowest free number, which is `file`
+        if (::fcntl(file, F_GETFD) < 0)  // takes the lowest free number, which is `file`
+            ::open("/dev/null", file == STDERR_FILENO ? O_WRONLY : O_RDONLY);
 }
 
 std::shared_ptr<LogQueue const> set_up_logging(LogFormat format, LogLevel level) {

@@ -9,7 +9,7 @@
 namespace rois {
 
 // Ignores SIGPIPE and SIGXFSZ, and opens standard input, output and error if they are closed, so that no socket takes their
-// place. Call this before anything else is opened.
+// place. Writing to a standard output that was closed still fails. Call this before anything else is opened.
 void protect_standard_files();
 
 // Makes spdlog's default logger write to the queue that is returned. At the end of the process, it writes remaining lines for at

@@ -257,7 +257,7 @@ std::optional<Utc> read_expiry(std::string_view text, Utc now) {
         return now + *count * length;
     }
     auto const period = to_period(text);
-    return period ? std::optional{period->end} : std::nullopt;
+    return period && period->end < Utc::max() ? std::optional{period->end} : std::nullopt;
 }
 
 TokensFile::TokensFile(std::string file, Tokens& tokens) : file_{std::move(file)}, tokens_{tokens} {

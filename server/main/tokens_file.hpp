@@ -44,7 +44,7 @@ constexpr std::string_view expected_pattern =
 std::string token_in(std::string const& file);
 
 // When a token expires: "30d", "12h" or "45min" from now, a day in UTC (at its end), or a time such as "2027-01-31T18:00:00Z".
-// Returns nothing for another text.
+// Returns nothing for another text, and for a time after the year 2261, which the clock cannot show.
 std::optional<Utc> read_expiry(std::string_view, Utc now);
 
 // Reads the file again when it has changed, on a thread of its own. If it cannot be read, logs why and changes nothing.

@@ -6,6 +6,7 @@ import re
 import socket
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -26,9 +27,10 @@ def unused_url():
         return f"http://127.0.0.1:{taken.getsockname()[1]}"
 
 
-def run(*program, url):
+def run(*program, url, **environment):
     """Runs an example; returns its exit code and standard error."""
-    return subprocess.run([*program], env=os.environ | {"ROIS_URL": url}, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    environment = os.environ | {"ROIS_URL": url} | environment
+    return subprocess.run([*program], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
 def answer_once(server):
@@ -81,12 +83,14 @@ class WithAnEndlessAnswer(unittest.TestCase):
 
 
 class GatewayTest(unittest.TestCase):
+    program = pathlib.Path(os.environ["ROIS_BINARY_DIR"]) / "bin" / "rois-gateway"
+    more_arguments = ()
+
     @classmethod
     def setUpClass(cls):
-        program = pathlib.Path(os.environ["ROIS_BINARY_DIR"]) / "bin" / "rois-gateway"
         hall = ROOT / "tests" / "server" / "data" / "empty_hall.xml"
-        cls.gateway = subprocess.Popen([program, "--listen", "127.0.0.1:0", "--scenario", hall, "--sim-speed", "100"],
-                                       stderr=subprocess.PIPE, text=True)
+        cls.gateway = subprocess.Popen([cls.program, "--listen", "127.0.0.1:0", "--scenario", hall, "--sim-speed", "100",
+                                        *cls.more_arguments], stderr=subprocess.PIPE, text=True)
         cls.url = next(found[1] for line in cls.gateway.stderr if (found := re.search(r"listening on (\S+)", line)))
 
     @classmethod
@@ -140,6 +144,33 @@ class WithAGateway(GatewayTest):
         self.assertRegex(end.stderr, r"\Areception\.py: not_found: .*\n\Z")
 
 
+class WithTokens(GatewayTest):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.more_arguments = ("--tokens", f"{folder.name}/tokens.json")
+        adding = [cls.program, "token", "add", "reception", "--role", "operator", *cls.more_arguments]
+        cls.token = subprocess.run(adding, check=True, capture_output=True, text=True).stdout.strip()
+        super().setUpClass()
+
+    def test_the_client_sends_its_token(self):
+        with rois.Engine(self.url, token=self.token) as engine:
+            self.assertIn("position_data", engine.query("robot_position"))
+
+    def test_a_missing_or_wrong_token_is_reported(self):
+        for token in (None, "wrong"):
+            with self.assertRaisesRegex(rois.Refused, "^unauthorized: "):
+                rois.Engine(self.url, token=token)
+
+    def test_the_receptions_send_the_token_of_the_environment(self):
+        with rois.Engine(self.url, token=self.token) as engine:
+            engine.bind("navigation")
+            for program in (("python3", "-B", EXAMPLES / "reception.py"), ("sh", EXAMPLES / "reception.sh")):
+                end = run(*program, url=self.url, ROIS_TOKEN=self.token)
+                self.assertRegex(end.stderr, "bind: .*OUT_OF_RESOURCES")
+
+
 class BehindAProxyThatCuts(GatewayTest):
     """All notifications arrive although each connection breaks before the answer with them is complete."""
 
@@ -186,6 +217,26 @@ class WithoutAGateway(unittest.TestCase):
             with self.assertRaisesRegex(rois.Refused, "^HTTP Error 502: Bad Gateway$"):
                 rois.Engine(f"http://127.0.0.1:{server.getsockname()[1]}")
             answering.join()
+
+    def test_a_token_is_sent_to_other_machines_only_with_tls(self):
+        for url in ("http://192.0.2.1:8080", "http://127.0.0.1.example", "http://localhost:80@192.0.2.1"):
+            for *program, name in (("python3", "-B", "reception.py"), ("sh", "reception.sh")):
+                end = run(*program, EXAMPLES / name, url=url, ROIS_TOKEN="secret")
+                self.assertEqual(end.stderr, f"{name}: a token cannot be sent to {url}: use https\n")
+        for url in ("https://192.0.2.1", "http://localhost:8080", "http://127.0.0.1/", "http://[::1]:80"):
+            self.assertTrue(rois.is_safe(url), url)
+
+    def test_a_redirect_is_not_followed(self):
+        def redirect(server):
+            came, _ = server.accept()
+            with came:
+                came.recv(4096)
+                came.sendall(b"HTTP/1.1 307 Temporary Redirect\r\nLocation: /elsewhere\r\nContent-Length: 0\r\nConnection: close\r\n\r\n")
+
+        with socket.create_server(("127.0.0.1", 0)) as server:
+            threading.Thread(target=redirect, args=(server,), daemon=True).start()
+            with self.assertRaisesRegex(rois.Refused, "307"):
+                rois.Engine(f"http://127.0.0.1:{server.getsockname()[1]}", token="secret")
 
     def test_a_call_ends_at_its_deadline(self):
         with self.assertRaisesRegex(rois.NoAnswer, "refused"):

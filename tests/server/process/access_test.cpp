@@ -76,6 +76,7 @@ TEST(TokenCommand, SaysWhatIsWrong) {
     expect_complaint(file.run({"add", "x", "--role", "observer", "--expires", "soon"}), "--expires must be a time in the future");
     expect_complaint(file.run({"add", "x", "--role", "observer", "--expires", "2001-01-01"}),
                      "--expires must be a time in the future");
+    expect_complaint(file.run({"add", "x", "--role", "observer", "--expires", "9999-12-31"}), "before 2262: ");
     expect_complaint(file.run({"add", "x", "--role", "observer", "--expires", ""}), "--expires must be a time in the future");
     expect_complaint(file.run({"add", "x", "--role", "observer", "--components", ""}),
                      "--components cannot be '': expected patterns of refs");
@@ -90,6 +91,18 @@ TEST(TokenCommand, SaysWhatIsWrong) {
     expect_complaint(run_gateway({"token", "list", "--tokens", "/nowhere/at.all"}), "cannot read '/nowhere/at.all'");
     expect_complaint(run_gateway({"token", "add", "x", "--role", "observer", "--tokens", "/nowhere/at.all"}),
                      "cannot change '/nowhere/at.all': No such file or directory");
+}
+
+TEST(TokenCommand, AddsNoTokenThatNobodyCanRead) {
+    TokenFile const file;
+    file.add("desk", "operator");
+    for (auto const* output : {">&-", ">/dev/full"}) {
+        auto const ended = run_shell(std::string{kit::gateway_program} + " token add lost --role observer --tokens " +
+                                     file.name() + " " + output);
+        EXPECT_EQ(ended.exit_code, 2) << output;
+        EXPECT_THAT(ended.error, HasSubstr("it cannot be written to the standard output, and was not added"));
+    }
+    EXPECT_THAT(file.run({"list"}).out, Not(HasSubstr("lost")));
 }
 
 TEST(TokenCommand, ChangesTheFileThatALinkStandsFor) {
