@@ -158,6 +158,7 @@ void Engine::Core::tick(Instant now) {
     last_due_ = Deadlines::first();
     attempts([&] { executor_.repair(now, inbox_->take_lost_reports()); });
     end_marked_sessions(now, attempts);
+    subscriptions_.forget_unused();
     attempts([&] { settle(now); });
     attempts([&] { forget_what_is_old(now); });
     attempts.rethrow();

@@ -18,7 +18,7 @@ Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instan
     if (!may_ever_match(wanted, components.possible(wanted.demand(), seen_by(session, wanted)), session))
         return refused<Subscribe::Reply>(ReturnCode::unsupported, "no component that has the event can match the condition");
     auto* const known = subscriptions_.find(subscribe.event_type, wanted);
-    bool const again = known != nullptr && session.subscriptions.contains(known);
+    bool const again = known != nullptr && Subscriptions::has(session, *known);
     if (auto problem = again ? std::nullopt : no_room_for(session, wanted, known != nullptr))
         return refused<Subscribe::Reply>(ReturnCode::out_of_resources, *std::move(problem));
     // The last room is for the ends of commands.
@@ -52,8 +52,8 @@ std::optional<std::string> Engine::Core::no_room_for(Session const& session, Fil
 Reply Engine::Core::perform(Session& session, Unsubscribe const& unsubscribe, Instant) {
     auto const& id = unsubscribe.subscribe_id;
     auto const is_it = [&](StoredSubscription const& each) { return each.session == session.number && each.id == id; };
-    bool const was_absent = std::erase_if(absent_subscriptions_, is_it) > 0;
-    if (subscriptions_.remove(session, id) || was_absent) recorder_.unsubscribed(session, id);
+    if (subscriptions_.remove(session, id) || std::erase_if(absent_subscriptions_, is_it) > 0)
+        recorder_.unsubscribed(session, id);
     return Unsubscribe::Reply{};
 }
 

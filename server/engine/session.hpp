@@ -44,7 +44,7 @@ struct Session {
 
     std::set<RegisteredComponent*> bound;
     std::vector<StoredBinding> absent;  // bindings from before a restart, until their components have returned and confirmed them
-    std::set<Subscription*> subscriptions;
+    std::map<std::string_view, Subscription*> subscriptions;  // by id
     std::size_t predicates = 0;       // total in the conditions of the subscriptions
     std::size_t condition_bytes = 0;  // total length of the texts in these conditions
     Effort::Account effort;           // for matching conditions

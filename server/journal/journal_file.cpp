@@ -134,7 +134,10 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
       log_pages_{longest_log} {  // an earlier process may have left a long log
     make_folder(folder);
     bool const is_new = make_file(name_);
-    if (!is_new) require_database(name_);
+    if (is_new)
+        mark_.remove();  // that of an earlier journal
+    else
+        require_database(name_);
     check_log(is_new);
     open();
     check_header(is_new);

@@ -262,12 +262,14 @@ TEST_F(JournalsLog, HasNoStepOfAnEarlierJournal) {
     std::filesystem::remove(crashed.file());
     std::filesystem::remove(log());
     write(crashed.name() + "/in_use", std::string(32, '0') + " 1000");
-    StateFolder const again;
+    StateFolder const before_its_first_step, again;
     {
         JournalFile file{crashed.name(), plenty};
+        std::filesystem::copy(crashed.name(), before_its_first_step.name(), std::filesystem::copy_options::recursive);
         file.store({.set = {record(1, "a", "x")}});
         std::filesystem::copy(crashed.name(), again.name(), std::filesystem::copy_options::recursive);
     }
+    EXPECT_THAT(keys_in(before_its_first_step.name()), testing::IsEmpty());
     EXPECT_THAT(keys_in(again.name()), testing::ElementsAre("1 a=x"));
 }
 

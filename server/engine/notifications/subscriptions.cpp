@@ -55,10 +55,15 @@ Subscription* Subscriptions::find(std::string_view event_type, Filter const& fil
     return known == alike->second.by_meaning.end() ? nullptr : known->second;
 }
 
+bool Subscriptions::has(Session const& session, Subscription const& subscription) {
+    auto const found = session.subscriptions.find(subscription.id.text);
+    return found != session.subscriptions.end() && found->second == &subscription;
+}
+
 Subscription& Subscriptions::add(Session& session, std::string const& event_type, Filter filter, bool inline_results) {
     auto* known = find(event_type, filter);
-    auto const has_its_id = [&](Subscription const* each) { return each != known && each->id == known->id; };
-    if (known != nullptr && std::ranges::any_of(session.subscriptions, has_its_id)) known = nullptr;
+    bool const is_other = known != nullptr && session.subscriptions.contains(known->id.text) && !has(session, *known);
+    if (is_other) known = nullptr;  // another one has its id
     return add(session, event_type, std::move(filter), inline_results, known, {"s-" + std::to_string(last_ + 1)});
 }
 
@@ -84,7 +89,7 @@ Subscription& Subscriptions::add(Session& session, std::string const& event_type
     bool added = false;
     try {
         if (subscribers.size() == subscribers.capacity()) subscribers.reserve(2 * subscribers.size() + 1);
-        added = session.subscriptions.insert(subscription).second;
+        added = session.subscriptions.emplace(subscription->id.text, subscription).second;
     } catch (...) {
         remove_if_unused(*subscription);
         throw;
@@ -115,9 +120,9 @@ Subscription& Subscriptions::keep(std::unique_ptr<Subscription> made) {
 }
 
 bool Subscriptions::remove(Session& session, SubscribeId const& id) {
-    auto const found = std::ranges::find_if(session.subscriptions, [&](auto const* each) { return each->id == id; });
+    auto const found = session.subscriptions.find(id.text);
     if (found == session.subscriptions.end()) return false;
-    auto& subscription = **found;
+    auto& subscription = *found->second;
     session.subscriptions.erase(found);
     part(session, subscription);
     remove_if_unused(subscription);
@@ -125,11 +130,28 @@ bool Subscriptions::remove(Session& session, SubscribeId const& id) {
 }
 
 void Subscriptions::remove_all(Session& session) {
+    unused_.reserve(unused_.size() + session.subscriptions.size());
     while (!session.subscriptions.empty()) {
-        auto* const subscription = *session.subscriptions.begin();
+        auto* const subscription = session.subscriptions.begin()->second;
         session.subscriptions.erase(session.subscriptions.begin());
         part(session, *subscription);
-        remove_if_unused(*subscription);
+        if (subscription->subscribers.empty()) unused_.push_back(subscription->number);
+    }
+    forget_within_limit();
+}
+
+void Subscriptions::forget_unused() noexcept {
+    left_to_delete_ = most_at_once;
+    forget_within_limit();
+}
+
+void Subscriptions::forget_within_limit() noexcept {
+    for (; left_to_delete_ > 0 && !unused_.empty(); unused_.pop_back()) {
+        auto const found = all_.find(unused_.back());
+        if (found == all_.end() || !found->second->subscribers.empty()) continue;
+        auto const cost = found->second->filter.predicates() + 1;
+        left_to_delete_ -= std::min(left_to_delete_, cost);
+        remove_if_unused(*found->second);
     }
 }
 
@@ -163,7 +185,7 @@ std::set<Session*> Subscriptions::possible_subscribers(RegisteredComponent const
     for (auto const& message : component.profile().messages) {
         if (message.kind != MessageKind::event) continue;
         for (auto const* subscription : possible(message.name, component))
-            if (may_ever_match(*subscription))
+            if (!subscription->subscribers.empty() && may_ever_match(*subscription))
                 for (auto const& subscriber : subscription->subscribers)
                     if (may_see(subscriber.rights, component.ref().code)) sessions.insert(subscriber.session);
     }

@@ -40,7 +40,7 @@ struct Subscription {
         Rights const* rights;      // copy of the session's rights, likewise
         bool inline_results;
     };
-    std::vector<Subscriber> subscribers;  // ordered by session number
+    std::vector<Subscriber> subscribers;  // ordered by session number; empty: it waits for being deleted
 };
 
 // A subscription knows its sessions, and a session its subscriptions.
@@ -48,6 +48,8 @@ class Subscriptions {
 public:
     // Returns the subscription, or null if no session has it.
     Subscription* find(std::string_view event_type, Filter const&) const;
+
+    static bool has(Session const&, Subscription const&);
 
     // Subscribes a session. The same event type and condition give the same subscription; the last `inline_results` wins.
     Subscription& add(Session&, std::string const& event_type, Filter, bool inline_results);
@@ -61,7 +63,11 @@ public:
 
     // Returns false if the session has no subscription with this id.
     bool remove(Session&, SubscribeId const&);
+    // Many subscriptions without a session are only deleted by the next calls of `forget_unused`.
     void remove_all(Session&);
+
+    // Deletes subscriptions that no session has any more. Call it in each tick: at once, very many would take too long.
+    void forget_unused() noexcept;
 
     // Returns the subscriptions to this event type that the component may concern, in the order of subscribing.
     std::vector<Subscription*> possible(std::string_view event_type, RegisteredComponent const&) const;
@@ -97,11 +103,16 @@ private:
     Subscription& keep(std::unique_ptr<Subscription>);
     static void part(Session&, Subscription&);
     void remove_if_unused(Subscription&) noexcept;
+    void forget_within_limit() noexcept;
+
+    static constexpr std::size_t most_at_once = 5'000;  // predicates of subscriptions that are deleted in a tick: some 10 ms
 
     std::unordered_map<std::uint64_t, std::unique_ptr<Subscription>> all_;  // by number
     std::map<std::string, OfType, std::less<>> by_type_;
     std::uint64_t last_ = 0;
     std::size_t predicates_ = 0;
+    std::vector<std::uint64_t> unused_;          // numbers of subscriptions to be deleted, unless a session has them again
+    std::size_t left_to_delete_ = most_at_once;  // predicates, in this tick
 };
 
 }  // namespace rois

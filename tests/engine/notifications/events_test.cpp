@@ -66,6 +66,25 @@ TEST(ManySubscriptions, HaveTenThousandPredicatesASession) {
     EXPECT_EQ(answer(desk, {"detection", "a"}).return_code, ReturnCode::ok);
 }
 
+// Deleting very many at once would delay others.
+TEST(ManySubscriptions, OfASessionThatEndsAreDeletedInSeveralTicks) {
+    World world{{detection}};
+    auto desk = world.connect(), hall = world.connect();
+    auto const or_detection = [](int i) { return either({equal("name", std::to_string(i)), equal("name", "detection")}); };
+    for (int i = 0; i < 3'000; ++i) desk.subscribe("person_detected", or_detection(i));
+    desk.ask(Disconnect{});
+    EXPECT_GT(world.engine->statistics().subscriptions, 1'000U);
+    for (int const i : {0, 2'999}) hall.subscribe("person_detected", or_detection(i));
+    world["detection"].reports(ErrorType::component_internal_error, "of interest to those that have subscribed");
+    world["detection"].fires("person_detected");
+    EXPECT_THAT(hall.received(), ElementsAre("1 COMPONENT_INTERNAL_ERROR detection", "2 person_detected detection",
+                                             "3 person_detected detection"));
+    world.advance(std::chrono::seconds{1});
+    EXPECT_EQ(world.engine->statistics().subscriptions, 2U);
+    world["detection"].fires("person_detected");
+    EXPECT_THAT(hall.received(), ElementsAre("4 person_detected detection", "5 person_detected detection"));
+}
+
 TEST_F(Events, OfTwoSubscriptionsAreReceivedForEachWithOneEventId) {
     auto const all = desk.subscribe("person_detected").subscribe_id;
     auto const one = desk.subscribe("person_detected", equal("component_ref", "detection")).subscribe_id;
