@@ -7,6 +7,16 @@
 
 namespace rois {
 
+namespace {
+
+// Steps of an Effort: so many bytes of conditions would keep commands waiting for the journal.
+std::size_t steps_of_storing(Filter const& condition) {
+    constexpr std::size_t bytes_of_a_record = 400, bytes_of_a_predicate = 150, steps_of_a_byte = 4;
+    return steps_of_a_byte * (bytes_of_a_record + bytes_of_a_predicate * condition.predicates() + condition.text_bytes());
+}
+
+}  // namespace
+
 Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instant now) {
     auto const& components = registry_.with(MessageKind::event, subscribe.event_type);
     if (components.possible({}, {Members::shown, session.rights.get()}).next() == nullptr)
@@ -18,16 +28,20 @@ Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instan
     if (!may_ever_match(wanted, components.possible(wanted.demand(), seen_by(session, wanted)), session))
         return refused<Subscribe::Reply>(ReturnCode::unsupported, "no component that has the event can match the condition");
     auto* const known = subscriptions_.find(subscribe.event_type, wanted);
-    bool const again = known != nullptr && Subscriptions::has(session, *known);
+    auto const* const earlier = known != nullptr ? Subscriptions::subscriber(session, *known) : nullptr;
+    bool const again = earlier != nullptr;
+    bool const changes = !again || earlier->inline_results != subscribe.inline_results;
     if (auto problem = again ? std::nullopt : no_room_for(session, wanted, known != nullptr))
         return refused<Subscribe::Reply>(ReturnCode::out_of_resources, *std::move(problem));
     // The last room is for the ends of commands.
     if (auto problem = recorder_.why_no_commands(); !again && !problem.empty())
         return refused<Subscribe::Reply>(ReturnCode::out_of_resources, std::move(problem));
+    if (changes && recorder_.stores(session)) Effort::spend(steps_of_storing(wanted));
     Subscribe::Reply reply;
     reply.subscribe_id = subscriptions_.add(session, subscribe.event_type, std::move(wanted), subscribe.inline_results).id;
-    recorder_.subscribed(session, reply.subscribe_id, subscribe,
-                         again ? Recorder::Has::subscribed_again : Recorder::Has::subscribed);
+    if (changes)
+        recorder_.subscribed(session, reply.subscribe_id, subscribe,
+                             again ? Recorder::Has::subscribed_again : Recorder::Has::subscribed);
     deliver_kept(subscribe.event_type, now);
     return reply;
 }

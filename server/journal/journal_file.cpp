@@ -10,7 +10,9 @@
 #include <boost/crc.hpp>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <new>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -31,6 +33,7 @@ constexpr int longest_log = 256;                // pages; no step begins behind 
 constexpr std::size_t first_pages = 300;        // of the database and of its log
 constexpr auto room = "room";                   // the kind of a record that only takes room, and is not read
 constexpr std::size_t reserve_bytes = std::size_t{4} << 20;
+constexpr std::int64_t most_deleted = 1'000;  // records of ended sessions in a step: some 5 ms
 
 // Returns the largest number of pages of the database, so that all files together take at most `most_bytes`: the reserve, the
 // database and its log. A step writes each page that it changes once into the log. So the log has at most `longest_log` pages,
@@ -153,7 +156,10 @@ JournalFile::JournalFile(std::string const& folder, std::size_t most_bytes)
     set_ = prepared("INSERT OR REPLACE INTO record VALUES (?, ?, ?, ?, ?)");
     erase_ = prepared("DELETE FROM record WHERE kind = ? AND session = ? AND key = ?");
     forget_ = prepared("DELETE FROM record WHERE kind = ? AND session = ? AND key BETWEEN ? AND ?");
-    end_ = prepared("DELETE FROM record WHERE kind IN ('command', 'notification', 'session', 'subscription') AND session = ?");
+    end_ = prepared("DELETE FROM record WHERE kind = 'session' AND session = ?");
+    delete_ = prepared(
+        "DELETE FROM record WHERE session = ?1 AND (kind, key) IN (SELECT kind, key FROM record"
+        " WHERE kind IN ('command', 'notification', 'subscription') AND session = ?1 LIMIT ?2)");
     pages_ = prepared("PRAGMA page_count");
     free_pages_ = prepared("PRAGMA freelist_count");
     check_step(is_new);
@@ -282,7 +288,17 @@ std::vector<Record> JournalFile::read() {
                    " of session " + std::to_string(record.key.session) + " have changed");
     }
     if (result != SQLITE_DONE) refuse("is damaged: " + said());
+    note_ended(records);
     return records;
+}
+
+// Sessions whose record is gone, while others of theirs are left.
+void JournalFile::note_ended(std::vector<Record> const& records) {
+    std::set<std::uint64_t> present, all;
+    for (auto const& [key, value] : records) (key.kind == "session" ? present : all).insert(key.session);
+    present.insert(0);  // the engine's own records
+    ended_.clear();
+    std::ranges::set_difference(all, present, std::back_inserter(ended_));
 }
 
 bool JournalFile::step(Statement& statement) {
@@ -304,10 +320,13 @@ bool JournalFile::note_failure() noexcept {
 
 bool JournalFile::write(RecordChanges const& changes) {
     if (!step(begin_)) return false;
-    for (auto const session : changes.ended) {  // first: they make room
+    auto ended = ended_;
+    for (auto const session : changes.ended) {
         put(end_.get(), 1, session);
         if (!step(end_)) return false;
+        ended.push_back(session);
     }
+    if (!delete_records_of(ended)) return false;  // first: that makes room
     for (auto const& key : changes.gone) {
         put(erase_.get(), 1, key);
         if (!step(erase_)) return false;
@@ -326,6 +345,19 @@ bool JournalFile::write(RecordChanges const& changes) {
     if (!std::ranges::all_of(changes.set, set)) return false;
     if (!set({{"engine_step", 0, step_.journal}, std::to_string(step_.number + 1)}) || !step(commit_)) return false;
     ++step_.number;
+    ended_ = std::move(ended);
+    return true;
+}
+
+// Many are left for the next steps: commands would have to wait for them.
+bool JournalFile::delete_records_of(std::vector<std::uint64_t>& ended) {
+    for (auto left = most_deleted; !ended.empty(); ended.pop_back()) {
+        put(delete_.get(), 1, ended.back());
+        put(delete_.get(), 2, static_cast<std::uint64_t>(left));
+        if (!step(delete_)) return false;
+        left -= sqlite3_changes64(database_.get());
+        if (left <= 0) break;
+    }
     return true;
 }
 

@@ -55,6 +55,8 @@ public:
 
     // Makes all changes, or none of them. When it returns, they are on the disk.
     Result store(RecordChanges const&);
+    // Whether the next steps delete records of sessions that have ended. `read` may return them.
+    bool has_to_delete() const { return !ended_.empty(); }
     // Gives the database and SQLite's log their first megabyte, if there is room. To grow later would keep commands waiting:
     // the disk takes much longer to store a file that has grown, above all while other programs write.
     // Throws BadJournal if the disk does not write.
@@ -94,6 +96,8 @@ private:
     Statement prepared(char const* sql);
     Result attempt(RecordChanges const&);
     bool write(RecordChanges const&);
+    bool delete_records_of(std::vector<std::uint64_t>& ended);
+    void note_ended(std::vector<Record> const&);
     bool step(Statement&);
     void count_pages();
     Result judged();
@@ -116,7 +120,8 @@ private:
     std::int64_t most_pages_ = 0;   // of the database
     std::int64_t spare_pages_ = 0;  // of them: kept for the ends of commands
     std::int64_t used_pages_ = 0;   // of them: with records
-    Statement begin_, commit_, rollback_, set_, erase_, forget_, end_, pages_, free_pages_;
+    Statement begin_, commit_, rollback_, set_, erase_, forget_, end_, delete_, pages_, free_pages_;
+    std::vector<std::uint64_t> ended_;  // sessions with records that are not deleted yet
     std::string problem_;
     int failure_ = 0;  // SQLite's code for it
     bool has_reserve_ = false;

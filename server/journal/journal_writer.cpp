@@ -64,9 +64,11 @@ std::string JournalWriter::why_no_commands() const {
 // Looks now and then whether a full disk has room again, also without changes.
 void JournalWriter::run(std::stop_token const& stop) {
     std::optional<std::size_t> limit;
+    bool can_delete = true;
     std::unique_lock lock{mutex_};
     while (true) {
-        news_.wait_for(lock, stop, std::chrono::seconds{1}, [this] { return next_ != nullptr || next_limit_; });
+        auto const longest = std::chrono::seconds{can_delete && file_->has_to_delete() ? 0 : 1};
+        news_.wait_for(lock, stop, longest, [this] { return next_ != nullptr || next_limit_; });
         auto const changes = std::exchange(next_, nullptr);
         if (next_limit_) limit = std::exchange(next_limit_, std::nullopt);
         if (changes == nullptr && stop.stop_requested()) break;
@@ -74,6 +76,7 @@ void JournalWriter::run(std::stop_token const& stop) {
         if (!file_->is_in_place()) note_broken("it was moved or removed");
         if (limit && uses(*limit)) limit.reset();
         if (changes != nullptr) write(*changes);
+        can_delete = changes != nullptr || !file_->has_to_delete() || delete_more();
         note_room();
         lock.lock();
     }
@@ -123,6 +126,18 @@ void JournalWriter::write(Changes const& changes) {
     ++(stored ? stored_ : not_stored_);
     calls_.done(stored);
     if (file_->tidy() == JournalFile::Result::broken) note_broken(file_->problem());
+}
+
+// Returns false if the disk has no room now.
+bool JournalWriter::delete_more() {
+    auto result = JournalFile::Result::no_room;
+    try {
+        result = file_->store({});
+    } catch (std::bad_alloc const&) {
+        return false;
+    }
+    if (result == JournalFile::Result::broken) note_broken(file_->problem());
+    return result == JournalFile::Result::stored;
 }
 
 void JournalWriter::note_broken(std::string_view problem) {

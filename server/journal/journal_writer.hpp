@@ -59,6 +59,7 @@ private:
     void run_stops(std::stop_token const& stop);
     bool uses(std::size_t limit);
     void write(Changes const&);
+    bool delete_more();
     void note_broken(std::string_view problem);
     void note_room();
 

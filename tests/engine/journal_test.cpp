@@ -297,6 +297,16 @@ TEST_F(Journaled, CommandsBeginAgainAlsoIfNothingIsLeftToStore) {
     EXPECT_EQ(desk.execute(go("go")).return_code, ReturnCode::ok);
 }
 
+TEST_F(Journaled, ASubscriptionThatIsRepeatedIsStoredOnce) {
+    auto desk = world.connect();
+    desk.subscribe("reached_target");
+    auto const steps = journal().steps;
+    desk.subscribe("reached_target");
+    EXPECT_EQ(journal().steps, steps);
+    desk.ask(Subscribe{"reached_target", {}, true});
+    EXPECT_EQ(journal().steps, steps + 1) << "it has changed";
+}
+
 TEST_F(Journaled, ASubscriptionThatIsRepeatedAndEndsWhileTheDiskIsFullDoesNotReturn) {
     auto desk = world.connect();
     auto const stored = desk.subscribe("reached_target");

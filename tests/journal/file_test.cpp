@@ -80,6 +80,29 @@ TEST_F(JournalsFile, ForgetsWhatIsGone) {
     EXPECT_THAT(keys_in(folder.name()), testing::ElementsAre("1 a=1"));
 }
 
+TEST_F(JournalsFile, DeletesManyRecordsOfASessionInSeveralSteps) {
+    StateFolder const crashed;
+    auto const steps_to_delete = [](JournalFile& file) {
+        int steps = 0;
+        for (; file.has_to_delete() && steps < 10; ++steps) EXPECT_EQ(file.store({}), JournalFile::Result::stored);
+        return steps;
+    };
+    {
+        JournalFile file{folder.name(), plenty};
+        RecordChanges all{.set = {{{kind::session, 1, {}}, "{}"}, {{kind::session, 2, {}}, "{}"}, record(2, "a", "1")}};
+        for (int i = 0; i < 2'500; ++i) all.set.push_back(record(1, std::to_string(i), "x"));
+        file.store(all);
+        EXPECT_EQ(file.store({.ended = {1}}), JournalFile::Result::stored);
+        std::filesystem::copy(folder.name(), crashed.name(), std::filesystem::copy_options::recursive);
+        EXPECT_EQ(steps_to_delete(file), 2);
+        EXPECT_EQ(file.read().size(), 2U);
+    }
+    JournalFile next{crashed.name(), plenty};
+    EXPECT_EQ(next.read().size(), 1'502U) << "the record of the session itself is gone";
+    EXPECT_EQ(steps_to_delete(next), 2) << "also after a crash";
+    EXPECT_EQ(next.read().size(), 2U);
+}
+
 TEST_F(JournalsFile, CanOnlyBeReadByItsOwner) {
     store({.set = {record(1, "a", "x")}});
     struct stat found {};

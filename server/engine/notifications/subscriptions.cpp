@@ -55,15 +55,16 @@ Subscription* Subscriptions::find(std::string_view event_type, Filter const& fil
     return known == alike->second.by_meaning.end() ? nullptr : known->second;
 }
 
-bool Subscriptions::has(Session const& session, Subscription const& subscription) {
+Subscription::Subscriber const* Subscriptions::subscriber(Session const& session, Subscription& subscription) {
     auto const found = session.subscriptions.find(subscription.id.text);
-    return found != session.subscriptions.end() && found->second == &subscription;
+    bool const has_it = found != session.subscriptions.end() && found->second == &subscription;
+    return has_it ? &*place_of(session, subscription) : nullptr;
 }
 
 Subscription& Subscriptions::add(Session& session, std::string const& event_type, Filter filter, bool inline_results) {
     auto* known = find(event_type, filter);
-    bool const is_other = known != nullptr && session.subscriptions.contains(known->id.text) && !has(session, *known);
-    if (is_other) known = nullptr;  // another one has its id
+    if (known != nullptr && session.subscriptions.contains(known->id.text) && subscriber(session, *known) == nullptr)
+        known = nullptr;  // another subscription of the session has its id
     return add(session, event_type, std::move(filter), inline_results, known, {"s-" + std::to_string(last_ + 1)});
 }
 

@@ -49,7 +49,8 @@ public:
     // Returns the subscription, or null if no session has it.
     Subscription* find(std::string_view event_type, Filter const&) const;
 
-    static bool has(Session const&, Subscription const&);
+    // Returns the session's entry in the subscription, or null.
+    static Subscription::Subscriber const* subscriber(Session const&, Subscription&);
 
     // Subscribes a session. The same event type and condition give the same subscription; the last `inline_results` wins.
     Subscription& add(Session&, std::string const& event_type, Filter, bool inline_results);

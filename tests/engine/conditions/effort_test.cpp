@@ -45,6 +45,22 @@ struct CostlyConditions : testing::Test {
 
 }  // namespace
 
+TEST_F(CostlyConditions, OfSubscriptionsAreStoredOnlySoFast) {
+    world.keep_journal();
+    auto stored = world.connect();
+    auto const subscribe = [](Application& application, int number) {
+        auto const name = std::string(10'000, 'x') + std::to_string(number);
+        return application.subscribe("person_localized", either({equal("component_ref", "localization"), equal("name", name)}))
+            .return_code;
+    };
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(subscribe(stored, 1), ReturnCode::ok) << "it is stored once";
+    EXPECT_EQ(subscribe(stored, 2), ReturnCode::ok);
+    EXPECT_EQ(subscribe(stored, 3), ReturnCode::out_of_resources);
+    world.advance(100ms);
+    EXPECT_EQ(subscribe(stored, 3), ReturnCode::ok);
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(subscribe(desk, i), ReturnCode::ok) << "this session is not stored";
+}
+
 TEST_F(CostlyConditions, OfRequestsAreRefusedForATenthOfASecond) {
     EXPECT_EQ(desk.ask(Search{costly(1)}).return_code, ReturnCode::ok);
     auto const refused = desk.ask(Search{costly(1)});
