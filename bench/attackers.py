@@ -114,22 +114,22 @@ def each(port, count, act):
     threading.Event().wait()
 
 
+def send_together(one, bodies):
+    """Sends requests without waiting for the answers, and then reads these."""
+    try:
+        one.socket.sendall("".join(one.head(len(body)) + body for body in bodies).encode())
+        answers = 0
+        while answers < len(bodies):
+            part = one.socket.recv(65_536)
+            answers += part.count(b"HTTP/1.1 ") if part else len(bodies)
+    except OSError:
+        one.open()
+
+
 def requests(port):
     """Short requests, 16 at a time on each of 64 connections."""
     body = query("engine_status")
-
-    def act(one, _):
-        try:
-            one.is_connected()
-            one.socket.sendall((one.head(len(body)) + body).encode() * 16)
-            answers = 0
-            while answers < 16:
-                part = one.socket.recv(65_536)
-                answers += part.count(b"HTTP/1.1 ") if part else 16
-        except OSError:
-            one.open()
-
-    each(port, 64, act)
+    each(port, 64, lambda one, _: one.is_connected() and send_together(one, [body] * 16))
 
 
 def unread(port):
@@ -192,6 +192,32 @@ def predicates(port):
         for first in range(0, 30_000, 1_000)
     ]
     each(port, 30, lambda one, turn: one.is_connected() and one.post(every[turn % 30]))
+
+
+def subscriptions(port):
+    """4 sessions with 10,000 subscriptions each, that unsubscribe from something else, 16 times at once on each of 64 connections."""
+    owners = []
+    for first in range(0, 40_000, 10_000):
+        owner = Line(port)
+        owner.connect()
+        for number in range(first, first + 10_000, 100):
+            send_together(owner, [subscribe("person_detected", [is_equal("number", f"{one}")]) for one in range(number, number + 100)])
+        owners.append(owner.session)
+    turns = itertools.cycle(owners)
+    body = f'<unsubscribe xmlns="{MESSAGE}"><subscribe_id>s-0</subscribe_id></unsubscribe>'
+
+    def act(one, _):
+        one.session = one.session or next(turns)
+        send_together(one, [body] * 16)
+
+    each(port, 64, act)
+
+
+def stored(port):
+    """60 sessions that change subscriptions with conditions of 28 kB again and again, which a journal stores."""
+    every = [subscribe("person_detected", [is_equal("number", "1"), is_equal("component_ref", f"{number}" + "x" * 28_000)]) for number in range(8)]
+    every += [body.replace('inline_results="true"', 'inline_results="false"') for body in every]
+    each(port, 60, lambda one, _: one.is_connected() and send_together(one, every))
 
 
 def literals(port):
@@ -403,6 +429,8 @@ FLOODS = {
         headers,
         garbage,
         predicates,
+        subscriptions,
+        stored,
         literals,
         patterns,
         bodies,

@@ -2,6 +2,7 @@
 
 import os
 import resource
+import shutil
 import subprocess
 import sys
 import time
@@ -49,6 +50,10 @@ def needs(kind):
         add = [BIN / "rois-gateway", "token", "add", "bench", "--role", "administrator", "--tokens", file]
         token = subprocess.run(add, check=True, capture_output=True, text=True).stdout.strip()
         return ["--tokens", file], {"token": token}
+    if kind == "stored":
+        folder = WORK / "state"
+        shutil.rmtree(folder, ignore_errors=True)
+        return ["--state", folder], {}
     if kind == "handshakes":
         certificate, key = WORK / "bench.pem", WORK / "bench.key"
         make = ["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days", "2"]

@@ -201,7 +201,7 @@ private:
                           Instant now);
     void restore(StoredSession&&, StoredState&, RightsOf const&, Instant now);
     void restore(Session&, StoredCommand&&, Instant now);
-    bool restore(StoredSubscription const&);
+    bool restore(Session&, SubscribeId const&, Subscribe const&);
     void bind_absent(Session&, Instant now);
     void ask_to_bind(Session&, RegisteredComponent&, StoredBinding const&, Instant now);
     void take_answer(Session&, RegisteredComponent&, StoredBinding const&, std::optional<ComponentAnswer> const&, Instant now);
@@ -364,9 +364,8 @@ private:
         std::string provider;
         std::shared_ptr<Command> command;
     };
-    std::vector<Undecided> undecided_;                      // commands from before a restart, whose ends the sub engines may know
-    bool asks_absent_again_ = false;                        // soon
-    std::vector<StoredSubscription> absent_subscriptions_;  // from before a restart, to events that no component has yet
+    std::vector<Undecided> undecided_;  // commands from before a restart, whose ends the sub engines may know
+    bool asks_absent_again_ = false;    // soon
     Deadlines deadlines_;
     Deadlines::Ticket last_due_ = Deadlines::first();  // of the deadlines that were carried out since the last tick
     Notifier notifier_;

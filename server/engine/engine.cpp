@@ -415,8 +415,9 @@ void Engine::Core::link_closed(SessionId const& id, LinkKind link, Closing closi
 Session* Engine::Core::longest_idle() const {
     Session* longest = nullptr;
     for (auto const& [id, session] : sessions_) {
-        bool const idle = session->lease.links() == 0 && session->bound.empty() && session->subscriptions.empty() &&
-                          session->live_commands() == 0;
+        bool const has_bound = !session->bound.empty() || !session->absent.empty();
+        bool const has_subscribed = !session->subscriptions.empty() || !session->absent_subscriptions.empty();
+        bool const idle = session->lease.links() == 0 && !has_bound && !has_subscribed && session->live_commands() == 0;
         auto const earlier = [](Session const& a, Session const& b) {
             return std::pair{a.last_activity, a.number} < std::pair{b.last_activity, b.number};
         };

@@ -45,11 +45,12 @@ struct Session {
     std::set<RegisteredComponent*> bound;
     std::vector<StoredBinding> absent;  // bindings from before a restart, until their components have returned and confirmed them
     std::map<std::string_view, Subscription*> subscriptions;  // by id
-    std::size_t predicates = 0;       // total in the conditions of the subscriptions
-    std::size_t condition_bytes = 0;  // total length of the texts in these conditions
-    Effort::Account effort;           // for matching conditions
-    Effort::Account deliveries;       // of events to its subscriptions with a condition
-    std::uint64_t missed = 0;         // the last event (Core::event_) that was not compared with a condition of it
+    std::map<std::string, Subscribe> absent_subscriptions;    // from before a restart, to events that no component has yet
+    std::size_t predicates = 0;                               // total in the conditions of the subscriptions
+    std::size_t condition_bytes = 0;                          // total length of the texts in these conditions
+    Effort::Account effort;                                   // for matching conditions
+    Effort::Account deliveries;                               // of events to its subscriptions with a condition
+    std::uint64_t missed = 0;  // the last event (Core::event_) that was not compared with a condition of it
     std::unordered_map<CommandId, std::shared_ptr<Command>, IdHash> commands;  // all known commands (decision 17)
     std::list<std::shared_ptr<Command>> ended;  // the ended commands of `commands`, oldest end first
     std::size_t live_commands() const { return commands.size() - ended.size(); }

@@ -130,6 +130,17 @@ TEST_F(Journaled, ASubscriptionOfAnAbsentComponentCanBeEnded) {
     EXPECT_THAT(again.received(), IsEmpty());
 }
 
+TEST_F(Journaled, ASessionThatWaitsForAComponentIsNotIdle) {
+    auto bound = world.connect(), subscribed = world.connect();
+    bound.bind("navigation");
+    subscribed.subscribe("reached_target");
+    EngineSettings settings;
+    settings.max_sessions = 2;
+    world.restart({speech}, settings);
+    world.engine->begin(world.now);
+    EXPECT_EQ(std::get<Refusal>(world.say({}, Connect{})), Refusal::too_many_sessions);
+}
+
 TEST_F(Journaled, AStopStaysAlsoIfTheTokenOfAnOwnerIsRevoked) {
     auto const one = std::make_shared<Rights const>("one", std::vector<std::string>{"*"}, std::vector<std::string>{"*"}, "1");
     auto const two = std::make_shared<Rights const>("two", std::vector<std::string>{"*"}, std::vector<std::string>{"*"}, "2");

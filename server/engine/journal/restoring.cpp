@@ -216,8 +216,8 @@ void Engine::Core::restore(StoredSession&& stored, StoredState& state, RightsOf 
     for (auto& command : commands) restore(session, std::move(command), now);
     session.absent = std::move(stored.bindings);
     bind_absent(session, now);
-    for (auto const& subscription : of(state.subscriptions))
-        if (!restore(subscription)) absent_subscriptions_.push_back(subscription);
+    for (auto const& each : of(state.subscriptions))
+        if (!restore(session, each.id, each.asked)) session.absent_subscriptions.emplace(each.id.text, each.asked);
     executor_.forget_old_results(session, now);
 }
 
@@ -324,20 +324,20 @@ void Engine::Core::ask_absent_again(Instant now) {
 }
 
 // Returns false if its condition names something that no component has yet.
-bool Engine::Core::restore(StoredSubscription const& subscription) {
-    auto const session = std::ranges::find(sessions_, subscription.session, [](auto const& each) { return each.second->number; });
-    if (session == sessions_.end()) return true;
-    auto const& asked = subscription.asked;
-    auto filter = Filter::compile(asked.condition, vocabulary(*session->second, MessageKind::event, asked.event_type));
+bool Engine::Core::restore(Session& session, SubscribeId const& id, Subscribe const& asked) {
+    auto filter = Filter::compile(asked.condition, vocabulary(session, MessageKind::event, asked.event_type));
     if (!std::holds_alternative<Filter>(filter)) return false;
-    subscriptions_.restore(*session->second, subscription.id, asked, std::move(std::get<Filter>(filter)));
+    subscriptions_.restore(session, id, asked, std::move(std::get<Filter>(filter)));
     return true;
 }
 
 // Restores what belongs to components that have come.
 void Engine::Core::restore_absent(Instant now) {
-    std::erase_if(absent_subscriptions_, [&](StoredSubscription const& each) { return restore(each); });
-    for (auto const& [id, session] : sessions_) bind_absent(*session, now);
+    for (auto const& [id, session] : sessions_) {
+        std::erase_if(session->absent_subscriptions,
+                      [&](auto const& each) { return restore(*session, {each.first}, each.second); });
+        bind_absent(*session, now);
+    }
 }
 
 }  // namespace rois
