@@ -186,7 +186,7 @@ class Engine:
 
 
 def is_safe(url):
-    """Whether nobody else on the network can read what is sent there."""
+    """Whether a token may be sent there: with TLS, or to this machine."""
     parts = urllib.parse.urlsplit(url)
     try:
         return parts.scheme == "https" or ipaddress.ip_address(parts.hostname or "").is_loopback
