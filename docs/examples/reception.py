@@ -3,8 +3,7 @@
 or ask, bow, say goodbye, return to the start. The history goes to standard output, one line a visitor.
 
     reception.py [VISITORS]     the number of visitors to receive, default 1
-
-ROIS_URL is the URL of the gateway, and ROIS_TOKEN the token that it expects, if it expects one."""
+    ROIS_URL and ROIS_TOKEN are the gateway's URL and the token that it expects, if it does."""
 import math, os, re, sys, time
 from rois import Engine, NoAnswer, Refused
 

@@ -11,7 +11,7 @@ namespace {
 
 // Steps of an Effort: so many bytes of conditions would keep commands waiting for the journal.
 std::size_t steps_of_storing(Filter const& condition) {
-    constexpr std::size_t bytes_of_a_record = 400, bytes_of_a_predicate = 150, steps_of_a_byte = 3;
+    constexpr std::size_t bytes_of_a_record = 400, bytes_of_a_predicate = 150, steps_of_a_byte = 2;
     return steps_of_a_byte * (bytes_of_a_record + bytes_of_a_predicate * condition.predicates() + condition.text_bytes());
 }
 
@@ -36,7 +36,7 @@ Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instan
     // The last room is for the ends of commands.
     if (auto problem = recorder_.why_no_commands(); !again && !problem.empty())
         return refused<Subscribe::Reply>(ReturnCode::out_of_resources, std::move(problem));
-    if (changes && recorder_.stores(session)) Effort::spend(steps_of_storing(wanted));
+    if (changes && wanted.restricts() && recorder_.stores(session)) Effort::spend(steps_of_storing(wanted));
     Subscribe::Reply reply;
     reply.subscribe_id = subscriptions_.add(session, subscribe.event_type, std::move(wanted), subscribe.inline_results).id;
     if (changes)

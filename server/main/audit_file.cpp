@@ -170,9 +170,12 @@ void AuditFile::begin_another() {
             auto const name = path.stem().string() + (number == 0 ? "" : "." + std::to_string(number));
             return path.parent_path() / (name + path.extension().string());
         };
+        // Moves only the files before the first free number: after a failure, the others must stay.
+        std::size_t free = 1;
+        while (free < files_ && std::filesystem::exists(earlier(free))) ++free;
         // A file of another program that has taken its place is not touched.
-        for (auto number = is_in_place() ? files_.load() : 0; number > 0; --number)
-            if (std::filesystem::exists(earlier(number - 1))) std::filesystem::rename(earlier(number - 1), earlier(number));
+        for (auto number = is_in_place() ? free : 0; number > 0; --number)
+            std::filesystem::rename(earlier(number - 1), earlier(number));
         open();
         cannot_begin_ = false;
     } catch (std::exception const& problem) {

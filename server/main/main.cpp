@@ -355,7 +355,7 @@ int serve(CommandLine const& command) {
         return [&, wanted] {
             auto const before = std::exchange(present, with_changes(present, wanted));
             report_changes(before, present, wanted);
-            auto next = with_all_hosts(wanted);
+            auto next = with_all_hosts(present);
             next.credentials = credentials;
             make_room_for_connections(next, wanted.media);
             server.use(next);

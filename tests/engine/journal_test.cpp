@@ -105,6 +105,22 @@ TEST_F(Journaled, ACommandBeginsWhenItIsStored) {
     EXPECT_THAT(world["navigation"].calls, testing::Contains("start"));
 }
 
+TEST_F(Journaled, ACommandThatIsRefusedBecauseEverythingWasStoppedLeavesNoTrace) {
+    auto desk = world.connect();
+    desk.bind("navigation");
+    journal().then = MemoryJournal::Then::later;
+    auto const asked = world.begin_to_say(desk.session, Execute{{{named("stop", stop("navigation")), go("go")}}});
+    world.engine->stop_everything(world.now);
+    journal().then = MemoryJournal::Then::stored;
+    store();
+    world.advance(1s);
+    EXPECT_EQ(std::get<Execute::Reply>(std::get<Reply>(asked->said.value())).return_code, ReturnCode::error);
+    EXPECT_EQ(desk.ask(GetCommandResult{{"go"}, {}}).return_code, ReturnCode::bad_parameter);
+    EXPECT_THAT(desk.received(), testing::Not(testing::Contains(HasSubstr("completed"))));
+    world.engine->and_work([&] { world.engine->clear(); }, world.now);
+    EXPECT_EQ(desk.execute(go("go")).return_code, ReturnCode::ok) << "the id is free";
+}
+
 TEST_F(Journaled, ACommandThatIsNotStoredYetEndsWithItsSession) {
     World goes_on{{navigation}, {.on_session_end = OnSessionEnd::continue_}};
     goes_on.keep_journal();

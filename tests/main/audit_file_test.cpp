@@ -156,6 +156,21 @@ TEST_F(OfAudit, BeginsAnotherFileAndKeepsAFew) {
     for (auto const* end : {".1", ".2"}) std::filesystem::remove(file.name() + end);
 }
 
+// If the present file cannot be renamed, a number is free, and the files behind it must not move with each line.
+TEST_F(OfAudit, MovesOnlyTheFilesBeforeTheFirstFreeNumber) {
+    auto const write = [&](std::string const& end) { std::ofstream{file.name() + end} << end; };
+    for (auto const* end : {".1", ".3", ".4"}) write(end);
+    {
+        AuditFile audit{file.name(), {.bytes = 300, .files = 4}};
+        for (int i = 0; i < 4; ++i) audit.note({.what = "bound", .component = "navigation"});
+    }
+    EXPECT_EQ(content(file.name() + ".2"), ".1");
+    EXPECT_EQ(content(file.name() + ".3"), ".3");
+    EXPECT_EQ(content(file.name() + ".4"), ".4");
+    EXPECT_GT(lines(content(file.name() + ".1")), 0u);
+    for (auto const* end : {".1", ".2", ".3", ".4"}) std::filesystem::remove(file.name() + end);
+}
+
 TEST_F(OfAudit, HasOtherLimitsFromNowOn) {
     {
         AuditFile audit{file.name(), {}};

@@ -54,6 +54,7 @@ void Execution::add_unit(CommandUnit const& unit, std::size_t parent, MakeComman
 }
 
 std::vector<Execution::Turn> Execution::begin(std::size_t node) {
+    has_begun_ = true;
     std::vector<Turn> turns;
     auto const& unit = nodes_[node];
     if (unit.ended) return turns;

@@ -45,6 +45,8 @@ public:
     // All commands, in document order.
     std::vector<std::shared_ptr<Command>> const& commands() const { return commands_; }
 
+    bool has_begun() const { return has_begun_; }  // else its commands may wait for the journal, and be refused
+
     std::vector<Deadlines::Ticket> delays;  // set by the executor: the deadlines of the delays that are not over
 
 private:
@@ -69,6 +71,7 @@ private:
     void abort(std::size_t node);
     Turn turn(std::size_t node) const { return {node, nodes_[node].delay}; }
 
+    bool has_begun_ = false;
     std::vector<Node> nodes_;  // nodes_[0] is the whole sequence
     std::vector<std::shared_ptr<Command>> commands_;
     std::vector<std::shared_ptr<Command>> aborted_;

@@ -469,11 +469,14 @@ void Executor::abort_all(Session& session, Instant now) {
 void Executor::stop_all(std::string_view reason, Instant now) {
     Attempts attempts;
     for (auto const& [ref, component] : registry_.all()) attempts([&] { halt(*component, CompletedStatus::abort, reason, now); });
+    // The others have not been answered yet, and will be refused.
+    auto begun = live_ | std::views::values |
+                 std::views::filter([](auto const& each) { return !each->execution || each->execution->has_begun(); });
     std::vector<SharedCommand> live;
-    bool const listed = attempts([&] { std::ranges::copy(live_ | std::views::values, std::back_inserter(live)); });
+    bool const listed = attempts([&] { std::ranges::copy(begun, std::back_inserter(live)); });
     if (listed) attempts([&] { end_each(live, CompletedStatus::abort, reason, now); });
     if (!listed)
-        for (auto const& [handle, command] : live_) give_up(*command);
+        for (auto const& command : begun) give_up(*command);
     attempts.rethrow();
 }
 

@@ -274,17 +274,17 @@ void WebSocket::sweep(Steady at) {
     }
     bool const late = at >= message_due_ && !ending_;
     bool const silent = at >= received_at_ + shared_.settings().ping_interval && !std::exchange(pinged_, true);
-    if (reading_) session_due_ = Steady::max();
-    if (!reading_ && session_due_ == Steady::max()) session_due_ = at + shared_.settings().connect_timeout;
-    bool const without_session = at >= session_due_ && !ending_;
-    bool const is_over = client_->principal && client_->principal->is_over() && !ending_;
+    bool const is_revoked = client_->principal && client_->principal->is_over();  // the ends of its commands may still come
+    auto const longest = reading_ ? std::chrono::milliseconds{200} : shared_.settings().connect_timeout;
+    session_due_ = reading_ && !is_revoked ? Steady::max() : std::min(session_due_, at + longest);
+    bool const without_session = (at >= session_due_ || (is_revoked && !reading_)) && !ending_;
     if (late) close({CloseCode::policy_violation, "the message did not arrive within request_timeout"});
-    if (is_over) close({CloseCode::policy_violation, "the token was revoked or changed, or has expired"});
+    if (without_session && is_revoked) close({CloseCode::policy_violation, "the token was revoked or changed, or has expired"});
     if (without_session) close({CloseCode::policy_violation, "no session was opened or resumed within connect_timeout"});
     bool const proof_due = at >= proof_due_ && reading_ && reading_->wants_signs_of_life(at);
     if (proof_due) proof_due_ = std::max(proof_due_ + proof_interval, at + proof_interval / 2);
     if (silent || proof_due) ping_due_ = true;
-    if (late || ping_due_ || without_session || is_over) flush();
+    if (late || ping_due_ || without_session) flush();
 }
 
 void WebSocket::shut_down() {

@@ -49,7 +49,7 @@ TEST_F(CostlyConditions, OfSubscriptionsAreStoredOnlySoFast) {
     world.keep_journal();
     auto stored = world.connect();
     auto const subscribe = [](Application& application, int number) {
-        auto const name = std::string(12'000, 'x') + std::to_string(number);
+        auto const name = std::string(18'000, 'x') + std::to_string(number);
         return application.subscribe("person_localized", either({equal("component_ref", "localization"), equal("name", name)}))
             .return_code;
     };
@@ -58,7 +58,6 @@ TEST_F(CostlyConditions, OfSubscriptionsAreStoredOnlySoFast) {
     EXPECT_EQ(subscribe(stored, 3), ReturnCode::out_of_resources);
     world.advance(100ms);
     EXPECT_EQ(subscribe(stored, 3), ReturnCode::ok);
-    for (int i = 0; i < 10; ++i) EXPECT_EQ(subscribe(desk, i), ReturnCode::ok) << "this session is not stored";
 }
 
 TEST_F(CostlyConditions, OfRequestsAreRefusedForATenthOfASecond) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <map>
 #include <string>
 
 #include "kit/received_media.hpp"
@@ -48,6 +49,26 @@ TEST_F(EndedTokens, EndTheirSessionsWithinASecondOfBeingRevoked) {
     over_http.session.clear();
     stream.session.clear();
     EXPECT_EQ(bind(colleague, "navigation"), "OK") << "the component is free, and other sessions go on";
+}
+
+TEST_F(EndedTokens, TellTheirWebSocketsHowTheirCommandsHaveEnded) {
+    std::map<std::string, std::string> tokens;
+    for (auto const* name : {"a", "b", "c"}) tokens[name] = file.add(name, "operator");
+    GatewayProcess const gateway{file.of_gateway()};
+    for (auto const& [name, token] : tokens) {  // the connection may notice it before the session ends, or after
+        kit::WebSocketClient desk{with_token(token, gateway)};
+        desk.call("connect");
+        desk.call("bind", component_ref("navigation"));
+        Command const drive{.component = "navigation",
+                            .type = "start",
+                            .id = "drive",
+                            .arguments = {{"target_position", "string[]", {"9000, 1000"}}}};
+        EXPECT_STREQ(desk.call("execute", sequence(unit(drive))).attribute("return_code").value(), "OK");
+        EXPECT_EQ(file.run({"revoke", name}).exit_code, 0);
+        EXPECT_STREQ(desk.next_document().name(), "completed");
+        EXPECT_EQ(desk.await_close(), 1008);
+        desk.keep_session();
+    }
 }
 
 TEST_F(EndedTokens, EndTheirStreamsWithinASecondOfBeingRevoked) {

@@ -40,12 +40,14 @@ TEST_F(HangUp, ChangesHostsOriginsAndLimits) {
     EXPECT_EQ(client.get("http://robots.example/healthz").status, 421);
     EXPECT_EQ(from_desk(), 403);
     client.call("connect");
-    put(R"({"max_connections": 1, "hosts": "robots.example", "allowed_origins": "https://desk.example", "threads": 7})");
+    put(R"({"max_connections": 1, "hosts": "robots.example", "allowed_origins": "https://desk.example", "threads": 7,
+           "media_url": "http://media.example"})");
     gateway.signal(SIGHUP);
     auto const log = gateway.log_with("the settings read again");
     EXPECT_THAT(log, HasSubstr("max_connections is now 1"));
     EXPECT_THAT(log, HasSubstr("a change of threads has no effect before the gateway starts again"));
     EXPECT_EQ(client.get("http://robots.example/healthz").status, 200);
+    EXPECT_EQ(client.get("http://media.example/healthz").status, 421) << "a change of media_url has no effect";
     EXPECT_EQ(from_desk(), 200);
     EXPECT_EQ(client.call("search").return_code(), "OK") << "the session goes on";
     EXPECT_THAT(HttpClient{gateway}.get("/metrics").body, HasSubstr("rois_reloads_total{outcome=\"done\"} 1"));
