@@ -2,8 +2,7 @@
 """The reception scenario of the specification (figure 1): wait for a person, go there, find out who it is, give this visitor their message
 or ask, bow, say goodbye, return to the start. The history goes to standard output, one line a visitor.
 
-    reception.py [VISITORS]     the number of visitors to receive, default 1
-    ROIS_URL and ROIS_TOKEN are the gateway's URL and the token that it expects, if it does."""
+    reception.py [VISITORS]     the number of visitors to receive, default 1; ROIS_URL: the gateway; ROIS_TOKEN: a token for it"""
 import math, os, re, sys, time
 from rois import Engine, NoAnswer, Refused
 
