@@ -11,8 +11,10 @@ namespace {
 
 // Steps of an Effort: so many bytes of conditions would keep commands waiting for the journal.
 std::size_t steps_of_storing(Filter const& condition) {
-    constexpr std::size_t bytes_of_a_record = 200, bytes_of_a_predicate = 100, steps_of_a_byte = 3;
-    return steps_of_a_byte * (bytes_of_a_record + bytes_of_a_predicate * condition.predicates() + condition.text_bytes());
+    constexpr std::size_t bytes_of_a_record = 200, bytes_of_a_predicate = 100, steps_of_a_byte = 4;
+    constexpr std::size_t most = 3'000'000;  // fewer than the default for a tenth of a second: each condition can be stored
+    auto const bytes = bytes_of_a_record + bytes_of_a_predicate * condition.predicates() + condition.text_bytes();
+    return std::min(most, steps_of_a_byte * bytes);
 }
 
 }  // namespace

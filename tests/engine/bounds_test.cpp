@@ -25,9 +25,10 @@ TEST(ConditionsTogether, OfASessionHaveAMebibyteOfTextAtMost) {
     auto const refused = desk.subscribe("person_detected", named_one_of(2, long_text + "y"));
     EXPECT_EQ(refused.return_code, ReturnCode::out_of_resources);
     EXPECT_THAT(refused.reason, HasSubstr("a session's subscriptions may have at most 1048576 bytes of text in total"));
+    world.advance(std::chrono::milliseconds{100});  // a journal stores only so much at once
     EXPECT_EQ(other.subscribe("person_detected", named_one_of(2, long_text + "y")).return_code, ReturnCode::ok);
     desk.unsubscribe(first.subscribe_id);
-    world.advance(std::chrono::milliseconds{100});  // a journal stores only so much at once
+    world.advance(std::chrono::milliseconds{100});
     EXPECT_EQ(desk.subscribe("person_detected", named_one_of(2, long_text + "y")).return_code, ReturnCode::ok);
 }
 

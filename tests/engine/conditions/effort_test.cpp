@@ -49,7 +49,7 @@ TEST_F(CostlyConditions, OfSubscriptionsAreStoredOnlySoFast) {
     world.keep_journal();
     auto stored = world.connect();
     auto const subscribe = [](Application& application, int number) {
-        auto const name = std::string(12'000, 'x') + std::to_string(number);
+        auto const name = std::string(10'000, 'x') + std::to_string(number);
         return application.subscribe("person_localized", either({equal("component_ref", "localization"), equal("name", name)}))
             .return_code;
     };

@@ -72,7 +72,7 @@ TEST(ManySubscriptions, OfASessionThatEndsAreDeletedInSeveralTicks) {
     auto desk = world.connect(), hall = world.connect();
     auto const or_detection = [](int i) { return either({equal("name", std::to_string(i)), equal("name", "detection")}); };
     for (int i = 0; i < 3'000; ++i) {
-        if (i % 1'000 == 0) world.advance(std::chrono::milliseconds{100});  // a journal stores only so many at once
+        if (i % 500 == 0) world.advance(std::chrono::milliseconds{100});  // a journal stores only so many at once
         desk.subscribe("person_detected", or_detection(i));
     }
     desk.ask(Disconnect{});
