@@ -295,7 +295,7 @@ std::vector<Record> JournalFile::read() {
 // Sessions whose record is gone, while others of theirs are left.
 void JournalFile::note_ended(std::vector<Record> const& records) {
     std::set<std::uint64_t> present, all;
-    for (auto const& [key, value] : records) (key.kind == "session" ? present : all).insert(key.session);
+    for (auto const& [key, value] : records) (key.kind == kind::session ? present : all).insert(key.session);
     present.insert(0);  // the engine's own records
     ended_.clear();
     std::ranges::set_difference(all, present, std::back_inserter(ended_));

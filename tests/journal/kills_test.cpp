@@ -356,12 +356,14 @@ TEST(Kills, LoseNothingOfASubEngineAndRepeatNothingThere) {
         hall.add("robot1." + name, name.ends_with("detection") ? Transport::websocket : Transport::http);
     hall.play();
     auto const logs = hall.logs();
+    bool const few = number_in("ROIS_KILLS", 5) < 50;  // then not each component may have begun on a busy machine
     std::size_t all = 0;
     for (std::size_t i = 0; i < components.size(); ++i) {
         auto const began = "start of " + std::string{components[i]} + ", begins";
         std::size_t times = 0;
         for (auto at = logs.find(began); at != logs.npos; at = logs.find(began, at + 1)) ++times;
         all += times;
+        EXPECT_TRUE(few || times > 0) << began;
         EXPECT_LE(times, hall.witnesses()[i]->starts()) << began;
     }
     EXPECT_GT(all, 0U);

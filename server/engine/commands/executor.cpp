@@ -469,7 +469,7 @@ void Executor::abort_all(Session& session, Instant now) {
 void Executor::stop_all(std::string_view reason, Instant now) {
     Attempts attempts;
     for (auto const& [ref, component] : registry_.all()) attempts([&] { halt(*component, CompletedStatus::abort, reason, now); });
-    // The others have not been answered yet, and will be refused.
+    // The others wait for the journal, and have no answer yet: those that begin an action will be refused.
     auto begun = live_ | std::views::values |
                  std::views::filter([](auto const& each) { return !each->execution || each->execution->has_begun(); });
     std::vector<SharedCommand> live;
